@@ -83,7 +83,7 @@ def faults(arguments):
     if BRIDGE not in arguments:
         return run("/usr/bin/python3", "-m", "tutorial_faults", *arguments)
     rest = [argument for argument in arguments if argument != BRIDGE]
-    return tests("ros2", ["-q", "-s", "test/ros2/test_faults.py", *rest])
+    return tests("ros2", ["-q", "-s", "test/ros2/test_faults.py", "-k", "random", *rest])
 
 
 KINDS = {
@@ -97,7 +97,7 @@ KINDS = {
     "again": again,
     "kernel": lambda given: tests("kernel", given),
     "ros2": lambda given: tests("ros2", given),
-    "browser": lambda given: tests("browser", given),
+    "browser": lambda given: tests("browser", given, "-n", JOBS, "--dist", "loadfile"),
     "containers": lambda given: run(REPOSITORY / "test/check_containers", *given),
     "faults": faults,
     "mutation": lambda given: run("nice", "-n", "19", MUTATE, "test/mutation/run.py", *given),

@@ -4,6 +4,7 @@ import re
 import shutil
 from collections import defaultdict
 from pathlib import Path
+from statistics import median_high
 
 import pytest
 from selenium import webdriver
@@ -18,24 +19,21 @@ from tutorial_testing.screen import virtual_screen
 def pytest_addoption(parser):
     trials = "how often the operator is lost in each way (1)"
     parser.addoption("--trials", type=int, default=1, metavar="N", help=trials)
-    parser.addoption("--picture", action="store_true", help="make common/cockpit/doc/cockpit.webp")
 
 
-def pytest_configure(config):
-    """Way to lose the operator -> times until the robot was at rest [s]."""
-    config.stopping_times = defaultdict(list)
-
-
-def pytest_terminal_summary(terminalreporter, config):
-    """Print how long the robot went on after the operator was lost."""
-    if not config.stopping_times:
-        return
-    terminalreporter.section("operator lost to wheels at rest")
-    terminalreporter.line("| way | times | median [s] | worst [s] |")
-    terminalreporter.line("|---|---|---|---|")
-    for way, times in config.stopping_times.items():
-        middle = sorted(times)[len(times) // 2]
-        terminalreporter.line(f"| {way} | {len(times)} | {middle:.2f} | {max(times):.2f} |")
+def pytest_terminal_summary(terminalreporter):
+    """Print how long the robot went on after the operator was lost: (way, time [s]) of tests."""
+    times = defaultdict(list)
+    for report in terminalreporter.getreports("passed") + terminalreporter.getreports("failed"):
+        for way, took_s in report.user_properties:
+            times[way].append(took_s)
+    if times:
+        terminalreporter.section("operator lost to wheels at rest")
+        terminalreporter.line("| way | times | median [s] | worst [s] |")
+        terminalreporter.line("|---|---|---|---|")
+    for way, found in times.items():
+        middle = median_high(found)
+        terminalreporter.line(f"| {way} | {len(found)} | {middle:.2f} | {max(found):.2f} |")
 
 
 @pytest.fixture(scope="session")
@@ -43,12 +41,6 @@ def world():
     """The simulated robot, joy2twist and a cockpit, for tests that leave them as they were."""
     with World() as world:
         yield world
-
-
-@pytest.fixture
-def browser():
-    with Chromium() as browser:
-        yield browser
 
 
 @pytest.fixture(scope="session")

@@ -1,36 +1,12 @@
-"""A person at the page drives the simulated robot with keys, thumbs or a gamepad."""
+"""A person at the page drives the simulated robot: releases, Stop, other pages and programs."""
 
 import pytest
 
 from tutorial_testing.cockpit.chromium import Chromium
-from tutorial_testing.cockpit.hands import Gamepad, Keys, Thumbs
+from tutorial_testing.cockpit.hands import Keys
 from tutorial_testing.waiting import wait_for
 
-HANDS = {"keys": Keys, "touch": Thumbs, "gamepad": Gamepad}
 FULL = 0.35  # m/s at full deflection: config/f710_d.yaml
-
-
-@pytest.mark.parametrize("kind", HANDS)
-def test_held_it_moves_and_released_it_stops(world, kind):
-    size = (360, 640) if HANDS[kind].touch else (1280, 800)
-    with Chromium(*size, touch=HANDS[kind].touch) as browser:
-        hands = HANDS[kind](browser)
-        hands.prepare()
-        browser.open(world.address)
-        browser.click("Drive from this page")
-        browser.wait_for_text("#seat", "You drive")
-        x = world.now.x
-        hands.drive(world, until=lambda: world.now.x > x + 0.2)
-        assert 0.0 < max(moment.v for moment in world.odometry) <= FULL + 1e-6
-        drawn = "document.querySelector('#lb').classList.contains('held')"
-        hands.drive(world, until=lambda: browser.ask(drawn))  # whichever hand holds it
-        hands.drive(world, until=lambda: browser.text("#teleop") == "driving")
-        hands.release()
-        world.wait_for_rest()
-        assert world.stays_at_rest()
-        browser.click("Stop")
-        browser.wait_for_text("#seat", "Nobody drives")
-        assert browser.errors() == []
 
 
 def both_shifts(page):

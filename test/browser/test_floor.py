@@ -5,7 +5,6 @@ from collections import Counter
 import pytest
 from selenium.webdriver.common.keys import Keys as Key
 
-from tutorial_testing.cockpit.chromium import Chromium
 from tutorial_testing.cockpit.hands import Thumbs
 from tutorial_testing.cockpit.pixels import LEAST_CONTRAST, SCHEMES, colour, contrast, dress, seen
 from tutorial_testing.cockpit.world import HERE, World
@@ -33,17 +32,25 @@ DRAWN = """(() => {
 })()"""
 
 
+@pytest.fixture(scope="module")
+def two():
+    """Two robots, one of which is far away from where the other one drives."""
+    with World(str(HERE / "two_robots.launch")) as world:
+        yield world
+
+
 @pytest.mark.parametrize("held", PHONES)
-def test_a_phone_shows_the_driven_one_of_two_robots_beside_what_thumbs_hold(held):
+def test_a_phone_shows_the_driven_one_of_two_robots_beside_what_thumbs_hold(
+    two, shared_browser, held
+):
     width, height = PHONES[held]
-    two = str(HERE / "two_robots.launch")
-    with World(two) as world, Chromium(width, height, touch=True) as phone:
-        phone.open(world.address)
+    with shared_browser.tab_of(width, height, touch=True) as phone:
+        phone.open(two.address)
         wait_for(lambda: len(phone.all("#robots tr")) == 2, "two robots")
         hands = Thumbs(phone)
-        hands.drive(world, until=lambda: world.now.x > 1.0)  # where the other one is far away
+        hands.drive(two, until=lambda: two.now.x > 1.0)
         hands.release()
-        world.wait_for_rest()
+        two.wait_for_rest()
         phone.click("Clear trail")  # it has the robot's colour
         count, x, y = wait_for(lambda: settled(phone), "robot on the floor")
         assert count > 60

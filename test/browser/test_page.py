@@ -4,6 +4,7 @@ import re
 import signal
 from urllib.parse import urlsplit
 
+from tutorial_testing.cockpit.chromium import Chromium
 from tutorial_testing.cockpit.hands import Keys
 from tutorial_testing.waiting import wait_for
 
@@ -15,19 +16,20 @@ def tabs(page):
     return [tab.accessible_name for tab in page.all("[role=tab]")]
 
 
-def test_it_is_small_and_asks_no_other_host_and_reports_no_error(world, browser):
-    browser.open(world.address)
-    loaded = """performance.getEntries().filter((e) => 'transferSize' in e)
-        .reduce((sum, e) => sum + e.transferSize, 0)"""
-    assert 10_000 < browser.ask(loaded) < FIRST_LOAD
-    for name in tabs(browser):
-        browser.tab(name)
-        assert browser.by_role("tab", name).get_attribute("aria-selected") == "true"
-    asked = [urlsplit(url) for url in browser.requests()]
-    asked = [url.netloc for url in asked if url.scheme in ("http", "https", "ws", "wss")]
-    assert len(asked) > 10
-    assert set(asked) == {urlsplit(world.address).netloc}
-    assert browser.errors() == []
+def test_it_is_small_and_asks_no_other_host_and_reports_no_error(world):
+    with Chromium(notes_requests=True) as browser:
+        browser.open(world.address)
+        loaded = """performance.getEntries().filter((e) => 'transferSize' in e)
+            .reduce((sum, e) => sum + e.transferSize, 0)"""
+        assert 10_000 < browser.ask(loaded) < FIRST_LOAD
+        for name in tabs(browser):
+            browser.tab(name)
+            assert browser.by_role("tab", name).get_attribute("aria-selected") == "true"
+        asked = [urlsplit(url) for url in browser.requests()]
+        asked = [url.netloc for url in asked if url.scheme in ("http", "https", "ws", "wss")]
+        assert len(asked) > 10
+        assert set(asked) == {urlsplit(world.address).netloc}
+        assert browser.errors() == []
 
 
 def press(page, code):
@@ -78,7 +80,8 @@ LOOKS_OLD = """(() => {
 })()"""
 
 
-def test_after_a_loss_every_tab_says_that_it_is_old_and_no_seat_is_promised(world, browser):
+def test_after_a_loss_every_tab_says_that_it_is_old_and_no_seat_is_promised(world, shared_browser):
+    browser = shared_browser
     browser.open(world.address)
     browser.tab("Bag")
     browser.wait_for_text("#bag-about", "joy.bag")
@@ -110,3 +113,4 @@ def test_after_a_loss_every_tab_says_that_it_is_old_and_no_seat_is_promised(worl
     world.start_cockpit()
     browser.wait_for_text("#seat", "Nobody drives.")
     assert not browser.ask("document.body.classList.contains('old')")
+    browser.errors()  # those of the loss

@@ -14,7 +14,7 @@ from gamepad.virtual.pads import UinputPad
 from tutorial_testing.nodes import init_node
 from tutorial_testing.processes import Program
 from tutorial_testing.robot import PERIOD_S, Robot
-from tutorial_testing.waiting import wait_for
+from tutorial_testing.waiting import tolerance, wait_for
 
 DEVICE = Path("/dev/input/js0")
 COMMAND = ("roslaunch", "joy2twist", "launch_joy_node.launch", "rviz:=false")
@@ -29,9 +29,11 @@ SHOWN = (
 )
 
 
-def check_stands(robot, since, within_s):
-    """The robot stood soon after a time [s]."""
-    assert robot.wait_for_rest(since) - since < within_s + PERIOD_S
+def check_stop(robot, end, within_s):
+    """The robot stands soon after end() was called."""
+    since, late_s = time.time(), tolerance()
+    end()
+    assert robot.wait_for_rest(since) - since < within_s + PERIOD_S + late_s()
 
 
 def show_on_joy(pad, joy, controls):
@@ -46,18 +48,16 @@ def show_on_joy(pad, joy, controls):
 
 
 def drive(pad, robot, joy):
-    """Let go of everything, then drive forward; return the time [s]."""
+    """Let go of everything, then drive forward."""
     show_on_joy(pad, joy, Controls())
     pad.show(positions(F710_D, HELD))
     wait_for(lambda: abs(robot.now.v - METRES_PER_S) < 1e-6, f"speed {METRES_PER_S} m/s")
-    return time.time()
 
 
 def check_unplugged(pad, launch, robot, joy):
     """Neutral at once, no other gamepad, and no motion before neutral was seen again."""
-    since = drive(pad, robot, joy)
-    pad.show(None)
-    check_stands(robot, since, PROMPT_S)
+    drive(pad, robot, joy)
+    check_stop(robot, lambda: pad.show(None), PROMPT_S)
     neutral = joy[-1]
     assert not any((*neutral.axes, *neutral.buttons))
     wait_for(lambda: not DEVICE.exists(), "end of the device")
@@ -83,9 +83,8 @@ if __name__ == "__main__":
             wait_for(lambda: joy and robot.odometry, "joystick and robot")
             for controls in SHOWN:
                 show_on_joy(pad, joy, controls)
-            since = drive(pad, robot, joy)
-            pad.show(positions(F710_D, FORWARD))
-            check_stands(robot, since, PROMPT_S)
+            drive(pad, robot, joy)
+            check_stop(robot, lambda: pad.show(positions(F710_D, FORWARD)), PROMPT_S)
             check_unplugged(pad, launch, robot, joy)
             drive(pad, robot, joy)
         launch.interrupt()

@@ -3,9 +3,7 @@
 In both of its modes, for which Chromium has layouts of its own; it knows gamepads from udev.
 """
 
-import time
-
-from drive import FORWARD, HELD, METRES_PER_S, check_stands
+from drive import FORWARD, HELD, METRES_PER_S, check_stop
 
 from gamepad.gamepads import F710
 from gamepad.virtual.controls import Controls, positions
@@ -33,9 +31,7 @@ def check_mode(browser, world, mode):
         assert abs(world.now.v - METRES_PER_S) < 1e-3
         for end in (lambda: show(FORWARD), lambda: pad.show(None)):  # LB released; unplugged
             hands.drive(world)
-            since = time.time()
-            end()
-            check_stands(world, since, LIMIT_S)
+            check_stop(world, end, LIMIT_S)
     wait_for(lambda: not browser.ask(SEEN), "page without a gamepad")
 
 

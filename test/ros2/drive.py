@@ -1,4 +1,4 @@
-"""A master of its own, a stick that is held, and what the wheels say."""
+"""A master of its own, the bridge, a stick that is held, and what the wheels say."""
 
 import os
 import struct
@@ -12,15 +12,16 @@ from sensor_msgs.msg import Joy
 
 from tutorial_testing.nodes import init_node
 from tutorial_testing.ports import free_port
-from tutorial_testing.processes import Program
-from tutorial_testing.waiting import BUSY_S, wait_for
+from tutorial_testing.processes import Program, command_line, descendants
+from tutorial_testing.waiting import wait_for
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 CLASS = REPOSITORY / "common/ros2_tutorials/ros2_tutorials/new_joy2twist.py"
 RATE = 50.0  # [Hz]
-TIMEOUT_S, PERIOD_S = 0.6, 0.02  # of the simulated base
+BRIDGE = "/ros2_bridge"
+SIDES = {"ROS 1": "ros2_bridge.ros1_node", "ROS 2": "ros2_side.py"}
 ZERO = (0.0, 0.0)  # velocity [m/s, rad/s]
-REST_S = TIMEOUT_S + PERIOD_S + BUSY_S  # by then a robot without a driver stands
+REST_S = 0.62  # by then a robot without a driver stands, but for a tolerance()
 
 
 @contextmanager
@@ -41,6 +42,33 @@ def single(value):
     return struct.unpack("f", struct.pack("f", value))[0]
 
 
+class Bridge:
+    """The bridge, and which of its processes is which."""
+
+    def __init__(self, program):
+        self.program = program
+        wait_for(self.is_up, "both sides of the bridge")
+
+    @property
+    def output(self):
+        return self.program.output
+
+    def process(self, side):
+        """The id of a side's process; None if it does not run."""
+        pids = descendants(self.program.pid)[1:]
+        return next((pid for pid in pids if SIDES[side] in command_line(pid)), None)
+
+    def is_up(self):
+        assert not self.program.ended, self.output
+        return all(map(self.process, SIDES))
+
+    def send(self, side, number):
+        """Send a signal to a side; return its process."""
+        pid = self.process(side)
+        os.kill(pid, number)
+        return pid
+
+
 class Stick:
     """Publishes Joys of which no two are alike, at an even rate, until it is released."""
 
@@ -49,6 +77,13 @@ class Stick:
         self._publisher = rospy.Publisher("/joy", Joy, queue_size=10, tcp_nodelay=True)
         self._ends = threading.Event()
         self._thread = threading.Thread(target=self._push, daemon=True)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.end()
+        self._publisher.unregister()
 
     def wait_for_listener(self):
         wait_for(self._publisher.get_num_connections, "a subscriber of /joy")
@@ -73,19 +108,40 @@ class Stick:
         return self.sent[-1]
 
     def end(self):
-        """Stop publishing; return when."""
+        """Stop publishing; return when: a time [s] as stamps are."""
         self._ends.set()
         if self._thread.is_alive():
             self._thread.join()
-        return time.monotonic()
+        return time.time()
 
 
-def moves(odometry):
-    return abs(odometry.last.twist.twist.linear.x) > 0.01
+class Ear:
+    """What comes on a topic of ROS 1: (node, message)."""
+
+    def __init__(self, topic, kind):
+        self.heard = []
+        self.subscriber = rospy.Subscriber(topic, kind, self._keep, tcp_nodelay=True)
+
+    def _keep(self, message):
+        self.heard.append((message._connection_header["callerid"], message))
+
+    @property
+    def last(self):
+        return self.heard[-1][1] if self.heard else None
 
 
-def stands_after(odometry, since_s):
-    """Wait until the robot stands; return how long that took [s]."""
-    wait_for(lambda: not moves(odometry), "a robot that stands")
-    moving = [when for when, _, odom in odometry.heard if abs(odom.twist.twist.linear.x) > 0.01]
-    return moving[-1] - since_s
+def carried(twists):
+    """The velocities that came over the bridge."""
+    return [(one.linear.x, one.angular.z) for sender, one in twists.heard if sender == BRIDGE]
+
+
+def wait_for_doctor(start, line):
+    """Wait until the doctor says it: what it knows of the bridge comes each half second."""
+
+    def says():
+        doctor = start("rosrun", "tutorial_tools", "doctor.py")
+        doctor.wait()
+        assert "Traceback" not in doctor.output
+        return line in " ".join(doctor.output.split())
+
+    wait_for(says, f"doctor's {line}")

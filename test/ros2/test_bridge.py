@@ -1,54 +1,34 @@
 """The bridge with the tutorial's class in ROS 2, on the simulated robot of ROS 1."""
 
 import os
-import signal
-import time
 from pathlib import Path
 
 import pytest
 import rosnode
 import rospy
-from drive import CLASS, RATE, REPOSITORY, REST_S, ZERO, moves, stands_after
+from drive import BRIDGE, CLASS, RATE, REPOSITORY, carried, wait_for_doctor
 from geometry_msgs.msg import Twist
 from kobuki_msgs.msg import BumperEvent
-from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Image
 from std_msgs.msg import String
 
 from node_kit.raw_messages import senders, subscribe
+from tutorial_testing.robot import Robot
 from tutorial_testing.waiting import wait_for
 
 SOURCES = REPOSITORY / "common/ros2_bridge/src/ros2_bridge"
 PROGRAMS = CLASS.parent
 PEER, DRIVER, QUALITIES = map(Path(__file__).with_name, ("peer.py", "driver.py", "qualities.py"))
-BRIDGE = "/ros2_bridge"
 SECONDS = float(os.environ.get("TUTORIAL_ROS2_SECONDS", "8"))  # the bare machines have 60
 WITHOUT_SCREEN = ("rviz:=false", "cockpit:=false", "model:=false")
 HOSTILE = "\u00e4 { } %s \\ \n <script>"  # without \0, which ends a text of ROS 2
 VELOCITY = {"/cmd_vel": "to_ros1"}
 
 
-def carried(twists):
-    """The velocities that came over the bridge."""
-    return [(one.linear.x, one.angular.z) for _, sender, one in twists.heard if sender == BRIDGE]
-
-
 def latching(twists):
     """[(velocity, "1" if its connection latches)]"""
-    heard = [message for _, _, message in twists.heard]
+    heard = [message for _, message in twists.heard]
     return [(each.linear.x, each._connection_header["latching"]) for each in heard]
-
-
-def wait_for_doctor(start, line):
-    """Wait until the doctor says it: what it knows of the bridge comes each half second."""
-
-    def says():
-        doctor = start("rosrun", "tutorial_tools", "doctor.py")
-        doctor.wait()
-        assert "Traceback" not in doctor.output
-        return line in " ".join(doctor.output.split())
-
-    wait_for(says, f"doctor's {line}")
 
 
 def latched(topic, message):
@@ -60,15 +40,6 @@ def latched(topic, message):
 @pytest.fixture
 def twists(ear):
     return ear("/cmd_vel", Twist)
-
-
-@pytest.fixture
-def class_drives(bridge, start_ros2, robot, twists, stick):
-    """(the bridge, the program of ROS 2), and the robot drives."""
-    made, program = bridge(), start_ros2(CLASS)
-    stick.wait_for_listener().begin()
-    wait_for(lambda: moves(robot), "a robot that drives")
-    return made, program
 
 
 def test_every_joy_becomes_one_twist_equal_to_the_bit(bridge, start, start_ros2, twists, stick):
@@ -84,57 +55,14 @@ def test_every_joy_becomes_one_twist_equal_to_the_bit(bridge, start, start_ros2,
     wait_for_doctor(start, "bridge carries between ROS 1 and ROS 2")
 
 
-@pytest.mark.parametrize("side", ["ROS 1", "ROS 2"])
-def test_a_side_that_is_killed_stops_the_robot_and_comes_back(class_drives, robot, side):
-    bridge, _ = class_drives
-    pid = bridge.send(side, signal.SIGKILL)
-    assert stands_after(robot, time.monotonic()) < REST_S
-    line = f"bridge: the side of {side} has ended (signal 9): it is started anew"
-    wait_for(lambda: line in bridge.output, "the line about it")
-    assert bridge.process(side) != pid
-    wait_for(lambda: moves(robot), "a robot that drives again")
-    assert "Traceback" not in bridge.output
-
-
-def test_the_launch_file_has_the_bridge_in_place_of_joy2twist(start, ear):
+def test_the_launch_file_has_the_bridge_in_place_of_joy2twist(start):
     """The two commands of the page on ROS 2."""
-    odometry = ear("/odom", Odometry)
     start("roslaunch", "joy2twist", "launch_bag.launch", "ros2:=true", *WITHOUT_SCREEN)
     start(REPOSITORY / "tutorial", "ros2", "new_joy2twist")
-    wait_for(lambda: odometry.heard and moves(odometry), "a robot that drives")
+    with Robot() as robot:
+        wait_for(lambda: robot.moves, "a robot that drives")
     assert "/myjoystick2twist" not in rosnode.get_node_names()
     rospy.delete_param("/fake_turtlebot")  # as it is in this file, it never stops by itself
-
-
-def test_ctrl_c_of_the_class_ends_with_zeros(class_drives, twists):
-    _, program = class_drives
-    program.interrupt()
-    assert program.wait() == 0, program.output
-    wait_for(lambda: carried(twists)[-1] == ZERO, "a zero")
-    assert "Traceback" not in program.output
-
-
-@pytest.mark.parametrize("side", ["ROS 1", "ROS 2"])
-def test_what_waited_for_a_suspended_side_does_not_move_the_robot(
-    class_drives, robot, twists, stick, side, start
-):
-    bridge, _ = class_drives
-    bridge.send(side, signal.SIGSTOP)
-    time.sleep(1.5)  # longer than a velocity or a Joy may be old; the robot stands by then
-    stick.end()
-    if side == "ROS 2":
-        wait_for_doctor(start, "bridge the side of ROS 2 is missing: its terminal")
-    before = len(carried(twists))
-    bridge.send(side, signal.SIGCONT)
-
-    def has_passed():
-        stick.push(*ZERO)
-        return ZERO in carried(twists)[before:]
-
-    wait_for(has_passed, "a zero, which comes after all that waited")
-    late = [pair for pair in carried(twists)[before:] if any(pair)]
-    assert len(late) <= RATE * 0.5  # those of the last half second, which the Joys may be old
-    wait_for(lambda: not moves(robot), "a robot that stands")
 
 
 @pytest.mark.parametrize("topics", [None, VELOCITY], ids=["with our age limit", "without a limit"])
@@ -184,7 +112,7 @@ def test_what_is_latched_is_carried_to_late_subscribers_ten_megabytes_too(bridge
     picture = latched("/picture", Image(height=1, width=10_000_000, data=bytes(10_000_000)))
     peer, reply = start_ros2(PEER), ear("/reply", String)
     wait_for(lambda: reply.heard, "the note, and back")
-    assert (reply.heard[0][1], reply.last.data) == (BRIDGE, HOSTILE)
+    assert (reply.heard[0][0], reply.last.data) == (BRIDGE, HOSTILE)
     wait_for(lambda: "picture 10000000" in peer.output, "ten megabytes")
     note.unregister()
     picture.unregister()
@@ -229,22 +157,13 @@ def test_a_topic_of_both_directions_has_no_echo(bridge, start_ros2, ear):
         publisher.publish("the same again")
         wait_for(lambda text=f"from here {number}.": is_heard(text), "what was said")
     assert listener.output.count("the same again") == 20
-    own = [text.data for _, sender, text in chatter.heard if sender == BRIDGE]
+    own = [text.data for sender, text in chatter.heard if sender == BRIDGE]
     assert len(own) == len(set(own)) and all("hello" in text for text in own)
 
 
-@pytest.mark.parametrize(
-    ("python", "text", "line"),
-    [
-        ("/nowhere/python", "", "bridge: no ROS 2 here yet: ./tutorial ros2 --yes sets it up\n"),
-        (None, "topics: {joy: {direction: up}}", "topics.yaml: 'joy': a topic is"),
-    ],
-    ids=["no ROS 2", "a wrong list"],
-)
-def test_a_failed_start_is_one_line(start, monkeypatch, tmp_path, python, text, line):
-    if python:
-        monkeypatch.setenv("TUTORIAL_ROS2", python)
-    (tmp_path / "topics.yaml").write_text(text)
-    program = start("rosrun", "ros2_bridge", "bridge", f"_topics:={tmp_path}/topics.yaml")
+def test_a_failed_start_is_one_line(start, monkeypatch):
+    monkeypatch.setenv("TUTORIAL_ROS2", "/nowhere/python")
+    program = start("rosrun", "ros2_bridge", "bridge")
     assert program.wait() == 1
+    line = "bridge: no ROS 2 here yet: ./tutorial ros2 --yes sets it up\n"
     assert line in program.output and "Traceback" not in program.output

@@ -71,7 +71,7 @@ def own_workspace(suite_workspace, tmp_path, monkeypatch):
     return own
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def screen():
     """The name of a virtual screen."""
     with virtual_screen(1200, 800) as name:  # pixels, those of RViz's window in sim.rviz

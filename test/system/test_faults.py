@@ -1,4 +1,4 @@
-"""`./tutorial test faults`: a minute of it finds nothing in ours, and it would find something."""
+"""`./tutorial test faults`: some of it finds nothing in ours, and it would find something."""
 
 import re
 
@@ -6,7 +6,7 @@ LAST_LINE = r"(\d+) trials, (\d+) faults, (\d+) violations, worst time to rest (
 
 
 def test_random_faults_violate_nothing(call):
-    code, output = call("test", "faults", "--for", "60", deadline_s=900)
+    code, output = call("test", "faults", "--trials", "5", deadline_s=900)
     trials, hits, violations, _ = re.fullmatch(LAST_LINE, output.splitlines()[-1]).groups()
     assert (code, int(violations)) == (0, 0), output
     assert int(hits) >= int(trials) > 0

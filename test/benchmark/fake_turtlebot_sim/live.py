@@ -1,11 +1,11 @@
-"""Runs the node, or a bare one, beside an observer of its topics, on a master of its own."""
+"""Runs nodes beside an observer of their topics, or a probe, on a master of their own."""
 
 import json
 import os
 import subprocess
 import sys
 import time
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 import rosgraph
@@ -16,8 +16,14 @@ from tutorial_testing.waiting import wait_for
 HERE = Path(__file__).parent
 BARE_NODE = [str(HERE / "bare_node.py")]
 FAKE_TURTLEBOT = ["rosrun", "fake_turtlebot_sim", "fake_turtlebot.py"]
+JOY2TWIST = [
+    "rosrun", "joy2twist", "joy2twist.py", "_enable_button:=4", "_enable_turbo_button:=5",
+    "_arm_on_neutral:=true", "_max_joy_age:=0.5", "_max_linear_speed:=5.0",
+    "_max_angular_speed:=5.0",
+]  # fmt: skip
 TICKS_PER_S = os.sysconf("SC_CLK_TCK")
 PERIOD_NS = 20_000_000
+QUIET = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
 
 
 @contextmanager
@@ -41,20 +47,25 @@ def master():
         yield
 
 
-def observe(command, topics, seconds, core=None):
-    """Run a node and return (what the observer heard, processor time of the node [s/s])."""
-    if core is not None:
-        command = ["taskset", "-c", str(core), *command]
+def observe(commands, topics, seconds):
+    """Run nodes and return (what the observer heard, processor time of each node [s/s])."""
     observer = [sys.executable, str(HERE / "observer.py"), str(seconds), *topics]
-    with running(command) as node, running(
-        observer, stdout=subprocess.PIPE, universal_newlines=True
-    ) as watcher:
+    with ExitStack() as stack:
+        nodes = [stack.enter_context(running(command, **QUIET)) for command in commands]
+        watcher = stack.enter_context(running(observer, stdout=subprocess.PIPE, text=True))
         assert watcher.stdout.readline().strip() == "ready"
-        began_s, used_s = time.monotonic(), processor_time(node.pid)
+        began_s, before_s = time.monotonic(), [processor_time(one.pid) for one in nodes]
         heard = json.loads(watcher.stdout.readline())
-        watcher.wait()
-        used_s, took_s = processor_time(node.pid) - used_s, time.monotonic() - began_s
-    return heard, used_s / took_s
+        took_s = time.monotonic() - began_s
+        used_s = [processor_time(one.pid) - b for one, b in zip(nodes, before_s)]
+    return heard, [each_s / took_s for each_s in used_s]
+
+
+def delays(kind, rate, count):
+    """Return how long each message of probe.py took until it was answered [s], in order of size."""
+    probe = [sys.executable, str(HERE / "probe.py"), kind, str(rate), str(count)]
+    done = subprocess.run(probe, stdout=subprocess.PIPE, text=True, check=True, timeout=300)
+    return json.loads(done.stdout)
 
 
 def processor_time(pid):
@@ -70,7 +81,7 @@ def topics_of(count, *names):
     return ["/tf"] + [f"/robot_{k + 1}/{name}" for k in range(count) for name in names]
 
 
-def lost_periods(record):
-    """Return how many periods of 50 Hz the stamps of a topic leave out."""
-    stamps = record["stamps"]
-    return sum(round((b - a) / PERIOD_NS) - 1 for a, b in zip(stamps, stamps[1:]))
+def lost_periods(heard):
+    """Return how many periods of 50 Hz the stamps of all topics leave out."""
+    pairs = [pair for one in heard.values() for pair in zip(one["stamps"], one["stamps"][1:])]
+    return sum(round((b - a) / PERIOD_NS) - 1 for a, b in pairs)

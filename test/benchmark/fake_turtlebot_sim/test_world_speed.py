@@ -97,10 +97,10 @@ def test_a_step_of_a_hundred_robots_with_contact(figure):
 
 
 def test_a_class_that_scans_in_the_maze(figure):
-    command, topics = [*FAKE_TURTLEBOT, "_world:=maze", f"_robots:={ROBOTS}"], ("odom", "scan")
+    robots = [*FAKE_TURTLEBOT, "_world:=maze", f"_robots:={ROBOTS}"]
     with master():
-        heard, load = observe(command, topics_of(ROBOTS, *topics), SECONDS)
-    lost = sum(lost_periods(heard[topic]) for topic in topics_of(ROBOTS, "odom")[1:])
+        heard, (load,) = observe([robots], topics_of(ROBOTS, "odom", "scan"), SECONDS)
+    lost = lost_periods({one: heard[one] for one in topics_of(ROBOTS, "odom")[1:]})
     rate = sum(len(heard[one]["arrivals"]) for one in topics_of(ROBOTS, "scan")[1:]) / SECONDS
     shown = f"{rate:,.0f} scans a second, {lost} periods lost, {load:.0%} of a core"
     figure(f"{ROBOTS} robots that scan with {BEAMS} beams in the maze", shown, "0 lost, ≤ 30 %")

@@ -3,24 +3,12 @@
 Ratios, because they hold on any machine; the relays take turns, because machines change.
 """
 
-import json
 import statistics
-import subprocess
-import sys
 from pathlib import Path
 
-from live import master, processor_time, running
+from live import JOY2TWIST, QUIET, delays, master, processor_time, running
 
-HERE = Path(__file__).parent
-BARE, OURS = "bare rospy relay", "joy2twist.py, all safety on"
-RELAYS = {
-    BARE: [str(HERE / "bare_relay.py")],
-    OURS: [
-        "rosrun", "joy2twist", "joy2twist.py", "_enable_button:=4", "_enable_turbo_button:=5",
-        "_arm_on_neutral:=true", "_max_joy_age:=0.5", "_max_linear_speed:=5.0",
-        "_max_angular_speed:=5.0",
-    ],
-}  # fmt: skip
+RELAYS = {"bare": [str(Path(__file__).with_name("bare_relay.py"))], "ours": JOY2TWIST}
 LOADS = {50: 250, 1000: 4000}  # rate [Hz]: messages
 ROUNDS = 3
 MOST = 1.5  # times the latency through a bare relay
@@ -28,15 +16,11 @@ MOST = 1.5  # times the latency through a bare relay
 
 def measured(command, rate, count):
     """Return median and 99th percentile of the latency, processor time of a message [us]."""
-    probe = [sys.executable, str(HERE / "probe.py"), str(rate), str(count)]
-    with running(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as relay:
+    with running(command, **QUIET) as relay:
         used_s = processor_time(relay.pid)
-        done = subprocess.run(probe, stdout=subprocess.PIPE, text=True, check=True, timeout=120)
+        took_s = delays("joy", rate, count)
         used_s = processor_time(relay.pid) - used_s
-    heard = json.loads(done.stdout)
-    assert heard["newest"], "the newest is not answered"
-    latency_s = heard["latency_s"]
-    times_s = latency_s[len(latency_s) // 2], latency_s[len(latency_s) * 99 // 100], used_s / count
+    times_s = took_s[len(took_s) // 2], took_s[len(took_s) * 99 // 100], used_s / count
     return [1e6 * time_s for time_s in times_s]
 
 

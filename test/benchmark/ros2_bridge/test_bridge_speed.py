@@ -7,11 +7,9 @@ from pathlib import Path
 
 import pytest
 import rospy
-from drive import CLASS, own_master, single
-from geometry_msgs.msg import Twist
-from live import processor_time
+from drive import CLASS, own_master
+from live import delays, processor_time
 from nav_msgs.msg import Odometry
-from sensor_msgs.msg import Joy
 
 from node_kit import ros2_python
 from tutorial_testing.processes import Program, descendants
@@ -48,34 +46,13 @@ def bridge(tmp_path):
         program.wait(20)
 
 
-def delays():
-    """From each Joy to its Twist [ms], at an even rate; those that never came are missing."""
-    publisher = rospy.Publisher("/joy", Joy, queue_size=10, tcp_nodelay=True)
-    heard = {}
-    hear = lambda twist: heard.setdefault(twist.linear.x, time.monotonic())  # noqa: E731
-    subscriber = rospy.Subscriber("/cmd_vel", Twist, hear, tcp_nodelay=True)
-    wait_for(publisher.get_num_connections, "a subscriber of /joy", 20)
-    first = Joy(axes=[0.0, 2.0], buttons=[0] * 12)
-    wait_for(lambda: publisher.publish(first) or 2.0 in heard, "a first Twist", 20)
-    sent = {}
-    for number in range(COUNT):
-        axis = single((number + 1) / COUNT)
-        sent[axis] = time.monotonic()
-        publisher.publish(Joy(axes=[0.0, axis], buttons=[0] * 12))
-        time.sleep(1 / RATE)
-    wait_for(lambda: axis in heard, "the last Twist", 10)
-    publisher.unregister()
-    subscriber.unregister()
-    return sorted(1000 * (heard[axis] - when) for axis, when in sent.items() if axis in heard)
-
-
 def test_a_joy_is_answered_through_the_bridge_in_milliseconds(bridge, figure):
     with Program("rosrun", "joy2twist", "publish_twist.py"):
-        beside = delays()
+        beside = delays("joy", RATE, COUNT)
     with Program(*ros2_python.command([str(PROGRAM)])):
-        found = delays()
-    median, late = statistics.median(found), found[int(0.99 * len(found))]
-    alone = statistics.median(beside)
+        found = delays("joy", RATE, COUNT)
+    median, late = (1e3 * one for one in (statistics.median(found), found[int(0.99 * len(found))]))
+    alone = 1e3 * statistics.median(beside)
     figure("Joys answered in ROS 2", f"{len(found)} of {COUNT}", f"{COUNT}")
     figure("Joy to Twist through the bridge and back, median", f"{median:.2f} ms", f"{MOST_MS} ms")
     figure("of 99 in 100", f"{late:.2f} ms", f"{MOST_LATE_MS} ms")

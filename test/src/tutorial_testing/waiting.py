@@ -57,6 +57,18 @@ class Stopwatch:
         return time.monotonic() - self._began_s - self.lost_s
 
 
+def tolerance():
+    """Return a function: by how much [s] what is measured from now on may exceed its bound.
+
+    Every bound of what a system or browser test measures is written so:
+        late_s = tolerance()
+        ...
+        assert took_s < LIMIT_S + late_s()
+    """
+    watch = Stopwatch()
+    return lambda: HOP_S + watch.lost_s
+
+
 def wait_for(condition, what, deadline_s=DEADLINE_S):
     """Return the first true value of condition(); AssertionError naming `what` at the deadline.
 

@@ -1,0 +1,100 @@
+#!/usr/bin/python3
+"""Times numbered messages until each is answered. probe.py KIND RATE COUNT -> JSON: times [s].
+
+KIND: joy, which a Twist answers; cmd_vel, which an Odometry answers; or page:PORT:TOKEN, for the
+inputs of a page of the cockpit, which a Twist answers.
+"""
+
+import gc
+import json
+import sys
+import time
+
+import rospy
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import Joy
+
+from tutorial_testing.socket_page import SocketPage
+
+# Of the stick or the speed: the first, and from each message to the next. Exact as float32.
+FIRST, STEP = 2.0**-3, 2.0**-14
+WARM_PERIOD_S = 0.02
+kind, rate, count = sys.argv[1], float(sys.argv[2]), int(sys.argv[3])
+heard_s = {}  # when the answer to each number came
+
+
+def hand(number, held):
+    """Return (axes, buttons) of a stick, with LB held or not."""
+    return [0.0, FIRST + number * STEP if held else 0.0, 0, 0, 0, 0], [0, 0, 0, 0, held] + [0] * 7
+
+
+def publishing(topic, message_type, fill):
+    """Return a function (number, held) that publishes what fill() makes of a message."""
+    publisher = rospy.Publisher(topic, message_type, queue_size=1)
+    publisher.impl.set_queue_size(None)
+    while not publisher.get_num_connections():
+        time.sleep(0.01)
+    message = message_type()
+
+    def send(number, held=1):
+        fill(message, number, held)
+        publisher.publish(message)
+
+    return send
+
+
+def fill_joy(joy, number, held):
+    joy.header.stamp = rospy.Time.now()
+    joy.axes, joy.buttons = hand(number, held)
+
+
+def fill_twist(twist, number, held):
+    twist.linear.x = FIRST + number * STEP
+
+
+def of_page(port, token):
+    """Return a function (number, held) of a page that drives; it sits down anew where it must."""
+    page = SocketPage(port, token).__enter__()
+    page.wait_for("drives", lambda message: not message["refusal"])  # it has found the robot
+
+    def send(number, held=1):
+        seats = page.of("seat")
+        if not (seats and seats[-1]["yours"] and seats[-1]["armed"]):
+            page.sit_down()  # at first, and where a busy machine has lost the operator
+            page.hand = None
+        page.say_raw(json.dumps(page.input(*hand(number, held))))
+
+    return send
+
+
+def answered(twist):
+    heard_s.setdefault(round((twist.linear.x - FIRST) / STEP), time.monotonic())
+
+
+rospy.init_node("probe", disable_signals=True)
+if kind == "cmd_vel":
+    hear = lambda odometry: answered(odometry.twist.twist)  # noqa: E731
+    rospy.Subscriber("odom", Odometry, hear, tcp_nodelay=True)
+    ask = publishing("cmd_vel", Twist, fill_twist)
+else:
+    rospy.Subscriber("cmd_vel", Twist, answered, tcp_nodelay=True)
+    ask = of_page(*kind.split(":")[1:]) if ":" in kind else publishing("joy", Joy, fill_joy)
+gc.freeze()
+for _ in range(10):  # released first: a node that arms waits for that
+    ask(0, held=0)
+    time.sleep(WARM_PERIOD_S)
+while count + 1 not in heard_s:  # all is connected and warm
+    ask(count + 1)
+    time.sleep(WARM_PERIOD_S)
+sent_s, start_s = {}, time.monotonic()
+for number in range(1, count + 1):
+    time.sleep(max(0.0, start_s + number / rate - time.monotonic()))
+    sent_s[number] = time.monotonic()
+    ask(number)
+deadline_s = time.monotonic() + 5
+while count not in heard_s and time.monotonic() < deadline_s:
+    time.sleep(0.01)
+if count not in heard_s:
+    sys.exit("probe.py: the newest is not answered")
+print(json.dumps(sorted(heard_s[n] - when for n, when in sent_s.items() if n in heard_s)))
