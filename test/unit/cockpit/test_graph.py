@@ -22,11 +22,6 @@ GRAPH = Graph(
 )  # fmt: skip
 
 
-def test_robots_have_an_odometry_or_hear_a_joystick():
-    assert GRAPH.robots_with_odometry() == {"", "robot_1"}
-    assert GRAPH.robots() == {"", "robot_1", "real"}
-
-
 def test_node_has_its_topics_services_and_neighbours():
     about = GRAPH.about_node("/sim")
     assert about["speaks_to"] == ["/rviz"]

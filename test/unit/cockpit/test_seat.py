@@ -14,16 +14,6 @@ def room():
     return Room()
 
 
-def test_each_fresh_input_of_the_driver_is_published_once(room):
-    room.drive()
-    for _ in range(3):
-        room.say(DRIVE)
-        room.say(DRIVE, n=room.n)
-        room.say(DRIVE, n=room.n - 2)
-        room.n += 1
-    assert room.sent == 3 * [("ada", *DRIVE)]
-
-
 LOSSES = {
     "silence": (lambda room: room.pass_time(0.21), SILENT),
     "a silence that no tick noticed": (lambda room: setattr(room, "now", room.now + 1.0), SILENT),

@@ -2,7 +2,7 @@
 
 import pytest
 
-from gamepad.gamepads import F710, F710_D, F710_X
+from gamepad.gamepads import F710_D, F710_X
 from gamepad.virtual.controls import Controls, positions
 
 PUSHED = {"left_stick": (0.6, -0.25), "dpad": (0.0, 1.0)}
@@ -25,11 +25,3 @@ def test_axes_and_buttons(pad, moved, axes, held):
     shown, buttons = positions(pad, Controls(**moved))
     assert shown == axes
     assert [name for name, down in zip(pad.buttons, buttons) if down] == held
-
-
-@pytest.mark.parametrize(
-    ("pushed", "shown"), [(0.0, 0), (0.5, 0), (0.51, 1), (-0.5, 0), (-0.51, -1)]
-)
-def test_a_d_pad_knows_only_its_ends_and_the_middle(pushed, shown):
-    for pad in F710.values():
-        assert positions(pad, Controls(dpad=(pushed, -pushed)))[0][-2:] == (shown, -shown)

@@ -10,9 +10,15 @@ import pytest
 
 from gamepad.driver.device import Finder
 from gamepad.driver.device_choice import DeviceError, choose_by_name, explain
+from gamepad.driver.parameters import load
 
 JS0 = "/dev/input/js0"
 NAMES = {JS0: "Pad F710", "/dev/input/js1": "Pad F310", "/dev/input/js2": "Pad"}
+
+
+def test_a_device_is_a_whole_path():
+    with pytest.raises(ValueError, match="~dev: 'js0': must be a whole path, such as /dev/input"):
+        load({"dev": "js0"})
 
 
 def test_the_exact_name_first_then_a_unique_part():

@@ -1,12 +1,8 @@
 """When the driver publishes: events join, and what stays the same is repeated."""
 
-import math
-
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gamepad.driver.schedule import Schedule
 from tutorial_testing.gamepad_events import AXIS, BUTTON, driver, events
 
 
@@ -18,13 +14,6 @@ def test_a_button_goes_out_at_once_and_takes_waiting_axes_along():
         ((1.0,), (0,)),
     ]
     assert ours.due == float("inf")
-
-
-@pytest.mark.parametrize(("rate", "due"), [(0.5, 3.0), (1, 2.0), (0, math.inf), (-1, math.inf)])
-def test_the_repetition_may_be_slow_or_off(rate, due):
-    schedule = Schedule(0.001, rate)
-    schedule.published(1.0)
-    assert schedule.due == due
 
 
 class Simulated:
@@ -68,10 +57,3 @@ def test_every_message_tells_the_newest_state_and_none_is_older_than_the_interva
         simulated.change(*change)
         assert all(age <= interval for age in simulated.ages)
         assert simulated.driver.due <= min(simulated.untold, default=float("inf")) + interval
-
-
-def test_a_burst_is_coalesced_to_one_message_in_an_interval():
-    simulated = Simulated(coalesce_interval=5, autorepeat_rate=0)
-    for _ in range(1000):  # one event in every unit of time
-        simulated.change(1)
-    assert simulated.ages == [5] * 166  # 6 units from one message to the next

@@ -45,13 +45,6 @@ def message_of(given, kind=Parameters, **more):
     return str(caught.value)
 
 
-def test_each_set_of_defaults_has_a_map_of_its_own():
-    values = checked(Parameters, {})
-    assert Parameters(**values) == Parameters()
-    values["robots"]["ada"] = 1.0
-    assert checked(Parameters, {})["robots"] == {}
-
-
 @pytest.mark.parametrize(
     ("name", "good", "bad", "allowed"),
     [

@@ -1,16 +1,10 @@
 """Limiting how often something happens."""
 
-from node_kit.throttle import Throttle, ThrottleEach
+from node_kit.throttle import Throttle
 
 
 def passed(throttle, times):
     return sum(throttle.ready(t) for t in times)
-
-
-def test_once_at_first_then_once_in_a_period():
-    throttle = Throttle(0.5)
-    ready = [throttle.ready(t) for t in (0, 1, 1.9, 2, 3, 4)]
-    assert ready == [True, False, False, True, False, True]
 
 
 def test_a_series_is_thinned_to_the_rate_and_a_pause_saves_up_no_more_than_the_burst():
@@ -20,12 +14,3 @@ def test_a_series_is_thinned_to_the_rate_and_a_pause_saves_up_no_more_than_the_b
     uneven = [i / 50 + (0.004 if i % 2 else -0.004) for i in range(500)]
     assert passed(Throttle(50, burst=5), uneven) == 500
     assert passed(Throttle(0, burst=5), range(100)) == 0  # no rate is never
-
-
-def test_each_text_once_in_a_period():
-    throttle = ThrottleEach(0.1)
-    assert throttle.ready("a", 0.0)
-    assert not throttle.ready("a", 9.9)
-    assert throttle.ready("b", 9.9)
-    assert throttle.ready("a", 10.0)
-    assert not throttle.ready("b", 10.0)

@@ -17,7 +17,6 @@ from tutorial_tools.doctor.facts import (
     Node,
     Offset,
     Transform,
-    some,
 )
 from tutorial_tools.doctor.judgement import judge
 
@@ -247,16 +246,6 @@ def test_what_is_no_mistake(facts):
 def test_of_a_graph_that_was_not_seen_nothing_is_said():
     abouts = {finding.about for finding in judge(well(master=Answer.REFUSED, called_back=None))}
     assert abouts == {"environment", "overlay", "master", "address", "joystick"}
-
-
-def test_no_way_leads_through_a_dead_node():
-    through_dead = nodes(joy2twist=node("10.0.0.2", Answer.REFUSED))
-    assert not [line for line in lines(through_dead, "ok") if " -> " in line]
-
-
-def test_names_in_a_line_are_in_the_order_of_their_numbers_and_only_some_of_many():
-    assert some(["b_10", "b_2", "a"]) == "a, b_2, b_10"
-    assert some("gfedcba") == "a, b, c, d, e and 2 more"
 
 
 def test_the_readme_lists_what_is_looked_at():
