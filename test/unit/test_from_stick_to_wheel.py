@@ -12,11 +12,6 @@ FILES = [(PAGE.parent / link).resolve() for link in re.findall(r"\]\(([^)]+\.py)
 BESIDE = TEXT.split("Beside the way")[1]
 
 
-def test_every_file_exists():
-    assert FILES
-    assert not [str(path) for path in FILES if not path.is_file()]
-
-
 @pytest.mark.parametrize(
     "folder",
     [
