@@ -67,17 +67,6 @@ def test_what_is_allowed(name, good, bad, allowed):
         assert message_of({name: value}) == f"~{name}: {value!r}: must be {allowed}"
 
 
-@pytest.mark.parametrize(
-    ("name", "hint"),
-    [
-        ("rat", "did you mean ~rate?"),
-        ("colour", "allowed: count, frame, rate, robots, seed, share, works"),
-    ],
-)
-def test_an_unknown_name(name, hint):
-    assert message_of({name: 5}) == f"~{name}: 5: no such parameter; {hint}"
-
-
 def test_a_missing_one_and_where_it_is():
     line = message_of({}, Entry, where="entry 2: ", example="as in topic: a")
     assert line == "entry 2: topic: missing; as in topic: a"
