@@ -16,14 +16,14 @@ from geometry_msgs.msg import Twist
 from node_kit import ros2_python
 from tutorial_testing.processes import signal_all
 from tutorial_testing.robot import Robot
-from tutorial_testing.waiting import LATENESS_S, tolerance, wait_for
+from tutorial_testing.waiting import HOP_S, tolerance, wait_for
 
 OLD_S = 0.5  # how old the list lets a Joy be, and a velocity
 PROGRAM = "program"
 SIGNALS = {"kill": signal.SIGKILL, "end": signal.SIGTERM, "stop": signal.SIGSTOP}
 # SIGTERM to the side of ROS 1, as by rosnode kill, ends the whole bridge.
 FAULTS = {"ROS 1": ["kill", "stop"], "ROS 2": sorted(SIGNALS), PROGRAM: sorted(SIGNALS)}
-SEEN_S, LONGEST_S = REST_S + LATENESS_S, 5.0  # a loss of so long is seen; the longest one
+SEEN_S, LONGEST_S = REST_S + HOP_S, 5.0  # a loss of so long is seen; the longest one
 
 
 class Way:

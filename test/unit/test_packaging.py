@@ -1,4 +1,4 @@
-"""What holds for every package: catkin's rules, versions, and that one file leads to the others."""
+"""What holds for every package: catkin's rules, versions, and what leads to which file."""
 
 import ast
 import re
@@ -120,3 +120,24 @@ def test_workflows_may_only_read_and_take_actions_by_their_commit():
 def test_the_image_gives_its_home_to_its_user_and_group_only():
     text = (REPOSITORY / "docker/Dockerfile").read_text()
     assert re.findall(r"(?:chmod|umask) (\S+)", text) == ["2770", "007"]
+
+
+PAGE = REPOSITORY / "common/doc/FROM_STICK_TO_WHEEL.md"
+TEXT = PAGE.read_text(encoding="utf-8")
+FILES = [(PAGE.parent / link).resolve() for link in re.findall(r"\]\(([^)]+\.py)\)", TEXT)]
+BESIDE = TEXT.split("Beside the way")[1]
+
+
+@pytest.mark.parametrize(
+    "folder",
+    [
+        "common/gamepad/src/gamepad/driver",
+        "joy2twist/src/joy_to_twist",
+        "fake_turtlebot_sim/src/fake_turtlebot_sim/mux",
+        "fake_turtlebot_sim/src/fake_turtlebot_sim/simulator",
+    ],
+)
+def test_no_module_of_the_way_is_left_out(folder):
+    modules = {path for path in (REPOSITORY / folder).glob("*.py") if path.stem != "__init__"}
+    assert not {path.stem for path in modules - set(FILES) if f"`{path.stem}`" not in BESIDE}
+    assert f"{folder}/node.py" in {str(path.relative_to(REPOSITORY)) for path in FILES}

@@ -23,15 +23,11 @@ def python_files():
                 yield path
 
 
-def test_only_what_needs_more_than_python_3_8_is_found(tmp_path):
-    newer = tmp_path / "newer.py"
-    newer.write_text("print('a'.removeprefix('a'))\n")
+def test_no_file_needs_more_than_python_3_8():
     # Annotations that Python 3.8 evaluates are found by ruff (FA102).
     options = ["--target=3.8-", "--violations", "--no-eval-annotations", "--no-tips", "--quiet"]
     vermin = [sys.executable, "-c", "import vermin; vermin.main()", *options]
-    for files, found in ((list(python_files()), False), ([newer], True)):
-        done = subprocess.run(
-            [*vermin, *map(str, files)], capture_output=True, text=True, check=False, timeout=300
-        )
-        assert not done.stderr
-        assert bool(done.returncode) == found, done.stdout
+    done = subprocess.run(
+        [*vermin, *map(str, python_files())], capture_output=True, text=True, check=False
+    )
+    assert not done.returncode, done.stdout + done.stderr

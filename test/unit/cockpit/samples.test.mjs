@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { MOST, Track, mark, rowsOf } from "../../../common/cockpit/page/samples.js";
+import { Track, mark, rowsOf } from "../../../common/cockpit/page/samples.js";
 
 const sines = (count) => new Track(Array.from({ length: count }, (_, i) => [i / 50, Math.sin(i / 1000)]));
 
@@ -22,15 +22,6 @@ test("of many samples each column has the extremes, in their order, and no spike
   assert.equal(rows[at + 1][1], -5);
   assert.ok(Math.abs(rows[at][0] - 300) < 0.6);
   assert.ok(rows.every(([t, , other], i) => other === null && (!i || t > rows[i - 1][0])));
-});
-
-test("a track forgets what is old, and no more than it must keep", () => {
-  const track = sines(MOST + 5000);
-  track.forget(-Infinity);
-  assert.equal(track.times.length, MOST);
-  track.forget(track.newest - 10);
-  assert.deepEqual([track.times.length, track.values.length], [501, 501]);
-  assert.equal(track.at(track.newest), track.values.at(-1));
 });
 
 test("the marks of an axis differ", () => {

@@ -1,11 +1,12 @@
-"""Which page makes room, and what pages may cost. Times are numbers."""
+"""Which page makes room, how much may come of one, and what pages may cost. Times are numbers."""
 
 import pytest
 
 from cockpit_server.access import DRIVER, VIEWER
 from cockpit_server.admission import IDLE_S, connection_to_close, page_to_close
 from cockpit_server.budget import Budget
-from cockpit_server.clients import Client
+from cockpit_server.clients import LONGEST_FLOOD, Client
+from tutorial_testing.seat_room import page
 
 ADA, BOB, CY = "10.0.0.1", "10.0.0.2", "10.0.0.3"
 LONG = IDLE_S + 1
@@ -62,3 +63,12 @@ def test_a_budget_allows_a_burst_and_then_makes_pages_wait():
         assert budget.wait_s(now, rate) == wait_s
     budget.spend(1.5)  # no more than a burst is saved
     assert budget.wait_s(1000.0, RATE) == pytest.approx(2.0)
+
+
+def test_flood_is_dropped_and_then_closes_the_connection():
+    client, sent = page()
+    taken = sum(client.allows(100.0) for _ in range(LONGEST_FLOOD))
+    assert taken < 300 and sent == []
+    for _ in range(taken + 1):
+        client.allows(100.0)
+    assert sent == ["closed"]

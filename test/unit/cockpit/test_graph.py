@@ -1,14 +1,17 @@
-"""The graph as pages get it: robots, nodes and their neighbours, resets."""
+"""The graph as pages get it, what the master is asked for it, and its bad answers."""
 
+import threading
 from types import SimpleNamespace
 
 import pytest
 from std_msgs.msg import String
 
+from cockpit_server import graph_watch
 from cockpit_server.graph import JOY, ODOMETRY, Graph
 from cockpit_server.seat import RefusedError
 from cockpit_server.sources.graph_view import LONGEST_MESSAGE, GraphView, Topic
 from cockpit_server.sources.resets import reset_service
+from node_kit.questions import Answer
 from tutorial_testing.seat_room import page, serialised
 
 GRAPH = Graph(
@@ -20,11 +23,6 @@ GRAPH = Graph(
         "/real/joy": JOY,
     },
 )  # fmt: skip
-
-
-def test_robots_have_an_odometry_or_hear_a_joystick():
-    assert GRAPH.robots_with_odometry() == {"", "robot_1"}
-    assert GRAPH.robots() == {"", "robot_1", "real"}
 
 
 def test_node_has_its_topics_services_and_neighbours():
@@ -54,3 +52,35 @@ def test_long_message_is_shown_by_its_length():
     for length, text in ((LONGEST_MESSAGE - 4, 'data: "xxx'), (LONGEST_MESSAGE, "(20004 bytes)")):
         topic.hear(SimpleNamespace(data=serialised(String("x" * length))), "/x")
         assert topic.text("std_msgs/String").startswith(text)
+
+
+WELL = {
+    "getSystemState": (Answer.WELL, [[["/odom", ["/sim"]]], [], []]), "getPid": (Answer.WELL, 7),
+    "getTopicTypes": (Answer.WELL, [["/odom", ODOMETRY]]),
+    "lookupNode": (Answer.WELL, "http://here:1/"),
+}  # fmt: skip
+GONE = [
+    *[(question, (Answer.REFUSED, None)) for question in ("getSystemState", "getPid")],
+    *[(question, (Answer.STRANGE, None)) for question in ("getSystemState", "getPid")],
+    ("getPid", (Answer.WELL, 8)),  # another master
+]
+
+
+@pytest.fixture
+def master(monkeypatch):
+    """Answers by the name of the question; a test may change them."""
+    answers = dict(WELL)
+    monkeypatch.setattr(graph_watch, "call", lambda _uri, name, *_, **__: answers[name])
+    monkeypatch.setattr(graph_watch, "PERIOD_S", 0.0)
+    return answers
+
+
+@pytest.mark.parametrize(("question", "answer"), GONE)
+def test_master_that_has_gone_is_noticed(master, question, answer):
+    watch = graph_watch.GraphWatch("/cockpit")
+    is_lost = threading.Event()
+    watch.start(is_lost.set)
+    master[question] = (Answer.SILENT, None)
+    assert not is_lost.wait(0.05)
+    master[question] = answer
+    assert is_lost.wait(30)

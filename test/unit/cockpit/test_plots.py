@@ -1,4 +1,4 @@
-"""Curves: when what is drawn was."""
+"""Curves: numbers in messages, their names, and when they were."""
 
 from types import SimpleNamespace
 
@@ -7,8 +7,10 @@ import rospy
 from sensor_msgs.msg import Joy
 from std_msgs.msg import Float64, Header
 
+from cockpit_server.fields import parts_of, split, value_at
 from cockpit_server.graph import Graph
 from cockpit_server.sources import plots
+from cockpit_server.sources.plots import fields_of
 from tutorial_testing.seat_room import Topics, look, page
 
 NOW = 1000.0
@@ -40,3 +42,38 @@ def test_sample_has_its_stamp_or_now_where_that_is_missing_or_of_another_clock(
     topics.hear("/x", b"short")
     assert look(source, one) == [[{"kind": "plot", "samples": {f"/x/{field}": [[t, 2.5]]}}]]
     assert look(source, one) == [[]]
+
+
+def test_fields_are_all_numbers_of_a_type_seldom_drawn_ones_last():
+    fields = fields_of("nav_msgs/Odometry")
+    assert fields[0] == "pose/pose/position/x"
+    assert {"header/stamp", "pose/covariance[0]"} < set(fields)
+    assert not {"pose/covariance[12]", "header/frame_id"} & set(fields)
+    assert "axes[0]" in fields_of("sensor_msgs/Joy")
+    assert "transforms[0]/transform/rotation/w" in fields_of("tf2_msgs/TFMessage")
+    assert fields_of("no_such/Type") == fields_of("std_msgs/String") == ()
+
+
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [("axes[1]", 0.25), ("header/stamp", 3.0), ("header/seq", 7.0), ("axes[2]", None),
+     ("axes", None), ("nothing", None), ("serialize", None), ("header/frame_id", None)],
+)  # fmt: skip
+def test_value_of_a_field_is_a_number_or_none(field, value):
+    joy = Joy(axes=[0.5, 0.25])
+    joy.header.stamp.secs, joy.header.seq = 3, 7
+    assert value_at(joy, parts_of(field)) == value
+
+
+@pytest.mark.parametrize("field", ["", "a//b", "a[-1]", "a.b", "/".join("a" * 9), "__class__"])
+def test_malformed_field_is_refused(field):
+    with pytest.raises(ValueError, match="is no field"):
+        parts_of(field)
+
+
+def test_topic_of_a_field_is_the_longest_that_fits():
+    topics = ["/a", "/a/b", "/c"]
+    assert split("/a/b/x", topics) == ("/a/b", "x")
+    assert split("/a/x", topics) == ("/a", "x")
+    with pytest.raises(ValueError, match="no topic"):
+        split("/d/x", topics)

@@ -8,11 +8,18 @@ from types import SimpleNamespace
 
 import pytest
 
+from gamepad.driver.container import INITIAL, in_container
 from gamepad.driver.device import Finder
 from gamepad.driver.device_choice import DeviceError, choose_by_name, explain
+from gamepad.driver.parameters import load
 
 JS0 = "/dev/input/js0"
 NAMES = {JS0: "Pad F710", "/dev/input/js1": "Pad F310", "/dev/input/js2": "Pad"}
+
+
+def test_a_device_is_a_whole_path():
+    with pytest.raises(ValueError, match="~dev: 'js0': must be a whole path, such as /dev/input"):
+        load({"dev": "js0"})
 
 
 def test_the_exact_name_first_then_a_unique_part():
@@ -91,3 +98,23 @@ def test_a_plain_file_is_read_once_until_it_changes(tmp_path):
         device.close()
         with pytest.raises(DeviceError, match="read to its end"):
             finder.open()
+
+
+@pytest.mark.parametrize(
+    ("marked", "own", "container"),
+    [
+        (True, "pid", True),
+        (True, "uts", True),
+        (True, "none", False),  # a virtual machine made from a container's image
+        (True, "all", True),  # of a kernel without namespaces
+        (False, "pid", False),  # a sandbox, such as the checker's
+    ],
+)
+def test_a_container_has_a_mark_and_a_namespace_of_its_own(tmp_path, marked, own, container):
+    folder = tmp_path / "proc" / "self" / "ns"
+    folder.mkdir(parents=True)
+    for kind, number in INITIAL.items() if own != "all" else ():
+        (folder / kind).symlink_to(f"{kind}:[{4026532000 if kind == own else number}]")
+    if marked:
+        (tmp_path / ".dockerenv").touch()
+    assert in_container(str(tmp_path)) is container

@@ -1,23 +1,16 @@
 """The driver without ROS and without a device: bytes and times in, axes and buttons out."""
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gamepad.driver.driver import LONGEST_LIFELESS_S, SHORTEST_SILENCE_S
+from gamepad.driver.parameters import DriverParameters
+from gamepad.driver.report import SILENT_FOR, DriverReport
 from gamepad.js_event import SIGN_OF_LIFE_MS
 from tutorial_testing.gamepad_events import AXIS, BUTTON, INIT, driver, events, sign
 
 INF = float("inf")
-
-
-@given(st.lists(st.binary(max_size=600), max_size=20))
-def test_noise_gives_states_within_the_bounds(pieces):
-    noisy = driver()
-    for now, piece in enumerate(pieces):
-        for axes, buttons in noisy.read(piece, now):
-            assert len(axes) <= 256 and all(-1.0001 <= axis <= 1.0001 for axis in axes)
-            assert len(buttons) <= 256 and set(buttons) <= {0, 1}
 
 
 def test_the_state_sent_again_after_an_overrun_counts_for_a_kernel_device():
@@ -114,3 +107,73 @@ def test_a_sign_publishes_nothing_and_moves_nothing():
     data = sign(*STATE) + events((BUTTON, 0, 1)) + sign(*STATE)  # a change that comes with signs
     ((axes, buttons),) = one.read(data, 1.3)
     assert (axes[1], buttons) == (pytest.approx(1.0), (1, 0, 0, 0, 1))
+
+
+def test_a_report_has_the_rates_and_a_change_is_reported_at_once():
+    report, pad = DriverReport(DriverParameters(), "/joy"), driver()
+    report.opened("/dev/input/js1", "Pad")
+    report.details(pad, 1, 10.0)
+    pad.read(events((BUTTON, 0, 1), (BUTTON, 0, 0)), 10.5)
+    report.published += 40
+    details = dict(report.details(pad, 1, 12.0))
+    assert (details["device"], details["device name"]) == ("/dev/input/js1", "Pad")
+    assert details["recent joystick event rate (Hz)"] == 1.0
+    assert details["recent publication rate (Hz)"] == 20.0
+    assert details[SILENT_FOR] == "1.5"
+    assert report.due(12.0) and not report.due(12.9)
+    report.lost()
+    assert report.due(12.9) and report.summary() == (False, "Joystick not open.")
+    assert dict(report.details(pad, 1, 13.0))[SILENT_FOR] == "not open"
+
+
+def test_a_button_goes_out_at_once_and_takes_waiting_axes_along():
+    ours = driver(autorepeat_rate=0)
+    ours.read(events((AXIS, 0, -32767)), now=1.0)
+    assert ours.read(events((BUTTON, 0, 1), (BUTTON, 0, 0)), now=1.0) == [
+        ((1.0,), (1,)),
+        ((1.0,), (0,)),
+    ]
+    assert ours.due == float("inf")
+
+
+class Simulated:
+    """A driver whose waits end on time. Times are whole numbers, so that their sums are exact."""
+
+    def __init__(self, **parameters):
+        self.driver = driver(deadzone=0.0, **parameters)
+        self.now, self.sent = 0, 0
+        self.untold = []  # when the changes were read that no message has shown yet
+        self.ages = []  # of the oldest untold change, for each message
+
+    def change(self, after, pressed=False):
+        """After a time an axis changes to the number of changes so far, and maybe a button."""
+        self.now += after
+        while self.driver.due < self.now:
+            due = self.driver.due
+            self.published(self.driver.tick(due), due)
+        self.sent += 1
+        self.untold.append(self.now)
+        new = [(AXIS, 0, self.sent)] + [(BUTTON, 0, self.sent % 2)] * pressed
+        self.published(self.driver.read(events(*new), self.now), self.now)
+
+    def published(self, messages, now):
+        for axes, _ in messages:
+            assert round(-axes[0] * 32767) == self.sent, "not the newest state"
+            self.ages.append(now - min(self.untold, default=now))
+            self.untold = []
+
+
+@settings(max_examples=500)
+@given(
+    st.lists(st.tuples(st.integers(0, 30), st.booleans()), max_size=60),
+    st.integers(0, 20),
+    st.sampled_from((0, 1 / 4, 1 / 32)),
+)
+def test_every_message_tells_the_newest_state_and_none_is_older_than_the_interval(
+    changes, interval, autorepeat_rate
+):
+    simulated = Simulated(coalesce_interval=interval, autorepeat_rate=autorepeat_rate)
+    for change in changes:
+        simulated.change(*change)
+        assert all(age <= interval for age in simulated.ages)
+        assert simulated.driver.due <= min(simulated.untold, default=float("inf")) + interval

@@ -76,16 +76,6 @@ def test_the_dead_man_stays_held_while_a_later_key_repeats_and_all_are_released_
     assert keyboard.at(4.46 + REPEAT_HOLD_S + 0.001)[0] == Controls()
 
 
-def test_all_other_keys_do_nothing():
-    mean_something = set("wasd tmuq0123456789\x03\x04")
-    others = [chr(n) for n in range(0x250) if chr(n).lower() not in mean_something]
-    keyboard = Keyboard()
-    for key in [*others, "\ufffd"]:
-        keyboard.press(key, 1.0)
-        assert keyboard.at(1.0) == (Controls(), math.inf), key
-        assert not keyboard.quit, key
-
-
 @pytest.mark.parametrize(
     "key",
     [

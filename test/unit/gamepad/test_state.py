@@ -1,29 +1,11 @@
-"""Axes and buttons of a gamepad: what each event makes of them."""
+"""Bytes to events, and what each event makes of axes and buttons."""
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tutorial_testing.gamepad_events import AXIS, BUTTON, INIT, driver, events, sign
-
-
-def test_the_middle_reads_zero_without_a_sign():
-    """-0.0 would be shown as such by rostopic."""
-    for deadzone in (0.0, 0.05):
-        ours = driver(deadzone=deadzone)
-        ours.read(events((AXIS, 0, 0)), 0.0)
-        assert repr(ours.tick(1.0)) == "[((0.0,), ())]"
-
-
-@pytest.mark.parametrize("kind", [0, 3, 0x83, 0xFF])
-def test_an_event_of_another_type_changes_nothing_and_is_counted(kind):
-    ours = driver(kernel_device=False)
-    assert ours.read(events((kind, 0, 1)), 0.0) == []
-    assert ours.tick(1.0) == []
-    assert ours.read(events((BUTTON, 0, 1), (AXIS, 0, 0)), 2.0) == [((), (1,))]
-    assert (ours.events, ours.unknown_events) == (3, 1)
-    ours.read(sign((kind, 0, 1)), 3.0)
-    assert ours.unknown_events == 2
+from gamepad.js_event import Decoder
+from tutorial_testing.gamepad_events import AXIS, BUTTON, INIT, driver, events
 
 
 def upstream(sequence, deadzone, default_trig_val, sticky):
@@ -84,3 +66,10 @@ def test_every_sequence_gives_what_upstream_gives(sequence, deadzone, trigger, s
     for (axes, buttons), (expected_axes, expected_buttons) in zip(messages, expected):
         assert axes == pytest.approx(tuple(expected_axes), abs=1e-12)
         assert buttons == tuple(expected_buttons)
+
+
+@given(st.lists(st.binary(max_size=20)))
+def test_reads_may_be_cut_anywhere(pieces):
+    decoder = Decoder()
+    one_by_one = [event for piece in pieces for event in decoder.feed(piece)]
+    assert one_by_one == Decoder().feed(b"".join(pieces))

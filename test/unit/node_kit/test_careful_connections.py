@@ -10,7 +10,7 @@ from rospy.exceptions import TransportException
 from sensor_msgs.msg import Joy
 
 from node_kit import careful_connections
-from node_kit.throttle import ThrottleEach
+from node_kit.throttle import Throttle, ThrottleEach
 
 LIES = b"\x03\0\0\0abc"  # three bytes are no Joy
 
@@ -80,3 +80,16 @@ def test_one_thread_at_a_time_connects_to_a_publisher(monkeypatch):
         thread.join()
     assert most == dict.fromkeys(ways, 1)
     assert not careful_connections._turns  # no lock is kept
+
+
+def passed(throttle, times):
+    return sum(throttle.ready(t) for t in times)
+
+
+def test_a_series_is_thinned_to_the_rate_and_a_pause_saves_up_no_more_than_the_burst():
+    throttle = Throttle(50, burst=5)
+    assert 500 <= passed(throttle, [i / 1000 for i in range(10_000)]) <= 505
+    assert passed(throttle, [1000.0] * 50) == 5
+    uneven = [i / 50 + (0.004 if i % 2 else -0.004) for i in range(500)]
+    assert passed(Throttle(50, burst=5), uneven) == 500
+    assert passed(Throttle(0, burst=5), range(100)) == 0  # no rate is never

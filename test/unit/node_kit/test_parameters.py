@@ -45,13 +45,6 @@ def message_of(given, kind=Parameters, **more):
     return str(caught.value)
 
 
-def test_each_set_of_defaults_has_a_map_of_its_own():
-    values = checked(Parameters, {})
-    assert Parameters(**values) == Parameters()
-    values["robots"]["ada"] = 1.0
-    assert checked(Parameters, {})["robots"] == {}
-
-
 @pytest.mark.parametrize(
     ("name", "good", "bad", "allowed"),
     [
@@ -72,17 +65,6 @@ def test_what_is_allowed(name, good, bad, allowed):
         assert isinstance(kept, type(getattr(Parameters(), name)))
     for value in bad:
         assert message_of({name: value}) == f"~{name}: {value!r}: must be {allowed}"
-
-
-@pytest.mark.parametrize(
-    ("name", "hint"),
-    [
-        ("rat", "did you mean ~rate?"),
-        ("colour", "allowed: count, frame, rate, robots, seed, share, works"),
-    ],
-)
-def test_an_unknown_name(name, hint):
-    assert message_of({name: 5}) == f"~{name}: 5: no such parameter; {hint}"
 
 
 def test_a_missing_one_and_where_it_is():

@@ -65,11 +65,6 @@ def test_whatever_answers_the_doctor_goes_on(server, answer, expected):
     assert network.call(server(answer), "getPid") == (expected, None)
 
 
-def test_nothing_listens():
-    assert network.call("http://127.0.0.1:1/", "getPid") == (Answer.REFUSED, None)
-    assert network.listen("http://127.0.0.1:1/", "/odom", 0.5) == []
-
-
 def test_a_look_up_without_an_end_has_one(monkeypatch):
     monkeypatch.setattr(socket, "getaddrinfo", lambda *_: threading.Event().wait())
     assert network.addresses("robot") == []
