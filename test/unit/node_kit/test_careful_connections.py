@@ -93,3 +93,8 @@ def test_a_series_is_thinned_to_the_rate_and_a_pause_saves_up_no_more_than_the_b
     uneven = [i / 50 + (0.004 if i % 2 else -0.004) for i in range(500)]
     assert passed(Throttle(50, burst=5), uneven) == 500
     assert passed(Throttle(0, burst=5), range(100)) == 0  # no rate is never
+
+
+def test_one_text_does_not_hold_up_another():
+    throttle = ThrottleEach(0.1)
+    assert [throttle.ready(text, 0.0) for text in "aab"] == [True, False, True]

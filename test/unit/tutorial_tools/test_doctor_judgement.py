@@ -240,6 +240,11 @@ def test_of_a_graph_that_was_not_seen_nothing_is_said():
     assert abouts == {"environment", "overlay", "master", "address", "joystick"}
 
 
+def test_no_way_leads_through_a_dead_node():
+    through_dead = nodes(joy2twist=node("10.0.0.2", Answer.REFUSED))
+    assert not [line for line in lines(through_dead, "ok") if " -> " in line]
+
+
 def test_the_readme_lists_what_is_looked_at():
     package = Path(judgement.__file__).resolve().parents[3]
     modules = (judgement, way, transforms)
