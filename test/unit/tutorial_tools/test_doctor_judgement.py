@@ -214,7 +214,7 @@ def test_a_line_has_the_level_and_the_words(facts, level, words):
     assert any(has(line, words) for line in lines(facts, level))
 
 
-def test_all_is_well():
+def test_of_a_well_system_every_line_is_ok():
     assert {finding.level for finding in judge(WELL)} == {"ok"}
 
 
