@@ -9,7 +9,7 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Joy
 
 from cockpit_server.graph import JOY, ODOMETRY, Graph, topic_of
-from cockpit_server.motion import Motion
+from cockpit_server.motion import Motion, covered
 from cockpit_server.sources import robots as robots_module
 from cockpit_server.sources.robots import LONGEST_JOY, Pads, Robots, joy_shown, shown
 from tutorial_testing.seat_room import Topics, look, page, serialised
@@ -56,6 +56,16 @@ PLACE = {"x", "y", "yaw"}
 def test_impossible_place_is_left_out(wrong, left_out):
     state = Motion(1.0, -1e6, 0.5, 0.25, -0.5)._replace(**wrong)
     assert set(shown(state, 1.0, 2.0, 3.0)) == {*PLACE, "v", "w", "covered", "age"} - left_out
+
+
+@pytest.mark.parametrize(
+    ("x", "yaw", "way"),
+    [(1.1, 0.5, 7.1), (1.1, 0.0, 7.1), (1.6, 0.5, 7.0), (0.0, 0.0, 0.0), (nan, 0.5, 7.0)],
+    ids=["drives", "drives straight", "was carried", "was reset", "is nowhere"],
+)
+def test_way_grows_only_by_driving(x, yaw, way):
+    last = Motion(1.0 if x else 0.2, 0.0, yaw, 0.5, 0.0)
+    assert covered(last, Motion(x, 0.0, yaw, 0.5, 0.0), 7.0) == pytest.approx(way)
 
 
 def test_page_gets_only_the_robots_that_changed_since_it_was_sent_some():

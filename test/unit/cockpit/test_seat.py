@@ -144,6 +144,7 @@ def test_silence_for_a_fifth_of_a_second_is_a_loss_and_for_five_frees_the_seat(r
 
 FRESH = {  # inputs after the beat 1 at the time 0 -> the number of the last that is taken
     "others were lost on the way": ([{"n": 1, "now": 0.0}, {"n": 7, "now": 0.0}], 7),
+    "an older one comes after it": ([{"n": 7, "now": 0.0}, {"n": 6, "now": 0.0}], 7),
     "a beat of 0.2 s ago": ([{"n": 1, "now": 0.2}], 1),
     "an older beat": ([{"n": 1, "now": 0.2}, {"n": 2, "now": 0.201}], 1),
     "no beat that was sent": ([{"n": 1, "now": 0.1, "beat": 2}], 0),

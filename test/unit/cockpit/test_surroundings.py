@@ -86,6 +86,22 @@ def test_a_page_gets_the_map_the_place_in_it_and_the_scan_when_they_change():
     assert seen.look()["map"] == {"kind": "map"}  # it goes with its last publisher
 
 
+def test_a_scan_is_sent_again_only_if_it_or_a_place_is_another():
+    seen, truth = Seen(), Odometry()
+    seen.hear("/map", grid(1, 1, [0]))
+
+    def kinds(x, distance):
+        truth.pose.pose.position.x = x
+        seen.hear("/ada/base_pose_ground_truth", truth)
+        seen.hear("/ada/scan", scan([distance]))
+        return list(seen.look())
+
+    assert kinds(1.0, 2.0) == ["map", "around", "scan"]
+    assert kinds(1.0, 2.0) == []
+    assert kinds(1.0, 3.0) == ["scan"]
+    assert kinds(2.0, 3.0) == ["around", "scan"]  # along a wall
+
+
 def test_frames_that_are_kept_are_bounded_and_the_newest():
     seen = Seen()
     seen.hear("/map", grid(1, 1, [0]))
@@ -108,6 +124,12 @@ def test_frames_that_are_kept_are_bounded_and_the_newest():
 )
 def test_a_malformed_map_is_left_out(message):
     assert map_shown(serialised(message)) == {}
+
+
+def test_a_map_is_turned_as_its_origin_is():
+    turned = grid(1, 1, [0])
+    turned.info.origin.orientation.z = turned.info.origin.orientation.w = 0.5**0.5
+    assert map_shown(serialised(turned))["yaw"] == pytest.approx(pi / 2)
 
 
 def test_a_large_map_gets_larger_cells_and_keeps_its_walls():

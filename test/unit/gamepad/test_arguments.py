@@ -57,7 +57,7 @@ def test_what_is_allowed(name, good, bad, why):
         assert refused(name, value) == why
 
 
-def test_a_preset(tmp_path):
+def test_a_preset_that_does_not_exist_is_named_beside_those_that_do(tmp_path):
     for name in ("xbox", "f710_d"):
         (tmp_path / f"{name}.yaml").touch()
     check("joy_config", str(tmp_path / "xbox.yaml"))

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 from gamepad.driver.driver import LONGEST_LIFELESS_S, SHORTEST_SILENCE_S
 from gamepad.driver.parameters import DriverParameters
 from gamepad.driver.report import SILENT_FOR, DriverReport
+from gamepad.driver.schedule import Schedule
 from gamepad.js_event import SIGN_OF_LIFE_MS
 from tutorial_testing.gamepad_events import AXIS, BUTTON, INIT, driver, events, sign
 
@@ -177,3 +178,10 @@ def test_every_message_tells_the_newest_state_and_none_is_older_than_the_interva
         simulated.change(*change)
         assert all(age <= interval for age in simulated.ages)
         assert simulated.driver.due <= min(simulated.untold, default=float("inf")) + interval
+
+
+@pytest.mark.parametrize(("rate", "due"), [(0.5, 3.0), (1, 2.0), (0, INF), (-1, INF)])
+def test_the_repetition_may_be_slow_or_off(rate, due):
+    schedule = Schedule(0.001, rate)
+    schedule.published(1.0)
+    assert schedule.due == due

@@ -103,7 +103,7 @@ RIGHT = {"right_stick": (0.25, -0.75), "triggers": (0.25, 0.75)}
         (F710_X, {"triggers": (1.0, 0.0), "held": {"A"}}, (0, 0, -1, 0, 0, 1, 0, 0), ["A"]),
     ],
 )
-def test_axes_and_buttons(pad, moved, axes, held):
+def test_a_position_of_hands_gives_axes_and_buttons(pad, moved, axes, held):
     shown, buttons = positions(pad, Controls(**moved))
     assert shown == axes
     assert [name for name, down in zip(pad.buttons, buttons) if down] == held

@@ -3,6 +3,7 @@
 import io
 import threading
 from collections import Counter
+from concurrent.futures import ThreadPoolExecutor
 from types import SimpleNamespace
 
 import pytest
@@ -70,14 +71,8 @@ def test_one_thread_at_a_time_connects_to_a_publisher(monkeypatch):
 
     monkeypatch.setattr(careful_connections, "_connect", connect)
     ways = [("/joy", "a")] * 20 + [("/joy", "b"), ("/odom", "a")]
-    threads = [
-        threading.Thread(target=careful_connections._connect_in_turn, args=(None, *way))
-        for way in ways
-    ]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
+    with ThreadPoolExecutor(len(ways)) as pool:
+        list(pool.map(lambda way: careful_connections._connect_in_turn(None, *way), ways))
     assert most == dict.fromkeys(ways, 1)
     assert not careful_connections._turns  # no lock is kept
 
@@ -93,3 +88,8 @@ def test_a_series_is_thinned_to_the_rate_and_a_pause_saves_up_no_more_than_the_b
     uneven = [i / 50 + (0.004 if i % 2 else -0.004) for i in range(500)]
     assert passed(Throttle(50, burst=5), uneven) == 500
     assert passed(Throttle(0, burst=5), range(100)) == 0  # no rate is never
+
+
+def test_one_text_does_not_hold_up_another():
+    throttle = ThrottleEach(0.1)
+    assert [throttle.ready(text, 0.0) for text in "aab"] == [True, False, True]

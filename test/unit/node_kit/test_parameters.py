@@ -67,6 +67,13 @@ def test_what_is_allowed(name, good, bad, allowed):
         assert message_of({name: value}) == f"~{name}: {value!r}: must be {allowed}"
 
 
+def test_each_set_of_defaults_has_a_map_of_its_own():
+    values = checked(Parameters, {})
+    assert Parameters(**values) == Parameters()
+    values["robots"]["ada"] = 1.0
+    assert checked(Parameters, {})["robots"] == {}
+
+
 def test_a_missing_one_and_where_it_is():
     line = message_of({}, Entry, where="entry 2: ", example="as in topic: a")
     assert line == "entry 2: topic: missing; as in topic: a"

@@ -2,19 +2,12 @@
 
 import socket
 import threading
-from xmlrpc.server import SimpleXMLRPCRequestHandler, SimpleXMLRPCServer
+from xmlrpc.server import SimpleXMLRPCServer
 
 import pytest
 
 from node_kit import questions
 from node_kit.questions import Answer, call, holder
-
-
-class Quiet(SimpleXMLRPCRequestHandler):
-    rpc_paths = ()
-
-    def log_message(self, *_):
-        pass
 
 
 @pytest.fixture
@@ -23,7 +16,7 @@ def serve():
     servers = []
 
     def start(**methods):
-        server = SimpleXMLRPCServer(("127.0.0.1", 0), Quiet)
+        server = SimpleXMLRPCServer(("127.0.0.1", 0), logRequests=False)
         servers.append(server)
         for name, method in methods.items():
             server.register_function(method, name)

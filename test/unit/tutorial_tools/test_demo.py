@@ -49,7 +49,9 @@ def test_a_wrong_argument_is_named(argument, line):
         ([["/odom", ["/other", "/fake_turtlebot"]]], [], [], ["/fake_turtlebot", "/other"]),
     ],
 )
-def test_nodes_in_the_way(publishers, subscribers, services, names):
+def test_only_nodes_that_drive_or_have_a_name_of_ours_are_in_the_way(
+    publishers, subscribers, services, names
+):
     assert in_the_way([publishers, subscribers, services], NODES, TOPICS) == names
 
 

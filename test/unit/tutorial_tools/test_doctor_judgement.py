@@ -214,7 +214,7 @@ def test_a_line_has_the_level_and_the_words(facts, level, words):
     assert any(has(line, words) for line in lines(facts, level))
 
 
-def test_all_is_well():
+def test_of_a_well_system_every_line_is_ok():
     assert {finding.level for finding in judge(WELL)} == {"ok"}
 
 
@@ -238,6 +238,11 @@ def test_what_is_no_mistake(facts):
 def test_of_a_graph_that_was_not_seen_nothing_is_said():
     abouts = {finding.about for finding in judge(well(master=Answer.REFUSED, called_back=None))}
     assert abouts == {"environment", "overlay", "master", "address", "joystick"}
+
+
+def test_no_way_leads_through_a_dead_node():
+    through_dead = nodes(joy2twist=node("10.0.0.2", Answer.REFUSED))
+    assert not [line for line in lines(through_dead, "ok") if " -> " in line]
 
 
 def test_the_readme_lists_what_is_looked_at():
