@@ -140,7 +140,6 @@ def _half(session: Session, is_talker: bool) -> Half:
 @check("C5", "talker.py and listener.py can be run", "3.1", "C2",
        look="rosrun beginner_tutorials talker.py", timeless=True)  # fmt: skip
 def files(session: Session) -> Note | str:
-    """Check the two without running them."""
     for script in scripts(session):
         check_file(session, PACKAGE, script)
     notes = (odd_node(session, PACKAGE, script) for script in scripts(session))
@@ -149,7 +148,6 @@ def files(session: Session) -> Note | str:
 
 @check("C6", "the talker talks", "3.1", "C5", look="rostopic hz /chatter")
 def talker(session: Session) -> Note | str:
-    """Check what comes on /chatter, and how often."""
     half = _half(session, is_talker=True)
     seen, facts = half.talk, half.facts
     if not seen.heard:

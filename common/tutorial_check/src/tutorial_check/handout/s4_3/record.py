@@ -9,9 +9,9 @@ from dataclasses import dataclass, replace
 from typing import Any, Callable, Sequence
 
 from tutorial_check.handout.s4_3 import probes
-from tutorial_check.handout.s4_3.drive import Drive, Joy
+from tutorial_check.handout.s4_3.drive import Drive
 from tutorial_check.handout.s4_3.rules import FIELDS, LINEAR, RIGHT, rule_of
-from tutorial_check.handout.task import PACKAGE
+from tutorial_check.handout.task import PACKAGE, Joy
 from tutorial_check.isolation.runner import GRACE_S
 from tutorial_check.record.ground import Ground
 from tutorial_check.record.stage import START_S, Stage

@@ -22,7 +22,7 @@ Node = Dict[str, Any]  # about a node: package, type, name, args ...
 
 
 @functools.lru_cache(maxsize=None)
-def can_be_found(package: str, kind: str) -> Any:
+def can_be_found(package: str, kind: str) -> bool | None:
     """Return whether there is a program; None if there is no such package, either."""
     import roslib.packages  # noqa: PLC0415
     import rospkg  # noqa: PLC0415
