@@ -90,7 +90,6 @@ def bag(ground: Ground, path: str) -> Bag:
 
 
 def follow(ground: Ground, script: str) -> Follow:
-    """Drive the simulated robot forwards, then turn it."""
     with ground.stage() as stage:
         stage.call("listen", CMD_VEL, "Twist")
         stage.call("advertise", JOY, "Joy")
@@ -157,7 +156,6 @@ def plug_in(ground: Ground, stage: Stage, device: str = "/dev/input/js0") -> tup
 
 
 def stick(ground: Ground, script: str) -> Stick:
-    """Drive with a virtual F710, its switch at D; then send Joys as with the switch at X."""
     with ground.stage() as stage:
         stage.call("listen", JOY, "Joy")
         stage.call("listen", CMD_VEL, "Twist")

@@ -52,7 +52,6 @@ def drive(ground: Ground, script: str, wants_twist: bool = True, text: str = "")
 
 
 def found(ground: Ground, package: str) -> Found:
-    """Ask rospack for a package."""
     program = ground.runner.start(["rospack", "find", package], ground.environment)
     ground.runner.wait(lambda: program.ended, 10.0)
     return Found(not program.process.returncode)
