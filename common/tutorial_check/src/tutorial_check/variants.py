@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import hashlib
 import re
 from pathlib import Path
@@ -90,7 +91,7 @@ def drawn(course: Course, seed: str, name: str) -> Variant:
     return values
 
 
-def variant_of(course: Course, options: Any, name: str) -> Variant:
+def variant_of(course: Course, options: argparse.Namespace, name: str) -> Variant:
     """Return a student's Variant: from NAME.yaml of a folder, or drawn, or from the file for all."""
     given = Path(options.variant) if options.variant else None
     own = given / f"{name}.yaml" if given and given.is_dir() else None

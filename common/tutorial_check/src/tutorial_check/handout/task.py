@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
-from typing import Any, Callable, Mapping, Sequence
+from typing import Any, Callable, Mapping, Sequence, Tuple, TypeVar
 
 from tutorial_check.model import Result
 from tutorial_check.variants import UNASKED, Task, Variant
@@ -27,6 +27,9 @@ WORDS = {
     **{rf"(?<![\w/]){topic}(?![\w/])": key for key, topic in TOPICS.items()},
 }
 
+T = TypeVar("T")
+Joy = Tuple[Tuple[float, ...], Tuple[int, ...]]  # (axes, buttons)
+
 
 def order(places: Mapping[int, int]) -> dict[int, int]:
     """Return a rearrangement with these places, {from: to}, in which nothing gets lost."""
@@ -35,8 +38,7 @@ def order(places: Mapping[int, int]) -> dict[int, int]:
     return {**places, **dict(zip(left, free))}
 
 
-def moved(values: Sequence[Any], places: Mapping[int, int]) -> tuple[Any, ...]:
-    """Return the values, each at its place."""
+def moved(values: Sequence[T], places: Mapping[int, int]) -> tuple[T, ...]:
     found = {places.get(index, index): value for index, value in enumerate(values)}
     return tuple(found[index] for index in range(len(values)))
 
@@ -57,13 +59,12 @@ class JoystickTask(Task):
         self.signs = {i: -1 if values.get(scale, 1) < 0 else 1 for i, scale in FIELDS.values()}
         self.needs_button = "enable_button" in values
 
-    def joy(self, joy: tuple[Sequence[float], Sequence[int]]) -> tuple[Any, ...]:
+    def joy(self, joy: Joy) -> Joy:
         """Return the Joy, (axes, buttons), that is to this program what a Joy is to the handout's."""
         axes = [self.signs.get(index, 1) * value for index, value in enumerate(joy[0])]
         return moved(axes, self.axes), moved(joy[1], self.buttons)
 
     def topic(self, name: str) -> str:
-        """Return what the program calls a topic of the handout's."""
         return self.topics.get(name, name)
 
     def known_as(self, package: str) -> str:

@@ -206,7 +206,7 @@ def traced(error: str, line: int, facts: PythonFacts) -> tuple[int, str]:
         return line, f"this line stands outside of {function}: indent it as those within"
     if f"self.{found[1]}" in facts.attributes:
         return line, f"within a class it is self.{found[1]}"
-    return line, misspelt(error, facts.names)
+    return line, misspelt(found[1], facts.names)
 
 
 def hider(error: str, script: str, others: Collection[str]) -> tuple[str, str]:
@@ -222,12 +222,10 @@ def hider(error: str, script: str, others: Collection[str]) -> tuple[str, str]:
     return beside, f"{hint}rename it"
 
 
-def misspelt(error: str, names: Mapping[str, int]) -> str:
-    """Return which of the program's names {name: line} was meant by one that is not defined, or empty."""
-    found = re.search(UNDEFINED, error)
-    if not found or found[1] in names or found[1] in HOMES:
-        return ""
-    for near in difflib.get_close_matches(found[1], names, 3, 0.6):
-        if near[0].lower() == found[1][0].lower():
-            return f"{near} in line {names[near]}, {found[1]} here: one name for one thing"
+def misspelt(name: str, names: Mapping[str, int]) -> str:
+    """Return which of the program's names {name: line} was meant by an undefined one, or empty."""
+    known = name in names or name in HOMES
+    for near in [] if known else difflib.get_close_matches(name, names, 3, 0.6):
+        if near[0].lower() == name[0].lower():
+            return f"{near} in line {names[near]}, {name} here: one name for one thing"
     return ""

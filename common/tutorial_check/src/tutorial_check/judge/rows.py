@@ -20,7 +20,7 @@ class Row:
     note: bool = False  # it is right, and worth a word
 
 
-def find(rows: Iterable[Row], facts: Any, expected: str = "") -> Wrong | Note | None:
+def find(rows: Iterable[Row], facts: object, expected: str = "") -> Wrong | Note | None:
     """Return what the first row that applies to the facts says, or None."""
     for row in rows:
         found = row.when(facts)
@@ -36,7 +36,7 @@ def find(rows: Iterable[Row], facts: Any, expected: str = "") -> Wrong | Note | 
     return None
 
 
-def demand(rows: Iterable[Row], facts: Any, expected: str) -> Note | None:
+def demand(rows: Iterable[Row], facts: object, expected: str) -> Note | None:
     """Return the Note of the first row that applies, or None. Raises its Wrong."""
     found = find(rows, facts, expected)
     if isinstance(found, Wrong):

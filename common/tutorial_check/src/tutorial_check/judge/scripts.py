@@ -165,7 +165,6 @@ OF_A_TEXT = (
 
 
 def check_file(session: Session, package: str, script: str) -> None:
-    """Check a program without running it. Raises Wrong."""
     text = Text(session, package, script)
     for expected, look, row in OF_A_TEXT:
         wrong = find([row], text, expected)

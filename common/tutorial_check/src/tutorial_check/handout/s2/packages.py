@@ -6,7 +6,6 @@ import difflib
 import os
 import re
 from pathlib import Path
-from typing import Any
 
 from tutorial_check.course import check
 from tutorial_check.isolation.privileges import own_rights
@@ -36,8 +35,6 @@ CMAKE_HINTS = (
 
 
 def _similar(name: str, packages: list[Package]) -> Package | None:
-    """Return a package that was meant to be the one of that name, or None."""
-
     def is_near(word: str) -> bool:
         bare, plain = (re.sub(r"[^a-z0-9]", "", each.lower()) for each in (word, name))
         return difflib.SequenceMatcher(None, bare, plain).ratio() > 0.8
@@ -45,8 +42,7 @@ def _similar(name: str, packages: list[Package]) -> Package | None:
     return next((p for p in packages if is_near(p.name) or is_near(p.folder.name)), None)
 
 
-def _package(session: Session, name: str) -> Any:
-    """Return the package of that name. Raises Wrong."""
+def _package(session: Session, name: str) -> Package:
     packages, expected = session.packages, f"one package {name} in src"
     named = [each for each in packages if each.name == name]
     broken = [each for each in packages if each.error and name in (each.name, each.folder.name)]
@@ -63,7 +59,7 @@ def _package(session: Session, name: str) -> Any:
     return named[0]
 
 
-def _missing(session: Session, name: str, expected: str) -> Any:
+def _missing(session: Session, name: str, expected: str) -> Wrong:
     """Return the Wrong for a package that is not there, or is elsewhere, or has another name."""
     for beside in (each.inside for each in packages_beside(session.layout) if each.name == name):
         hint = f"mv {session.whole(beside)} {session.whole('src')}"
@@ -85,7 +81,7 @@ def _missing(session: Session, name: str, expected: str) -> Any:
     return Wrong(expected, f"none; found: {found}", hint=hint)
 
 
-def _dependencies(session: Session, name: str) -> Any:
+def _dependencies(session: Session, name: str) -> Package:
     """Return the package of that name, which has all dependencies. Raises Wrong."""
     package, wanted = _package(session, name), WANTED[name]
     where = f"{package.inside}/package.xml"
@@ -189,8 +185,7 @@ def build(session: Session) -> Note | None:
     return Note(seen, wrong.where, hint)
 
 
-def _build_error(session: Session, output: str) -> Any:
-    """Return the Wrong for the first error of catkin_make."""
+def _build_error(session: Session, output: str) -> Wrong:
     output = re.sub(r"\x1b\[[0-9;]*m", "", output)
     lines = [line.strip() for line in output.splitlines()]
     bad = r"Error at|^E: |mismatched tag|error:|Could not find|Multiple packages"
@@ -209,14 +204,15 @@ def _build_error(session: Session, output: str) -> Any:
 
 
 def _missing_in(output: str) -> list[str]:
-    """Return the packages that catkin_make said it could not find."""
     # CMake breaks long lines, and indents them.
     return re.findall(r'[Cc]ould not find (?:[^"\n]|\n  (?=\S))*"([^"]+)"', output)
 
 
-def _not_found(session: Session, name: str) -> Any:
+def _not_found(session: Session, name: str) -> tuple[str, str, str]:
     """Return (what is seen, where, what to do) for a package that CMakeLists.txt names and catkin does not find."""
-    place, text = _place_in_cmake(session, name)
+    cmakes = [(f"{each.inside}/CMakeLists.txt", each.cmake or "") for each in session.packages]
+    places = ((place_of(file, text, name), text) for file, text in cmakes if name in text)
+    place, text = next(places, ("", ""))
     absent = {each for names in WANTED.values() for each in names if each not in text}
     near = difflib.get_close_matches(name, absent, 1, 0.65)
     hint = advice(name, packages_of_ros(name))
@@ -226,7 +222,7 @@ def _not_found(session: Session, name: str) -> Any:
     return f"catkin cannot find {name}", place, hint
 
 
-def _cmake_error(output: str) -> Any:
+def _cmake_error(output: str) -> tuple[str, str]:
     """Return (message, FILE:LINE of the student's) of CMake's first error, each perhaps empty.
 
     The error itself is often in a file of catkin's; the call stack names the student's line.
@@ -236,13 +232,3 @@ def _cmake_error(output: str) -> Any:
         return "", ""
     place = re.search(r"(?<!\S)[^/\s]\S*/CMakeLists\.txt:\d+", found[0])
     return " ".join(found[1].split("Call Stack")[0].split()), place[0] if place else ""
-
-
-def _place_in_cmake(session: Session, word: str) -> Any:
-    """Return (first line with a word in a CMakeLists.txt of the student's, its text); or empty."""
-    for each in session.packages:
-        name, text = f"{each.inside}/CMakeLists.txt", each.cmake or ""
-        place = place_of(name, text, word)
-        if place != name:
-            return place, text
-    return "", ""

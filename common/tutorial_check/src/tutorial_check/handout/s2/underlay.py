@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import Any, Sequence
+from typing import Sequence
 
 from tutorial_check.course import check
 from tutorial_check.handout.s2.packages import WANTED
@@ -20,7 +20,6 @@ AGAIN = "in the workspace: rm -r build devel, then catkin_make"
 
 @check("C1", "the workspace", "2.1", look="ls src devel", timeless=True, eager=True)
 def workspace(session: Session) -> Note | str | None:
-    """Look for a src, and whether what was built was built over the suite."""
     layout = session.layout
     with privileges.own_rights():  # no program writes here
         has_source = layout.source.is_dir()
@@ -36,7 +35,8 @@ def workspace(session: Session) -> Note | str | None:
     if not layout.is_workspace:
         return Note("handed in as packages, without their workspace: built afresh here")
     devel = layout.root / "devel"
-    if _leads_out(session, devel):
+    real = Path(os.path.realpath(devel / "setup.sh"))
+    if layout.root.resolve() not in real.parents and not session.may_see(real):
         return Note("never built here (devel is a link that leads elsewhere)")
     made_for, below = underlays(devel)
     if made_for and os.path.realpath(made_for) != os.path.realpath(devel):
@@ -55,12 +55,6 @@ def workspace(session: Session) -> Note | str | None:
     return "src and devel, on top of this suite"
 
 
-def _leads_out(session: Session, devel: Path) -> bool:
-    """Return whether a devel folder is a link out of the workspace that is not to be followed."""
-    real = Path(os.path.realpath(devel / "setup.sh"))
-    return session.layout.root.resolve() not in real.parents and not session.may_see(real)
-
-
 def _check_below(session: Session, below: Sequence[str]) -> None:
     """Raise Wrong unless this suite is among the folders that a workspace was built over."""
     suite = os.path.realpath(Path(session.underlay).parent)
@@ -76,7 +70,7 @@ def _check_below(session: Session, below: Sequence[str]) -> None:
     raise Wrong("a workspace built on top of this suite", seen, "devel", hint)
 
 
-def _is_suite(devel: str | Path) -> Any:
+def _is_suite(devel: str | Path) -> bool:
     """Return whether a devel folder is the underlay of some copy of this suite; it may be hidden here."""
     is_there = any(os.path.isdir(os.path.join(devel, "share", name)) for name in SUITE)
     return is_there or Path(devel).parts[-2:] == ("lower", "devel")

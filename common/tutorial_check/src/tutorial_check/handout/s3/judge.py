@@ -19,7 +19,6 @@ from tutorial_check.handout.s3.record import (
     second,
     talk,
 )
-from tutorial_check.isolation.program import Ran
 from tutorial_check.judge.causes import with_import
 from tutorial_check.judge.rows import Row, demand
 from tutorial_check.judge.scripts import (
@@ -50,8 +49,14 @@ def other_topic(topics: Iterable[str], asked_for: str, types: Mapping[str, str],
 class Half:
     """One of the two programs in a Talk: the facts of the rows below."""
 
-    def __init__(self, session: Session, talk: Talk, script: str, program: Ran) -> None:
-        self.session, self.talk, self.script, self.program = session, talk, script, program
+    def __init__(self, session: Session, is_talker: bool) -> None:
+        """Take it from the recording. Raises Wrong if the master has gone."""
+        self.session = session
+        self.talk = talk = _talk(session)
+        if not talk.master_alive:
+            raise master_gone()
+        self.script = script = scripts(session)[0 if is_talker else 1]
+        self.program = program = talk.talker if is_talker else talk.listener
         self.facts = facts = session.scripts(PACKAGE)[script]
         line = "rospy.Publisher('chatter', String, queue_size=10)"
         self.publisher_line = with_import(line, "String", facts)
@@ -128,19 +133,9 @@ def _talk(session: Session) -> Talk:
     return session.recording(talk, *scripts(session))
 
 
-def _half(session: Session, is_talker: bool) -> Half:
-    """Return a program of the Talk. Raises Wrong if the master has gone."""
-    seen = _talk(session)
-    if not seen.master_alive:
-        raise master_gone()
-    script = scripts(session)[0 if is_talker else 1]
-    return Half(session, seen, script, seen.talker if is_talker else seen.listener)
-
-
 @check("C5", "talker.py and listener.py can be run", "3.1", "C2",
        look="rosrun beginner_tutorials talker.py", timeless=True)  # fmt: skip
 def files(session: Session) -> Note | str:
-    """Check the two without running them."""
     for script in scripts(session):
         check_file(session, PACKAGE, script)
     notes = (odd_node(session, PACKAGE, script) for script in scripts(session))
@@ -149,8 +144,7 @@ def files(session: Session) -> Note | str:
 
 @check("C6", "the talker talks", "3.1", "C5", look="rostopic hz /chatter")
 def talker(session: Session) -> Note | str:
-    """Check what comes on /chatter, and how often."""
-    half = _half(session, is_talker=True)
+    half = Half(session, is_talker=True)
     seen, facts = half.talk, half.facts
     if not seen.heard:
         demand(SILENT_TALKER, half, TALKS)
@@ -181,7 +175,7 @@ def talker(session: Session) -> Note | str:
 @check("C7", "the listener displays what it hears", "3.1", "C5",
        look="rosrun beginner_tutorials listener.py")  # fmt: skip
 def listener(session: Session) -> Note | None:
-    half = _half(session, is_talker=False)
+    half = Half(session, is_talker=False)
     if half.talk.listener_ended:
         raise half.crash(GOES_ON)
     if half.found < half.total:

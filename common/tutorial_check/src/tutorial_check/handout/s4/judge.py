@@ -61,7 +61,6 @@ def check_recording(session: Session, name: str) -> tuple[str, ...]:
 @check("C19", "the simulated robot follows", "4.4", "C16",
        look="rostopic echo /odom/pose/pose/position")  # fmt: skip
 def simulated(session: Session) -> Note | str | None:
-    """Compare how the simulated robot drives, and then turns, with the Twists."""
     script = main_script(session)
     drive = session.recording(follow, script)
     if not drive.ready:
@@ -84,7 +83,6 @@ def simulated(session: Session) -> Note | str | None:
 
 @check("C20", "a joystick drives it", "4.5", "C16", look="rostopic echo /joy/axes[1]")
 def joystick(session: Session) -> Note | str | None:
-    """Look at the Twists for a virtual F710, its switch at D, and for Joys as at X."""
     script = main_script(session)
     seen = session.recording(stick, script)
     if not seen.drives:

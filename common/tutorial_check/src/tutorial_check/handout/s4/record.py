@@ -10,7 +10,7 @@ from typing import Optional, Tuple
 
 from tutorial_check.handout.s4_3.record import CMD_VEL, JOY, NEUTRAL
 from tutorial_check.handout.s4_3.rules import ANGULAR, LINEAR
-from tutorial_check.handout.task import LB, PACKAGE
+from tutorial_check.handout.task import LB, PACKAGE, Joy
 from tutorial_check.isolation.helper_process import Helper
 from tutorial_check.isolation.program import Program, Ran
 from tutorial_check.model import CannotCheck
@@ -59,14 +59,10 @@ class Stick:
     survives_eight_axes: bool = False
 
 
-def held(
-    session: Session, left: float, forwards: float
-) -> Tuple[Tuple[float, ...], Tuple[int, ...]]:
+def held(session: Session, left: float, forwards: float) -> Joy:
     """Return a Joy with LB held, as the student's task has it."""
     buttons = (*NEUTRAL[1][:LB], 1, *NEUTRAL[1][LB + 1 :])
-    joy: Tuple[Tuple[float, ...], Tuple[int, ...]] = session.task.joy(
-        ((left, forwards, 0.0, 0.0, 0.0, 0.0), buttons)
-    )
+    joy: Joy = session.task.joy(((left, forwards, 0.0, 0.0, 0.0, 0.0), buttons))
     return joy
 
 
@@ -94,7 +90,6 @@ def bag(ground: Ground, path: str) -> Bag:
 
 
 def follow(ground: Ground, script: str) -> Follow:
-    """Drive the simulated robot forwards, then turn it."""
     with ground.stage() as stage:
         stage.call("listen", CMD_VEL, "Twist")
         stage.call("advertise", JOY, "Joy")
@@ -161,7 +156,6 @@ def plug_in(ground: Ground, stage: Stage, device: str = "/dev/input/js0") -> tup
 
 
 def stick(ground: Ground, script: str) -> Stick:
-    """Drive with a virtual F710, its switch at D; then send Joys as with the switch at X."""
     with ground.stage() as stage:
         stage.call("listen", JOY, "Joy")
         stage.call("listen", CMD_VEL, "Twist")
@@ -194,12 +188,10 @@ def stick(ground: Ground, script: str) -> Stick:
 
 
 def _speeds_told(stage: Stage, since: int = 0) -> list[float]:
-    """Return linear.x of the Twists [m/s]."""
     return [value[0] for _, _, value in stage.call("heard", CMD_VEL, since)]
 
 
 def _survives_eight_axes(ground: Ground, stage: Stage, program: Program) -> bool:
-    """Return whether Joys as of the switch at X are answered."""
     stage.call("advertise", JOY, "Joy")
     # Our own Subscriber is one of them.
     stage.wait(lambda: stage.call("listeners", JOY) > 1 or program.ended, START_S)

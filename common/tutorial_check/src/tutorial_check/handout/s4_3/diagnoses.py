@@ -6,10 +6,10 @@ import statistics
 
 from tutorial_check.handout.s4_3.drive import Drive
 from tutorial_check.handout.s4_3.facts import Facts
-from tutorial_check.handout.s4_3.probes import ROUNDED
+from tutorial_check.handout.s4_3.probes import ROUNDED, SILENCES
 from tutorial_check.handout.s4_3.record import CMD_VEL, COUNT, JOY
 from tutorial_check.handout.s4_3.rules import AXES, judge
-from tutorial_check.judge.rows import Row, demand
+from tutorial_check.judge.rows import Row, demand, find
 from tutorial_check.model import Note, master_gone
 from tutorial_check.record.session import Session
 
@@ -117,8 +117,8 @@ ONCE = (
 )  # fmt: skip
 RIGHT_RULE = (
     Row(lambda c: c.seen.unanswered and not c.complaint and c.seen.trouble, lambda c: c.crash()),
-    Row(lambda c: not c.complaint and c.seen.unanswered and c.seen.silence,
-        "{found[0]}", "{found[1]}", "{f.at[publish]}"),
+    Row(lambda c: not c.complaint and c.seen.unanswered and find(SILENCES, c.seen.silence),
+        "{found.seen}", "{found.hint}", "{f.at[publish]}"),
     Row(lambda c: c.complaint, lambda c: c.odd()),
     Row(lambda c: c.seen.trouble and c.crash(), "right, but also: {found.seen}", "{found.hint}",
         "{found.where}", note=True),
@@ -137,7 +137,6 @@ RATE = (
 
 
 def check_connected(session: Session, seen: Drive) -> Facts:
-    """Check that it subscribes to /joy as Joy. Raises Wrong."""
     one = Facts(session, seen)
     demand(CONNECTED, one, CONNECTS)
     if not seen.connected or (seen.ended_early and not seen.samples and not seen.shown):
@@ -146,7 +145,6 @@ def check_connected(session: Session, seen: Drive) -> Facts:
 
 
 def check_displays(session: Session, seen: Drive, few_are_enough: bool = False) -> Note | None:
-    """Check that Joys appear in the output with all six axes. Raises Wrong."""
     one = check_connected(session, seen)
     if seen.all_shown or (seen.shown and few_are_enough):
         return None
@@ -157,7 +155,6 @@ def check_displays(session: Session, seen: Drive, few_are_enough: bool = False) 
 
 
 def check_topics(session: Session, seen: Drive) -> Note | str:
-    """Check the topics, /joy in and /cmd_vel out, and their types. Raises Wrong."""
     one = check_connected(session, seen)
     note = demand(TOPICS, one, PUBLISHES)
     if CMD_VEL not in seen.publishers:
@@ -181,7 +178,6 @@ def check_mapping(session: Session, seen: Drive) -> Note | None:
 
 
 def check_rate(session: Session, seen: Drive) -> Note | str | None:
-    """Check that 50 Joys a second are answered, each soon. Raises Wrong."""
     if seen.is_prompt:
         return seen.rate
     return demand(RATE, Facts(session, seen), KEEPS_UP)

@@ -8,13 +8,13 @@ from typing import Dict, Optional, Tuple
 
 from tutorial_check.handout.s4_3 import probes
 from tutorial_check.handout.s4_3.rules import FIELDS, Evidence, judge
+from tutorial_check.handout.task import Joy
 from tutorial_check.isolation.program import Ran
 from tutorial_check.record.recording import Topics
 
 SOON_S = 0.05  # from Joy to Twist
 NAP_S = 0.3  # for one Twist: a correct program never takes this long
 
-Joy = Tuple[Tuple[float, ...], Tuple[int, ...]]  # (axes, buttons)
 Twist = Tuple[float, ...]
 Sample = Tuple[Tuple[float, ...], Twist]
 
@@ -85,11 +85,10 @@ class Drive:
         return probes.judge_probes(self.samples, self.answers, *about)
 
     @property
-    def silence(self) -> tuple[str, str]:
-        """Return (what is seen, what to do) for the first probe that was not answered."""
-        assert self.unanswered
-        joy, before = self.unanswered
-        return probes.silence(joy, before, self.answers[-1][1] if self.answers else (1.0,))
+    def silence(self) -> probes.Silence | None:
+        """The first probe that was not answered."""
+        last = self.answers[-1][1] if self.answers else (1.0,)
+        return probes.Silence(*self.unanswered, last) if self.unanswered else None
 
     @property
     def delay_s(self) -> float | None:

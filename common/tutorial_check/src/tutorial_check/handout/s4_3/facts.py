@@ -6,12 +6,12 @@ import collections
 import contextlib
 import functools
 import re
-from typing import Any, Sequence
+from typing import Sequence
 
 from tutorial_check.handout.changed_programs import unmasked
 from tutorial_check.handout.s3.judge import other_topic
 from tutorial_check.handout.s4_3 import probes
-from tutorial_check.handout.s4_3.drive import Drive
+from tutorial_check.handout.s4_3.drive import Drive, Twist
 from tutorial_check.handout.s4_3.record import CMD_VEL, COLOUR, COUNT, JOY, drive
 from tutorial_check.handout.task import PACKAGE
 from tutorial_check.judge.causes import with_import
@@ -87,7 +87,6 @@ class Facts:
 
     @functools.cached_property
     def repeated(self) -> tuple[int, bool]:
-        """Return how many Twists came for each Joy, and whether they differ; see repetition()."""
         seen = self.seen
         if seen.has_clock or not seen.samples:
             return 1, False
@@ -103,7 +102,6 @@ class Facts:
     # ------------------------------------------------------------------------ why it failed
 
     def crash(self) -> Wrong:
-        """Return the Wrong for a program that failed; an except that hides the cause is removed."""
         session, seen = self.session, self.seen
         text = unmasked(session.text(PACKAGE, self.script))
         if text and not seen.program.spins and (seen.ended_early or not seen.trouble):
@@ -147,7 +145,7 @@ class Facts:
         return Wrong("", self.complaint, where, hint, sure)
 
 
-def repetition(answers: Sequence[Any], twists: Sequence[Any]) -> tuple[int, bool]:
+def repetition(answers: Sequence[Twist], twists: Sequence[Twist]) -> tuple[int, bool]:
     """Return (how many Twists came for each Joy, whether they differ); (1, False) if unclear.
 
     answers: one Twist for each Joy; twists: all that came meanwhile. Which of them belong to one Joy

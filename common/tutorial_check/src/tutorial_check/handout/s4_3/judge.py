@@ -54,7 +54,6 @@ def _seen(session: Session) -> Drive:
 @check("C13", "joy2twist.py can be run", "4.3", "C12", look="rosrun joy2twist joy2twist.py",
        timeless=True)  # fmt: skip
 def file(session: Session) -> Note | str:
-    """Check the program without running it."""
     script = find_script(session, PACKAGE, NAME)
     check_file(session, PACKAGE, script)  # before its text is relied on
     check_manifest(session, script)

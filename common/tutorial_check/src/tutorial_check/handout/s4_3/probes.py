@@ -10,10 +10,9 @@ from typing import Iterable, Mapping, NamedTuple, Sequence, Tuple
 
 from tutorial_check.handout.s4_3 import rules
 from tutorial_check.handout.s4_3.rules import RIGHT, SMALL, Sample
-from tutorial_check.handout.task import LB
+from tutorial_check.handout.task import LB, Joy
 from tutorial_check.judge.rows import Row, find
 
-Joy = Tuple[Tuple[float, ...], Tuple[int, ...]]  # (axes, buttons)
 Answer = Tuple[Joy, Sequence[float]]  # and the six values of its Twist
 
 BUTTONS = 12
@@ -101,11 +100,10 @@ class Silence(NamedTuple):
 
     joy: Joy
     before: Joy
-    last: Sequence[float] = (1.0,)
+    last: Sequence[float]
 
     @property
     def still_axis(self) -> str:
-        """Return which axis is 0, of one that is moved alone."""
         return next((f"axes[{axis}]" for axis in RIGHT.values() if not self.joy[0][axis]), "")
 
 
@@ -127,13 +125,6 @@ SILENCES = (
     Row(lambda s: s.still_axis, "no Twist for a Joy with {found} = 0", ALWAYS),
     Row(lambda s: True, "no Twist for a Joy of another size", ALWAYS),
 )  # fmt: skip
-
-
-def silence(joy: Joy, before: Joy, last: Sequence[float] = (1.0,)) -> tuple[str, str]:
-    """Return (what is seen, what to do) for a Joy after another one that no Twist answers."""
-    wrong = find(SILENCES, Silence(joy, before, last))
-    assert wrong  # the last row always applies
-    return wrong.seen, wrong.hint
 
 
 class Reply(NamedTuple):

@@ -9,9 +9,9 @@ from dataclasses import dataclass, replace
 from typing import Any, Callable, Sequence
 
 from tutorial_check.handout.s4_3 import probes
-from tutorial_check.handout.s4_3.drive import Drive, Joy
+from tutorial_check.handout.s4_3.drive import Drive
 from tutorial_check.handout.s4_3.rules import FIELDS, LINEAR, RIGHT, rule_of
-from tutorial_check.handout.task import PACKAGE
+from tutorial_check.handout.task import PACKAGE, Joy
 from tutorial_check.isolation.runner import GRACE_S
 from tutorial_check.record.ground import Ground
 from tutorial_check.record.stage import START_S, Stage
@@ -52,7 +52,6 @@ def drive(ground: Ground, script: str, wants_twist: bool = True, text: str = "")
 
 
 def found(ground: Ground, package: str) -> Found:
-    """Ask rospack for a package."""
     program = ground.runner.start(["rospack", "find", package], ground.environment)
     ground.runner.wait(lambda: program.ended, 10.0)
     return Found(not program.process.returncode)

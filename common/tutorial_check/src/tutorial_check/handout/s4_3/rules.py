@@ -26,7 +26,6 @@ class Rule(NamedTuple):
 
 
 def is_near(one: float, other: float) -> bool:
-    """Return whether two values are the same, as far as a message or a rounding goes."""
     return abs(one - other) <= SMALL + 0.01 * abs(other)
 
 

@@ -15,6 +15,7 @@ import sys
 import traceback
 from pathlib import Path
 from typing import Any, Dict
+from xml.dom.minidom import Element
 from xml.parsers import expat
 
 MARK = "launch facts: "
@@ -22,7 +23,7 @@ Node = Dict[str, Any]  # about a node: package, type, name, args ...
 
 
 @functools.lru_cache(maxsize=None)
-def can_be_found(package: str, kind: str) -> Any:
+def can_be_found(package: str, kind: str) -> bool | None:
     """Return whether there is a program; None if there is no such package, either."""
     import roslib.packages  # noqa: PLC0415
     import rospkg  # noqa: PLC0415
@@ -33,7 +34,7 @@ def can_be_found(package: str, kind: str) -> Any:
         return None
 
 
-def device_of(node: Any, params: Any) -> str:
+def _device_of(node: Any, params: Any) -> str:
     """Return the device that a node is made to read, as joy_node is; or empty."""
     try:
         words = shlex.split(node.args or "")
@@ -44,8 +45,9 @@ def device_of(node: Any, params: Any) -> str:
     return in_args[0] if in_args else str(in_file.value) if in_file else ""
 
 
-def place_of_tag(file: str, tag: Any) -> tuple[str, int]:
+def place_of_tag(file: str, tag: Element) -> tuple[str, int]:
     """Return (file, line) of a tag, which minidom knows by its order alone."""
+    assert tag.ownerDocument
     lines: list[int] = []
     parser = expat.ParserCreate()
     parser.StartElementHandler = lambda *_: lines.append(parser.CurrentLineNumber)
@@ -53,7 +55,7 @@ def place_of_tag(file: str, tag: Any) -> tuple[str, int]:
     return file, lines[tag.ownerDocument.getElementsByTagName("*").index(tag)]
 
 
-def fault_of(error: BaseException, path: str) -> dict[str, Any]:
+def fault_of(error: BaseException, path: str) -> dict[str, object]:
     """Return what led to an error of roslaunch's, as a launch_text.Fault has it. path: the launch file."""
     chain = [error]
     while chain[-1].__context__:
@@ -81,12 +83,12 @@ def _node(node: Any, params: Any) -> Node:
         "args": node.args or "",
         "remaps": [list(each) for each in node.remap_args],
         "respawn": bool(node.respawn),
-        "device": device_of(node, params),
+        "device": _device_of(node, params),
         "found": can_be_found(node.package, node.type),
     }
 
 
-def facts_of(path: str) -> dict[str, Any]:
+def facts_of(path: str) -> dict[str, object]:
     """Return what a launch file says; with an error, as far as roslaunch reads it."""
     import roslaunch.config  # noqa: PLC0415
     import roslaunch.loader  # noqa: PLC0415
@@ -100,7 +102,7 @@ def facts_of(path: str) -> dict[str, Any]:
 
     roslaunch.loader.Loader.param_value = without_command
     said = io.StringIO()
-    facts: dict[str, Any] = {"path": path, "fault": None, "nodes": [], "files": [], "said": ""}
+    facts: dict[str, object] = {"path": path, "fault": None, "nodes": [], "files": [], "said": ""}
     try:
         with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
             config = roslaunch.config.load_config_default([path], 11311, verbose=False)

@@ -37,7 +37,6 @@ class LaunchFile:
     """A launch file of the student's: its text, and what roslaunch makes of it."""
 
     def __init__(self, session: Session, name: str) -> None:
-        """Read the file. Raises Wrong if there is none."""
         self.session, self.name = session, name
         self.path = find_launch(session, name)
         self.where = shown(session, self.path)
@@ -253,5 +252,4 @@ def _check_finds(file: LaunchFile) -> None:
 @check("C21", "the two launch files can be read", "5.1", "C12",
        look="roslaunch --nodes joy2twist launch_bag.launch", timeless=True)  # fmt: skip
 def files(session: Session) -> Note | str | None:
-    """Read the two launch files of section 5."""
     return ", ".join(check_file(session, name).where for name in (BAG, STICK))

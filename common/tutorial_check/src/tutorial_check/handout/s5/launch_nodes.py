@@ -155,7 +155,6 @@ def _check_items(file: LaunchFile) -> Note | None:
 @check("C22", "launch_bag starts the four items", "5.1", "C21",
        look="roslaunch --nodes joy2twist launch_bag.launch", timeless=True)  # fmt: skip
 def bag_nodes(session: Session) -> Note | str | None:
-    """Look for the four items, and for no joystick."""
     file = LaunchFile(session, BAG)
     note = _check_items(file)
     bag, where = bag_of(session)
@@ -172,7 +171,6 @@ def bag_nodes(session: Session) -> Note | str | None:
 @check("C25", "launch_joy_node starts the four items", "5.1", "C21",
        look="roslaunch --nodes joy2twist launch_joy_node.launch", timeless=True)  # fmt: skip
 def stick_nodes(session: Session) -> Note | str | None:
-    """Look for the four items, and for no recording."""
     file = LaunchFile(session, STICK)
     note = _check_items(file)
     check_joy(file, file.demand("joy_node", is_joystick, JOY_HINT))

@@ -97,7 +97,6 @@ def bag_drives(session: Session) -> None:
 
 @check("C24", "the recording begins again at its end", "5.1", "C23", look="rostopic hz /joy")
 def bag_loops(session: Session) -> None:
-    """Look at /joy after the end of that recording."""
     file, _, run = _bag_run(session)
     player = next(filter(launch_nodes.is_player, file.nodes))
     if not run.loops and not player["respawn"]:
@@ -109,7 +108,6 @@ def bag_loops(session: Session) -> None:
 @check("C26", "launch_joy_node drives the robot", "5.1", "C25 C16",
        look="roslaunch joy2twist launch_joy_node.launch")  # fmt: skip
 def stick_drives(session: Session) -> None:
-    """Look at the robot while the stick is pushed, and then released."""
     file = LaunchFile(session, STICK)
     plan = plan_of(file)
     run = session.recording(stick_run, plan)

@@ -89,7 +89,7 @@ class Launch:
             stage.call("listen", topic, kind)
         self.program = stage.launch(["roslaunch", str(ground.source / plan.path)])
 
-    def wait(self, condition: Callable[[], Any]) -> bool:
+    def wait(self, condition: Callable[[], object]) -> bool:
         """Return condition(), as soon as it is true, the launch is over, or its nodes had their time."""
         self.stage.wait(lambda: condition() or self.is_over() or self._is_up(), START_S)
         self.stage.wait(lambda: condition() or self.is_over(), UP_S)
@@ -115,13 +115,14 @@ class Launch:
         path = [value[1:3] for _, _, value in self.stage.call("heard", ODOM)]
         return sum(map(math.dist, path, path[1:]))
 
-    def run(self, drives: bool, **more: Any) -> Run:
-        """Return the recording."""
+    def run(
+        self, drives: bool, loops: bool = False, rests: bool = True, active: Tuple[str, ...] = ()
+    ) -> Run:
         topics = (self.plan.joys, self.plan.twists, ODOM)
         counts = {topic: self.stage.call("count", topic) for topic in topics}
         words = () if drives else tuple(self._last_words())
         about = self.program.ran, self.has_died, drives, counts, self.moved_m(), words
-        return Run(*about, **more)
+        return Run(*about, loops, rests, active)
 
     def _last_words(self) -> list[str]:
         folder = Path(self.stage.environment["ROS_LOG_DIR"])

@@ -36,7 +36,6 @@ class Remapped:
         self.joys = launch_nodes.topic_of(file.own[0], task.topic(JOY))
         plan = replace(plan, joys=self.joys)
         self.seen = seen = file.session.recording(remap_run, plan, self.twists)
-        self.good, self.bad, self.others = seen.good, seen.bad, seen.others
         self.has_failed = "Traceback" in seen.run.program.output or seen.run.has_died
         self.remaps = [remap for node in file.own for remap in node["remaps"]]
         self.topics_meant = [to for _, to in self.remaps]
@@ -46,7 +45,7 @@ class Remapped:
     @property
     def is_right(self) -> bool:
         """Return whether the velocities flow where they should, and there alone."""
-        return self.good and not self.bad and self.twists not in self.seen.publishers
+        return self.seen.good and not self.seen.bad and self.twists not in self.seen.publishers
 
     @property
     def by_itself(self) -> str:
@@ -63,22 +62,22 @@ class Remapped:
 
 NOT_REMAPPED = (
     Row(lambda r: r.has_failed, lambda r: r.failed()),
-    Row(lambda r: r.bad and not r.remaps and re.search(r"<param\s+(from|name)=", r.file.text),
+    Row(lambda r: r.seen.bad and not r.remaps and re.search(r"<param\s+(from|name)=", r.file.text),
         "Twists on {f.twists}: a <param> renames nothing", REMAP, "{f.at_param}", sure=True),
-    Row(lambda r: r.bad and not r.remaps and "<remap" in r.file.text,
+    Row(lambda r: r.seen.bad and not r.remaps and "<remap" in r.file.text,
         "Twists on {f.twists}: the <remap> stands outside of the node, and not before it",
         "a <remap> holds for the node around it, and for those below it: put it between <node ...>"
         " and </node>", "{f.at_remap}", sure=True),
-    Row(lambda r: r.bad and any(f"/{to.strip('/')}" == r.twists for to in r.topics_meant),
+    Row(lambda r: r.seen.bad and any(f"/{to.strip('/')}" == r.twists for to in r.topics_meant),
         "Twists on {f.twists}: from and to are swapped",
         "from is the name in the program: " + REMAP, "{f.at_remap}", sure=True),
-    Row(lambda r: (r.bad or set(r.others[:1]) & set(r.topics_meant)) and r.others,
+    Row(lambda r: (r.seen.bad or set(r.seen.others[:1]) & set(r.topics_meant)) and r.seen.others,
         "it publishes on {found[0]}", REMAP, "{f.at_remap}", sure=True),
-    Row(lambda r: r.others, "it publishes on {found[0]}", REMAP, "{f.at_remap}"),
-    Row(lambda r: r.bad and r.remaps,
+    Row(lambda r: r.seen.others, "it publishes on {found[0]}", REMAP, "{f.at_remap}"),
+    Row(lambda r: r.seen.bad and r.remaps,
         "Twists on {f.twists}: the remap from {found[0][0]} fits no topic of the program", REMAP,
         "{f.at_remap}", sure=True),
-    Row(lambda r: r.bad, "Twists on {f.twists}: nothing is remapped", REMAP, "{f.at_remap}",
+    Row(lambda r: r.seen.bad, "Twists on {f.twists}: nothing is remapped", REMAP, "{f.at_remap}",
         sure=True),
     Row(lambda r: r.joys not in r.seen.subscribers, "no node listens to {f.joys}",
         "does the node start, and is /joy left as it is?", "{f.where}"),
@@ -93,7 +92,6 @@ BY_ITSELF = (
 @check("C27", "joy2twist_turtlebot sends to the multiplexer", "6.1", "C16",
        look="rostopic echo /cmd_vel_mux/input/teleop")  # fmt: skip
 def remapped(session: Session) -> None:
-    """Look at both topics of joy2twist_turtlebot."""
     file = check_file(session, TURTLEBOT)
     file.demand("joy2twist", file.own.__contains__, launch_nodes.OWN_HINT)
     found = Remapped(file)
@@ -106,7 +104,6 @@ def remapped(session: Session) -> None:
 @check("C28", "launch_joy_node_realTurtlebot drives the TurtleBot", "6.1", "C27",
        look="rostopic echo /cmd_vel_mux/active")  # fmt: skip
 def real_robot(session: Session) -> None:
-    """Look at a simulated TurtleBot while the stick is pushed."""
     file = check_file(session, REAL)
     _check_items(file)
     has_base = any(node["type"] == "cmd_vel_mux.py" for node in file.nodes)
@@ -121,7 +118,6 @@ def real_robot(session: Session) -> None:
 
 
 def _check_items(file: LaunchFile) -> None:
-    """Raise Wrong unless it starts and includes what it should."""
     # Its node, with the remap, may stand here once more.
     topics = [f"/{to.strip('/')}" for node in file.own for _, to in node["remaps"]]
     is_included = any(each.endswith(f"/{TURTLEBOT}") for each in file.facts["files"])

@@ -179,7 +179,6 @@ def is_class(session: Session) -> Note | str | None:
 
 @check("C30", "the class does what the functions did", "6.2", "C29", look="rostopic echo /cmd_vel")
 def behaves(session: Session) -> Note | str | None:
-    """Ask of the class what C14 to C17 ask of the functions."""
     script, _, _ = program(session)
     seen = session.recording(drive, script)
     notes = [
@@ -194,7 +193,6 @@ def behaves(session: Session) -> Note | str | None:
 @check("C33", "its errors are seen", "6.2", "C30",
        look="rosrun joy2twist THE_CLASS, without a joystick")  # fmt: skip
 def errors_are_seen(session: Session) -> Note | str | None:
-    """Look at it without a joystick; and at a copy that lacks the import of Joy."""
     script, path, _ = program(session)
     text = without_name(session.text(PACKAGE, script), "Joy")
     seen = session.recording(alone, script, text or "")

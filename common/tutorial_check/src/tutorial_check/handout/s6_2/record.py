@@ -78,7 +78,6 @@ def alone(ground: Ground, script: str, text: str) -> Alone:
 
 
 def endings(ground: Ground, script: str) -> Endings:
-    """Start it once for each way, drive, and end all at once."""
     with ground.stage() as stage:
         robot = stage.start_ours("fake_turtlebot_sim", "fake_turtlebot.py")
         stage.call("advertise", JOY, "Joy")

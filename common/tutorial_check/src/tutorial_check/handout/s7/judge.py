@@ -35,7 +35,6 @@ LEAST_WAY_M, LEAST_WIDTH_M = 3.0, 2.0
 
 @check("C35", "the bumper is read", "7", "C2", look="rosrun beginner_tutorials bumper.py")
 def reads_bumper(session: Session) -> str:
-    """Look for the name of each bumper that is pressed, or its number, on the screen."""
     script = program_of(session, PACKAGE, "bumper.py")
     seen = session.recording(presses, script)
     if not seen.connected:

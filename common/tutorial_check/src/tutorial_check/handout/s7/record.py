@@ -52,7 +52,6 @@ def wanted(number: int) -> str:
 
 
 def presses(ground: Ground, script: str) -> Presses:
-    """Press each bumper."""
     shown: list[str] = []
     with ground.stage() as stage:
         stage.call("advertise", BUMPER, "BumperEvent")
