@@ -40,11 +40,12 @@ def test_the_encoders_count_ticks_in_16_bits(velocity, seconds, left_m, right_m)
         assert abs((ticks - way_m * TICKS_PER_M + 32768) % 65536 - 32768) <= 1.5
 
 
-def test_the_encoders_go_on_where_the_odometry_is_reset():
+@pytest.mark.parametrize("reset", [SimulatedRobot.reset_odometry, SimulatedRobot.reset])
+def test_the_encoders_go_on_where_the_odometry_is_reset(reset):
     one = robot()
     one.command((0.5, 0.0), 0)
     before = packet(one, SECOND).left_encoder
-    one.reset_odometry()
+    reset(one)
     assert (one.state().left_angle, packet(one, SECOND).left_encoder) == (0.0, before)
 
 
