@@ -161,9 +161,18 @@ def test_a_topic_of_both_directions_has_no_echo(bridge, start_ros2, ear):
     assert len(own) == len(set(own)) and all("hello" in text for text in own)
 
 
-def test_a_failed_start_is_one_line(start, monkeypatch):
-    monkeypatch.setenv("TUTORIAL_ROS2", "/nowhere/python")
-    program = start("rosrun", "ros2_bridge", "bridge")
+@pytest.mark.parametrize(
+    ("python", "text", "line"),
+    [
+        ("/nowhere/python", "", "bridge: no ROS 2 here yet: ./tutorial ros2 --yes sets it up\n"),
+        ("", "topics: {joy: {direction: up}}", "topics.yaml: 'joy': a topic is"),
+    ],
+    ids=["no ROS 2", "a wrong list"],
+)
+def test_a_failed_start_is_one_line(start, monkeypatch, tmp_path, python, text, line):
+    if python:
+        monkeypatch.setenv("TUTORIAL_ROS2", python)
+    (tmp_path / "topics.yaml").write_text(text)
+    program = start("rosrun", "ros2_bridge", "bridge", f"_topics:={tmp_path}/topics.yaml")
     assert program.wait() == 1
-    line = "bridge: no ROS 2 here yet: ./tutorial ros2 --yes sets it up\n"
     assert line in program.output and "Traceback" not in program.output

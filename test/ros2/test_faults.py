@@ -85,7 +85,9 @@ def test_a_side_that_is_killed_stops_the_robot_and_comes_back(way, side):
 @pytest.mark.parametrize("side", ["ROS 1", "ROS 2"])
 def test_what_waited_for_a_suspended_side_does_not_move_the_robot(way, stick, side, start):
     way.send(side, signal.SIGSTOP)
-    way.robot.wait_for_rest()  # as nothing new comes
+    sent = len(stick.sent)
+    wait_for(lambda: len(stick.sent) > sent + 3 * RATE * OLD_S, "Joys that become too old")
+    way.robot.wait_for_rest()
     stick.end()
     if side == "ROS 2":
         wait_for_doctor(start, "bridge the side of ROS 2 is missing: its terminal")
