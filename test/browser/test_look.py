@@ -38,7 +38,7 @@ WIDEST = """Math.max(document.documentElement.scrollWidth,
     .map((one) => one.getBoundingClientRect().right))"""
 
 
-# Only what is wrong is looked at closely, and returned: the rest would take several times as long.
+# What is wrong alone is looked at closely, and comes back: all else would take twice as long.
 AXE = """const [given, done] = arguments, options = {runOnly: given, resultTypes: ["violations"]};
 axe.run(document, options).then((found) => done(found.violations));"""
 

@@ -67,7 +67,7 @@ export class Glass {
   show({ held, left: stick }) {
     const [left, up] = stick;
     for (const button of this.buttons) {
-      button.classList.toggle("held", false);
+      button.classList.toggle("held", held.includes(button.dataset.button));
     }
     this.knob.style.transform = `translate(${-left * 100}%, ${-up * 100}%)`;
   }
