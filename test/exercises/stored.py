@@ -28,8 +28,8 @@ def path_of(test):
 
 def names(workspace, underlay):
     """Return {what a recording names: what is stored in its place}."""
-    devel = Path(underlay).parent
-    return {str(workspace): "{workspace}", str(devel): "{devel}", str(REPOSITORY): "{suite}"}
+    lower = Path(underlay).parents[1]
+    return {str(workspace): "{workspace}", str(lower): "{underlay}", str(REPOSITORY): "{suite}"}
 
 
 def write(test, outcomes, workspace, underlay):

@@ -122,9 +122,15 @@ def _read(session: Session) -> dict[str, dict[str, Any]]:
     if facts is None:
         seen, hint = "reading them does not end", "roslaunch --nodes FILE"
         raise Wrong("launch files that roslaunch can read", seen, hint=hint)
-    for node in (node for one in facts for node in one["nodes"]):
-        node["package"] = session.task.known_as(node["package"])
-    return {Path(one["path"]).name: one for one in facts}
+    known_as = session.task.known_as
+
+    def known(node: dict[str, Any]) -> dict[str, Any]:
+        return {**node, "package": known_as(node["package"])}
+
+    return {
+        Path(one["path"]).name: {**one, "nodes": [known(node) for node in one["nodes"]]}
+        for one in facts
+    }
 
 
 def check_file(session: Session, name: str) -> LaunchFile:

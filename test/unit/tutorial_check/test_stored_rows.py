@@ -1,0 +1,32 @@
+"""Every row of the exercises, judged from the recordings that are stored beside the rows."""
+
+import json
+import lzma
+
+import stored
+from test_mistakes import test_a_mistake_is_found  # noqa: F401
+from test_right import (  # noqa: F401
+    check,
+    test_a_literal_solution_is_right_and_noted,
+    test_a_right_solution_is_noted,
+    test_a_variant_is_right,
+    test_the_solutions_of_the_suite_are_right,
+)
+from test_task import (  # noqa: F401
+    test_a_factor_has_its_sign,
+    test_a_right_solution_of_a_task_is_right,
+    test_each_value_of_a_task_is_checked,
+    wrong_of,
+)
+
+
+def test_recordings_are_by_the_recorders_of_today():
+    files = stored.FOLDER.glob("*.json.xz")
+    found = {file.name: json.loads(lzma.decompress(file.read_bytes()))["code"] for file in files}
+    old = {
+        module
+        for code in found.values()
+        for module in code
+        if code[module] != stored.code_hash(module)
+    }
+    assert not old, "have changed since: ./tutorial test exercises --store"
