@@ -82,8 +82,10 @@ def examine(copy, module, source, tests, options):
     if subprocess.call(command, shell=True, cwd=copy, stdout=subprocess.DEVNULL):
         sys.exit(f"{module}: its tests fail as it is: see ./tutorial test unit")
     timeout_s = 10 + 4 * (time.monotonic() - begin_s)
+    # cosmic-ray ends the shell alone, and would wait for a pytest that works without end.
+    command = f"timeout --signal=KILL {timeout_s:.0f} {command}"
     config, session = f"{copy}/cosmic-ray.toml", f"{copy}/{module}.sqlite"
-    Path(config).write_text(CONFIG.format(module=source, timeout_s=timeout_s, command=command))
+    Path(config).write_text(CONFIG.format(module=source, timeout_s=timeout_s + 10, command=command))
     tools = Path(sys.executable).parent
 
     def run(tool, *arguments):
