@@ -45,7 +45,9 @@ def write(test, outcomes, workspace, underlay):
 
 def read(test, workspace, underlay, folder=HANDED_IN):
     """Return the recordings of a test. folder: with the copy of the workspace."""
-    text = lzma.decompress(path_of(test).read_bytes()).decode()
+    path = path_of(test)
+    assert path.exists(), f"{path.name} is missing: ./tutorial test exercises --store -k ROW -n 1"
+    text = lzma.decompress(path.read_bytes()).decode()
     for path, name in {**names(workspace, underlay), str(folder): HANDED_IN}.items():
         text = text.replace(name, path)
     return json.loads(text)["recordings"]

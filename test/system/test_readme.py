@@ -42,6 +42,7 @@ LEFT_OUT = {
     "roscore": "runs already: this test has one for every section",
     "./tutorial demo": "test_demo.py and test/check_bare_machine run it",
     "./tutorial test": "is what runs this",
+    "./tutorial check --all": "test/exercises/test_awkward.py checks a class",
     "./tutorial doctor": "test/ros/tutorial_tools asks it, where something moves",
     "roslaunch joy2twist launch_joy_node.launch virtual:=true": "needs the keys of a terminal",
     "roslaunch joy2twist student.launch name:=robot_7 virtual:=true": "as the line before",

@@ -1,4 +1,4 @@
-"""C13 to C18: the program joy2twist.py, first and second version."""
+"""C13 to C18, C34: the program joy2twist.py, first and second version."""
 
 from __future__ import annotations
 
