@@ -119,7 +119,7 @@ def run_all():
                 stdin=subprocess.DEVNULL, stdout=output, stderr=output,
             )  # fmt: skip
         RUNNING.append(command)
-    say("tests: ros, system and launch at once, for some minutes; till then see")
+    say("tests: ros, system and launch at once, for some minutes; until then see")
     say(f"   {RESULTS}/test_*.log")
     for kind, log, process in zip(TOGETHER, logs, RUNNING):
         failed += [kind] if process.wait() else []

@@ -228,7 +228,7 @@ class Run:
     def _unreached(self, check: Check, culprits: list[Result]) -> Result:
         self._blocked_by[check.id] = culprits
         first = culprits[0]
-        why = f"first mend {first.id}: {first.title}"
+        why = f"first fix {first.id}: {first.title}"
         if first.status == UNREACHED:
             why = f"{first.id} could not be checked"
         return check.result(UNREACHED, seen=why)

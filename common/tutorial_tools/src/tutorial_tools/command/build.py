@@ -186,7 +186,7 @@ def build_student(workspace: Path, student: Path) -> None:
             build_new(workspace, student)
             return
     for path, why in broken_manifests(str(student / "src"))[:1]:
-        say(f"{path}: {why}; until that is mended no ROS program starts in {student}")
+        say(f"{path}: {why}; until that is fixed no ROS program starts in {student}")
     util = student / "devel" / "_setup_util.py"
     made = util.read_text(errors="replace") if util.exists() else ""
     if f"{workspace}/lower/devel" not in made:
@@ -205,7 +205,7 @@ def build_new(workspace: Path, student: Path) -> None:
         lines = log.read_text(errors="replace").splitlines()
         for line in [line for line in lines if WRONG.search(line)][:5] or lines[-1:]:
             print(f"   {line}", file=sys.stderr)
-        todo = f"mend what is said above, then catkin_make in it ({log} has all)"
+        todo = f"fix what is said above, then catkin_make in it ({log} has all)"
         say(f"{student} does not build: {todo}")
 
 

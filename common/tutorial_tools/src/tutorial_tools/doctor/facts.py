@@ -156,6 +156,6 @@ class Facts:
             for node in self.subscribers.get(joy, []):
                 sends = [t for t in self.topics(TWIST) if node in self.publishers.get(t, [])]
                 if sends:
-                    hears, _ = found.setdefault(node, ([], sends))
-                    hears.append(joy)
+                    inputs, _ = found.setdefault(node, ([], sends))
+                    inputs.append(joy)
         return found
