@@ -150,7 +150,7 @@ def test_results_are_those_of_one_machine(literal, folder, underlay, scheduler, 
 
 
 def test_a_submission_that_ends_workers_is_abandoned(scheduler, worker, client):
-    """Killed each time it has begun to check it, as by the kernel when memory is short."""
+    """Killed each time it has started to check it, as by the kernel when memory is short."""
     scheduler()
     call = client()
     for host in ("one", "two"):

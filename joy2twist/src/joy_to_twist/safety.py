@@ -173,7 +173,7 @@ class Safety:
         self.state = self._unarmed = NOT_ARMED
 
     def lost(self, why: str, now: float) -> Velocity | None:
-        """Stop, as the joystick cannot be relied upon, and disarm if so configured."""
+        """Stop, as the joystick is unreliable, and disarm if so configured."""
         if not self._hears:
             return None
         self._forget(f"stopped: {why}")

@@ -1,4 +1,4 @@
-"""What the hub sends and hears; a failure, a flood or a slow page does not hold up others."""
+"""What the hub sends and receives; a failure, a flood or a slow page does not hold up others."""
 
 import json
 from types import SimpleNamespace

@@ -74,7 +74,7 @@ def test_both_wheels_drop_exactly_at_the_edge(limits):
     robot = driven(SimulatedRobot(Parameters(world=EDGE, **limits)), (0.7, 0.0), 5)
     assert robot.sensed().wheels == (True, True)
     assert robot.true_pose[0] == pytest.approx(1.0, abs=EXACT)
-    assert robot.state()[3:5] == (0.0, 0.0)  # it lies there
+    assert robot.state()[3:5] == (0.0, 0.0)  # it stays there
     assert driven(robot, (-0.5, 0.0), 1, 5).true_pose[0] == pytest.approx(1.0, abs=EXACT)
 
 

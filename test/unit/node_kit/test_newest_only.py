@@ -48,7 +48,7 @@ def test_a_side_that_does_not_read_gets_whole_messages_and_the_newest_one(connec
         sender.write(message(number))
     numbers = numbers_until(far, 19_999)
     assert numbers == sorted(set(numbers))
-    assert len(numbers) < 10_000  # what lay between is not sent any more
+    assert len(numbers) < 10_000  # what was between is not sent any more
     for number in range(100):  # from here on each arrives at once again
         sender.write(message(number))
         assert far.recv(SIZE, socket.MSG_WAITALL) == message(number)

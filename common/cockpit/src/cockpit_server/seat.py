@@ -201,7 +201,7 @@ class Seat:
             self.why, self.stopped = why, self.robot
 
     def moves_on(self, robot: str) -> None:
-        """Forget why a robot stood: it moves again."""
+        """Forget why a robot was stopped: it moves again."""
         if robot == self.stopped:
             self.why, self.stopped = "", None
 

@@ -1,6 +1,6 @@
 """The side of ROS 2, run by its Python: converts the bytes, subscribes and publishes.
 
-Needs rclpy and rosbags, and of the suite this folder alone: link.py and routes.py lie beside it.
+Needs rclpy and rosbags, and of the suite this folder alone: link.py and routes.py are beside it.
 """
 
 from __future__ import annotations
@@ -202,7 +202,7 @@ def quality(route: Route, is_latched: bool) -> QoSProfile:
 
 
 def fitting(route: Route, offered: list[QoSProfile], is_own_kept: bool) -> QoSProfile:
-    """Return the quality of service of a subscription that hears all of these publishers.
+    """Return the quality of service of a subscription that receives from all of these publishers.
 
     is_own_kept: this node's own publisher keeps messages, which must not come back.
     """

@@ -18,7 +18,7 @@ from tutorial_check.model import CannotCheck, Check
 
 FILE = "course.yaml"
 OURS = Path(__file__).resolve().with_name("handout")
-# The modules of a course, which may lie anywhere, are those of a package of this name.
+# The modules of a course, which may be anywhere, are those of a package of this name.
 PACKAGE = "tutorial_course"
 
 # Of what YAML gives, by the type of a field; of others anything.

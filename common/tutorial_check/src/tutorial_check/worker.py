@@ -130,7 +130,7 @@ def _prepared(order: Order, reader: int) -> Ground:
         task=variants.task_of(course)(order.variant),
     )
     if uid is not None:
-        if not order.apart:  # then the suite may lie where that user cannot read
+        if not order.apart:  # then the suite may be where that user cannot read
             importlib.import_module("rosbag")
             importlib.import_module("tutorial_check.record.driver")
         os.setgroups([])

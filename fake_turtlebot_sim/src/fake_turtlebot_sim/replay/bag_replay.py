@@ -27,7 +27,7 @@ Commands = List[Tuple[int, Optional[Velocity]]]  # times [ns]; None: a message n
 
 
 class ReplayError(Exception):
-    """What the user can mend; the text says how, in one line."""
+    """What the user can fix; the text says how, in one line."""
 
 
 @dataclass

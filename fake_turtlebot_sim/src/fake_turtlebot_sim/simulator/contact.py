@@ -52,7 +52,7 @@ def gap(x: float, y: float, radius: float, obstacle: Obstacle) -> float:
 
 
 def direction_to(pose: Pose, obstacle: Obstacle) -> float:
-    """Return the direction [rad] in which an obstacle lies from a pose, in the frame of both."""
+    """Return the direction [rad] of an obstacle from a pose, in the frame of both."""
     px, py = nearest(pose[0], pose[1], obstacle)
     return atan2(py - pose[1], px - pose[0])
 

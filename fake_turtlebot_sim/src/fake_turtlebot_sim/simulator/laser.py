@@ -110,7 +110,7 @@ class Laser:
         """
         p = self._parameters
         x, y, _ = sensor = composed(pose, (p.scan_x, p.scan_y, 0.0))
-        if not hypot(x - self._at[0], y - self._at[1]) < REACH_M:  # choose anew what is in reach
+        if not hypot(x - self._at[0], y - self._at[1]) < REACH_M:  # choose again what is in reach
             self._at, reach = (x, y), p.scan_range_max + REACH_M
             near = self._obstacles[gaps(x, y, self._obstacles) <= reach]
             self._walls, self._posts = near[near[:, 4] == 0.0], near[near[:, 4] > 0.0]

@@ -46,7 +46,7 @@ class RobotTopics:
         self.rejected = 0
         self.robot = SimulatedRobot(parameters, start_pose, name)
         self.odom_frame = prefix + parameters.odom_frame
-        # The frames a pose may be given in: that of all robots lies on that of each odometry.
+        # The frames a pose may be given in: that of all robots coincides with each odometry's.
         self._frames = [self.odom_frame] + ([parameters.world_frame] if name else [])
         self._is_in_world = parameters.world is not None
         if parameters.world:

@@ -239,7 +239,7 @@ class SimulatedRobot:
         elif self._dropped == ON_ITS_WHEELS:
             self._drive_in_world(self._surroundings, Piece(*wheels, dt), Piece(*true, dt))
         else:
-            self._velocity = REST  # it lies there until it is lifted
+            self._velocity = REST  # it stays there until it is lifted
 
     def _drive_in_world(self, around: Surroundings, wheels: Piece, true: Piece) -> None:
         """Drive until something is in the way, or a wheel drops."""

@@ -19,7 +19,7 @@ NODES = {"joy_node": JOYSTICK, "joy2twist": DRIVER, "mux": MUX, "base": BASE}
 TELEOP = "cmd_vel_mux/input/teleop"
 TOPICS = {"teleop": TELEOP, "navi": "cmd_vel_mux/input/navi", "cmd_vel": "cmd_vel"}
 # What must hold: the wheels rest in time, and then wait for the release of all; they wait for it
-# if they stood; the robot is driven on all the while; it may stop and drive on, for it is no loss.
+# if they were at rest; the robot is driven on all the while; it may stop and drive on, for it is no loss.
 RESTS, WAITS, DRIVES_ON, MAY_STOP = "rests", "waits", "drives on", "may stop"
 
 VIGILANCE_S = 1.0  # joy2twist's ~vigilance_timeout here, for more trials
@@ -66,7 +66,7 @@ def serialised(message):
     return buff.getvalue()
 
 
-# Cut, or with lengths that lie; of what is too long rospy reads the beginning.
+# Cut, or with wrong lengths; of what is too long rospy reads the beginning.
 BROKEN = (b"", bytes(20), serialised(HELD)[:-3], b"\xff" * 100_000)
 
 

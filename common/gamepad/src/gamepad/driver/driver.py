@@ -103,7 +103,7 @@ class Driver:
     def lost(self, now: float) -> list[Message]:
         """Return the messages to publish at a loss: a neutral one, if any was before.
 
-        The next gamepad to be opened is mute until the user touches it. What the kernel says of a
+        The next gamepad to be opened sends nothing until the user touches it. What the kernel says of a
         gamepad at opening may be made up, and a made-up neutral position would arm a robot.
         """
         messages = [self._state.neutral(self._triggers)] if self._state and self._told else []

@@ -1,4 +1,4 @@
-"""Python 2, by the errors that Python 3 makes of it: all that 2to3 mends, by its fixers. Pure."""
+"""Python 2, by the errors that Python 3 makes of it: all that 2to3 fixes, by its fixers. Pure."""
 
 from __future__ import annotations
 

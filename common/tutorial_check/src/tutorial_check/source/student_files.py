@@ -10,7 +10,7 @@ from tutorial_check.model import CannotCheck
 
 
 def put(base: Path, path: Path, text: str, mode: int = 0o644) -> None:
-    """Make a file below a folder anew; what lies there is removed. Raises CannotCheck."""
+    """Make a new file below a folder; what is there is removed. Raises CannotCheck."""
     with _folder_of(base, path) as (folder, name):
         with contextlib.suppress(FileNotFoundError):
             os.unlink(name, dir_fd=folder)

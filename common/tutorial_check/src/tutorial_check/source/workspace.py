@@ -58,7 +58,7 @@ class Layout:
 
 
 def hand_in(given: str | Path, folder: Path) -> tuple[Layout, Path]:
-    """Return the Layout, and the folder it lies in, of a workspace or a zip, which is unpacked in a folder.
+    """Return the Layout, and the folder it is in, of a workspace or a zip, which is unpacked in a folder.
 
     A folder with nothing but a zip, as Moodle has it, is that zip. Raises CannotCheck.
     """
@@ -99,7 +99,7 @@ def unpack(archive: Path, folder: Path) -> None:
 
 
 def find_layout(folder: str | Path) -> Layout:
-    """Return the Layout of a workspace, its src, a folder of packages, or one package, however deep it lies.
+    """Return the Layout of a workspace, its src, a folder of packages, or one package, however deep it is.
 
     Of several the one with the packages of the exercises. A home folder is not searched: others may
     keep their workspaces there.
@@ -174,7 +174,7 @@ def copy(layout: Layout, target: Path, inside: str | Path | None = None) -> Path
 
 @dataclass
 class _Copying:
-    """What lies at a path may change meanwhile: it is first held, then looked at, then opened."""
+    """What is at a path may change meanwhile: it is first held, then looked at, then opened."""
 
     target: str
     inside: str | None
@@ -182,7 +182,7 @@ class _Copying:
     count: int = 0
 
     def copy(self, source: Path, target: Path, seen: frozenset[str]) -> None:
-        """Copy a file, or what is in a folder; nothing else, and nothing that lies outside."""
+        """Copy a file, or what is in a folder; nothing else, and nothing that is outside."""
         with contextlib.ExitStack() as stack:
             try:
                 held = os.open(source, os.O_PATH | os.O_CLOEXEC)
