@@ -107,7 +107,7 @@ def test_the_doctor_installs_nothing(tutorial, bare_system):
     missing = r"\d\d Debian packages are missing, such as python3-roslaunch"
     todo = r"\./tutorial setup installs them"
     assert re.search(rf"^tutorial: doctor: nothing can drive: {missing}; {todo}$", line)
-    assert not (bare_system / "calls").exists()  # of apt-get
+    assert not (bare_system / "calls").exists()  # apt-get was not called
 
 
 def test_set_up_shows_how_far_it_is_and_asks_again_for_what_an_archive_out_of_reach_has(

@@ -4,7 +4,7 @@ from tutorial_testing.two_hosts.scene import REPOSITORY, ROBOT, WORKSTATION
 from tutorial_testing.waiting import tolerance, wait_for
 
 TURTLEBOT = "roslaunch joy2twist joy2twist_turtlebot.launch log_rate:=50"
-TIMEOUT_S = 0.6  # of the base
+TIMEOUT_S = 0.6  # the base's
 
 
 def distance(a, b):

@@ -7,7 +7,7 @@ import sys
 import tempfile
 import traceback
 
-MOST_S, MOST_MB = 5.0, 200.0  # of processor time, and of memory with what Python and ROS need
+MOST_S, MOST_MB = 5.0, 200.0  # [s of processor time], [MB with Python and ROS]
 BARE_MB = 70.0  # what they need before a file is read
 
 

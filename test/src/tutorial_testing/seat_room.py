@@ -89,7 +89,7 @@ class Topics:
 
     @property
     def handlers(self):
-        return {topic: hear for handlers in self._wants.values() for topic, hear in handlers.items()}
+        return {topic: hear for one in self._wants.values() for topic, hear in one.items()}
 
     def hear(self, topic, message):
         """message: of ROS, or bytes."""

@@ -8,7 +8,7 @@ import pytest
 from node_kit import newest_only
 from node_kit.newest_only import NewestOnly
 
-SIZE = 52  # of a Twist on the wire
+SIZE = 52  # [bytes] a Twist on the wire
 DEADLINE_S = 20.0
 STOP = bytes(SIZE)
 

@@ -73,7 +73,7 @@ def test_recorded_facts_have_a_diagnosis(rows, text, recorded, seen, where):
     [
         ("CONNECTED", NO_CALLBACK, {"shown": 3}),
         ("TOPICS", LATCHED, {}),
-        ("ONCE", LOOP, {"strays": 2}),  # of a machine that stuttered
+        ("ONCE", LOOP, {"strays": 2}),  # the machine stuttered
         ("ONCE", LOOP, {"twists": each(ZERO), "has_clock": True}),  # before the first Joy
         ("ONCE", LOOP, {"twists": [ZERO], "has_clock": True, "complaint": "every Twist is zero"}),
         ("RIGHT_RULE", LOOP, {}),

@@ -31,7 +31,7 @@ from tutorial_check.source.workspace import IGNORED, MOST_BYTES
 
 MOST_AT_ONCE = 1000  # submissions that the scheduler knows of
 TRIES = 2  # a submission that ends so many workers is abandoned
-PORT = 8786  # of a Dask scheduler
+PORT = 8786  # Dask scheduler
 CONNECT_S = 10.0
 # Who has this file is let in: certificate, authority and private key of all.
 CONFIG = os.environ.get("XDG_CONFIG_HOME") or "~/.config"

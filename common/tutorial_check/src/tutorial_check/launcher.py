@@ -43,7 +43,7 @@ class Outcome:
     trouble: str = ""  # why a check could not be made, through no fault of the student's
     title: str = ""
     points: float = 0.0  # for all of it; 0: one a check
-    place: str = ""  # of the workspace in what was handed in, if that is another folder
+    place: str = ""  # the workspace within what was handed in, if another folder
     remark: str = ""  # how well a program of someone else's was isolated, if not by bubblewrap
     # What was asked for these results and not before, with the answers of the worker, which see.
     recordings: list[dict[str, Any]] = field(default_factory=list)

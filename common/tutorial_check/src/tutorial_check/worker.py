@@ -30,7 +30,7 @@ from tutorial_check.source import workspace
 if TYPE_CHECKING:
     from tutorial_check.record.ground import Ground
 
-SHARED_PAGES = 1 << 16  # of System V shared memory: 256 MB
+SHARED_PAGES = 1 << 16  # System V shared memory: 256 MB
 
 
 def main() -> None:
@@ -39,7 +39,7 @@ def main() -> None:
     privileges.keep_to_itself()
     order = from_json(Order, json.load(sys.stdin))
     if order.apart:
-        privileges.prctl(privileges.PR_SET_PDEATHSIG, signal.SIGKILL)  # of bwrap
+        privileges.prctl(privileges.PR_SET_PDEATHSIG, signal.SIGKILL)  # ends with bwrap
         with contextlib.suppress(OSError):  # where the kernel does not allow it
             Path("/proc/sys/kernel/shmall").write_text(str(SHARED_PAGES))
     else:  # its runner notices that the reader has ended, and ends what was started

@@ -34,7 +34,7 @@ class ReplayError(Exception):
 class Replay:
     """What came of it."""
 
-    seconds: float  # of simulated time
+    seconds: float  # simulated time
     distance: float  # [m] along the path
     path: list[RobotState]  # one for each period, by the odometry; in a world, by the truth
     ignored: int  # commands that were none

@@ -42,7 +42,7 @@ class Scanner:
             beams, ranges = (np.concatenate(parts) for parts in zip(*found))
         nearest = np.full(self._count, np.inf)
         if len(beams):
-            order = np.argsort(beams, kind="stable")  # of small integers: linear
+            order = np.argsort(beams, kind="stable")  # small integers: linear time
             beams, ranges = beams[order], ranges[order]
             first = np.flatnonzero(np.diff(beams, prepend=-1))
             nearest[beams[first]] = np.minimum.reduceat(ranges, first)

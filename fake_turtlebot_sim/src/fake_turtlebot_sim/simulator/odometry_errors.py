@@ -41,7 +41,7 @@ class OdometryErrors:
 
     def forget(self) -> None:
         """Trust the odometry fully again, as after the robot was put at a known place."""
-        self.covariance: Any = np.zeros((3, 3))  # of x [m], y [m], yaw [rad]
+        self.covariance: Any = np.zeros((3, 3))  # x [m], y [m], yaw [rad]
 
     def true_velocity(self, velocity: Velocity) -> Velocity:
         """Return the velocity of the actual robot whose wheels turn as the nominal one's."""

@@ -72,7 +72,7 @@ class RobotTopics:
                 self._fresh.watch(subscriber)
         kobuki = prefix, self.robot, motion, self._is_in_world
         self._kobuki = KobukiTopics(*kobuki) if parameters.kobuki else None
-        if name:  # of a single robot the node's own does the same
+        if name:  # for a single robot the node's own does this
             rospy.Service(f"{prefix}reset", srv.Empty, self._on_reset)
 
     def move(self, now: Instant) -> None:

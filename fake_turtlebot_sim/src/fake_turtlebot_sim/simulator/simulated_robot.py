@@ -31,7 +31,7 @@ from fake_turtlebot_sim.simulator.world import BASE_RADIUS_M, FARTHEST_PLACE_M, 
 
 REST: Velocity = (0.0, 0.0)
 ON_ITS_WHEELS = (False, False)
-Change = Tuple[Velocity, Velocity]  # of a velocity, linear in time: at its begin and at its end
+Change = Tuple[Velocity, Velocity]  # a velocity, linear in time: at its start and at its end
 
 
 def meet(robots: Sequence[SimulatedRobot], reach: float) -> None:

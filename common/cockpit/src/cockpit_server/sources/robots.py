@@ -17,7 +17,7 @@ from cockpit_server.motion import Motion, covered, is_somewhere, motion
 from cockpit_server.schema import or_null, switch, text
 from node_kit.careful_connections import sender_of
 
-DIGITS = 4  # of metres: a tenth of a millimetre
+DIGITS = 4  # after the point [m]: a tenth of a millimetre
 LONGEST_JOY = 4000  # bytes; a gamepad's message has some 100, a huge one would hold up the driver
 KOBUKI = {  # what a robot's commands of these types ask for, by their value
     "kobuki_msgs/Led": ("off", "green", "orange", "red"),
@@ -26,7 +26,7 @@ KOBUKI = {  # what a robot's commands of these types ask for, by their value
     ),
 }  # fmt: skip
 COMMANDS = "/mobile_base/commands/"
-FRESH_S, LEAST_SPEED = 1.0, 0.01  # of odometry that says that a robot moves [m/s, rad/s]
+FRESH_S, LEAST_SPEED = 1.0, 0.01  # [s], [m/s, rad/s]: newer and faster odometry is motion
 
 
 class Robots(Source):
@@ -141,7 +141,7 @@ class Pads(Source):
         self.driven: str | None = None  # the robot that is driven from a page
         # topic -> (when its newest message came [s], what pages get of it)
         self._newest: dict[str, tuple[float, dict[str, Any] | None]] = {}
-        self._rivals: dict[str, tuple[str, float]] = {}  # topic -> (node, time of its newest message [s])
+        self._rivals: dict[str, tuple[str, float]] = {}  # topic -> (node, newest message [s])
 
     def prepare(self, clients: Sequence[Client], now: float) -> None:
         looked_at = {client.watch.look for client in clients} & self._graphs.graph.robots()

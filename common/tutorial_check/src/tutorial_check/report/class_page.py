@@ -30,8 +30,8 @@ LEGEND = {
 KINDS = {"ok": "ok", "-": "no", "?": "no", "not done": "no", "...": "no"}  # word: CSS class
 LONGEST = 70  # characters of a cause in a cell
 MOST_CAUSES = 10
-BAR = "\u2588"  # of one student
-WORDS = ("expected", "seen", "where", "hint")  # of a Result, in its order
+BAR = "\u2588"  # one student
+WORDS = ("expected", "seen", "where", "hint")  # a Result's fields, in its order
 # No script, picture or other content can load, whatever a name or an output contains.
 POLICY = "default-src 'none'; style-src 'unsafe-inline'"
 STYLE = """

@@ -35,7 +35,7 @@ def _folder_of(base: Path, path: Path) -> Iterator[Tuple[int, str]]:
     """Yield (descriptor of the folder that a file is in, its name there)."""
     wanted = os.path.normpath(os.path.realpath(base) / path.parent.relative_to(base))
     try:
-        if ".." in path.parts:  # of a recording, which may be made up
+        if ".." in path.parts:  # a recording may be made up
             raise OSError("its path leads elsewhere")
         folder = os.open(path.parent, os.O_RDONLY | os.O_DIRECTORY)
         try:

@@ -18,14 +18,14 @@ from catkin_pkg.package import InvalidPackage, parse_package
 from tutorial_check.isolation.privileges import own_rights
 from tutorial_check.model import CannotCheck
 
-MOST_BYTES = 300 << 20  # of a workspace's sources; bags included
+MOST_BYTES = 300 << 20  # sources of a workspace, including bags
 MOST_FILES = 20_000
 SOLUTIONS = {"beginner_tutorials", "joy2twist"}  # the packages of the exercises
 COPY = "handed_in/src"  # the copy of what was handed in, as in a workspace
 # The words of a launch file, and in one of them what a node of the exercises reads.
 BETWEEN_WORDS, WHOLE_PATH = re.compile(r"[\s\"'<>$]+"), re.compile(r"/.+\.(?:bag|rviz)\b")
 IGNORED = {"build", "devel", ".git", "__pycache__"}  # folders that no student writes
-LEFT_OUT = {*IGNORED, "install", ".catkin_tools", "logs"}  # of a workspace's sources
+LEFT_OUT = {*IGNORED, "install", ".catkin_tools", "logs"}  # not sources of a workspace
 
 
 @dataclass
@@ -54,7 +54,7 @@ class Layout:
     root: Path  # what the student handed in
     source: Path  # its src folder, or the folder of packages itself
     is_workspace: bool  # there is a src
-    place: str = ""  # of the root in what was handed in, if that is another folder
+    place: str = ""  # root within what was handed in, if another folder
 
 
 def hand_in(given: str | Path, folder: Path) -> tuple[Layout, Path]:

@@ -24,7 +24,7 @@ from tutorial_tools.hidden import hidden_stand_ins
 REPOSITORY = Path(__file__).resolve().parents[5]
 # The prefix of a ROS that is not the system's own, as ./tutorial has found it.
 PREFIX = os.environ.get("TUTORIAL_ROS", "")
-SHARE = Path(PREFIX or "/usr", "share")  # of its packages
+SHARE = Path(PREFIX or "/usr", "share")  # where its packages are
 OVERLAY = ("beginner_tutorials", "joy2twist", "test")  # the solutions
 # Commands of the shell, under these names.
 SCRIPTS = "common/tutorial_tools/scripts"

@@ -36,7 +36,7 @@ TALKS = "std_msgs/String on /chatter, about 10 times a second"
 LISTENS = "every text sent on /chatter, displayed once"
 GOES_ON = "it goes on until Ctrl-C"
 LOOP = "while not rospy.is_shutdown(): ..., rate.sleep() within it"
-RATE_TOLERANCE = 0.2  # of a rate that is asked for
+RATE_TOLERANCE = 0.2  # part of the expected rate
 FEW = 3  # messages: too few for a rate
 
 

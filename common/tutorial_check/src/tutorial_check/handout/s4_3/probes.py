@@ -27,7 +27,7 @@ def _pressed(*pressed: int) -> tuple[int, ...]:
 
 
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e-?\d+)?")
-SLOW, STEP = 0.3, 0.005  # of rising_joys()
+SLOW, STEP = 0.3, 0.005  # start and step of rising_joys()
 ROUNDED = 0.0056  # to two decimals a value is off by no more
 EARLY_S = 0.06  # by which a Twist may seem to come before its Joy
 AT_REST: Joy = (REST, _pressed(LB))
