@@ -72,7 +72,7 @@ class Safety:
         self._stopping = False  # zeros are being repeated, or have been
         self._repeats: float = 0  # zeros still to come
         self._next_output = math.inf  # when a zero or a step of the acceleration is due
-        self._sender: object = None  # last good message
+        self._sender: object = None  # sent the last good message
         self._switched_at = -math.inf  # when that was another one than before
         self._may_warn = Throttle(1.0 / WARNING_PERIOD_S)
         self.arming = Arming(not p.arm_on_neutral)  # for this sender
