@@ -41,7 +41,7 @@ def main() -> int:
                 readme.write_text(after)
     if "--check" not in sys.argv or not old:
         return 0
-    print("tables of parameters that are old, which ./tutorial lint --fix mends:", *old)
+    print("tables of parameters that are old, which ./tutorial lint --fix renews:", *old)
     return 1
 
 

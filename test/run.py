@@ -18,10 +18,10 @@ FAILED, CACHES = RESULTS / "failed", RESULTS / "pytest"
 PYTEST = ["/usr/bin/python3", "-m", "pytest"]
 JOBS = int(os.environ.get("TUTORIAL_JOBS", "2"))  # tests at a time
 NUMBER_OF_INTERRUPT = 130
-TOGETHER = ("ros", "system", "launch")  # of all; they mostly wait, so they run at the same time
+TOGETHER = ("ros", "system", "launch")  # they mostly wait, so they run at the same time
 ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 RUNNING = []  # in the background
-BRIDGE = "--bridge"  # of the faults
+BRIDGE = "--bridge"  # option of the faults
 MUTATE = RESULTS / "mutation/bin/python"  # with the lowest priority, as it takes hours
 
 
@@ -62,7 +62,7 @@ def tests(kind, given, *options):
     """Run pytest on the folder of a kind, or on what is named in it; it notes what fails."""
     folder = f"test/{kind}"
     where = [] if any(argument.startswith(folder) for argument in given) else [folder]
-    cache = ["-o", f"cache_dir={CACHES / kind}"]  # of a kind alone, as several run at a time
+    cache = ["-o", f"cache_dir={CACHES / kind}"]  # one per kind, as several run at a time
     return run(*PYTEST, "-p", "no:benchmark", *cache, *options, *where, *given)
 
 
@@ -107,9 +107,9 @@ KINDS = {
 
 def run_all():
     """Run unit tests, then the others at once; return the kinds that failed."""
-    shutil.rmtree(CACHES, ignore_errors=True)  # of a run that was killed nothing is to be known
+    shutil.rmtree(CACHES, ignore_errors=True)  # a killed run may have left some
     say("tests: unit")
-    options = os.environ.get("TUTORIAL_UNIT", "").split()  # of pytest: .ci/run
+    options = os.environ.get("TUTORIAL_UNIT", "").split()  # pytest options: .ci/run
     failed = ["unit"] if KINDS["unit"](options) else []
     logs = [RESULTS / f"test_{kind}.log" for kind in TOGETHER]
     for kind, log in zip(TOGETHER, logs):
@@ -119,7 +119,7 @@ def run_all():
                 stdin=subprocess.DEVNULL, stdout=output, stderr=output,
             )  # fmt: skip
         RUNNING.append(command)
-    say("tests: ros, system and launch at once, for some minutes; till then see")
+    say("tests: ros, system and launch at once, for some minutes; until then see")
     say(f"   {RESULTS}/test_*.log")
     for kind, log, process in zip(TOGETHER, logs, RUNNING):
         failed += [kind] if process.wait() else []

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Repeats what it hears on the topic chatter; with --unique under the plain name listener."""
+"""Repeats what it receives on the topic chatter; with --unique under the plain name listener."""
 
 import sys
 

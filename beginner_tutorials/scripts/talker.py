@@ -13,7 +13,7 @@ def talk():
     # unique on a ROS graph: a second node of the same name ends the first.
     rospy.init_node("talker", anonymous="--unique" not in sys.argv)
     publisher = rospy.Publisher("chatter", String, queue_size=10)
-    rate = rospy.Rate(10, reset=True)  # [Hz]; reset: go on when a simulated clock starts anew
+    rate = rospy.Rate(10, reset=True)  # [Hz]; reset: go on when a simulated clock restarts
     while not rospy.is_shutdown():
         text = f"hello world {rospy.get_time():.2f}"
         rospy.loginfo(text)

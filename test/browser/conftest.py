@@ -75,7 +75,7 @@ def webkit(monkeypatch):
 
 @pytest.fixture
 def page(world, shared_browser):
-    """The shared browser with the page opened anew; the test fails if its console has errors."""
+    """The shared browser with the page opened again; the test fails if its console has errors."""
     shared_browser.open(world.address)
     yield shared_browser
     errors = shared_browser.errors()

@@ -27,7 +27,7 @@ UNREPORTED = {
 def test_a_release_that_no_keyup_reports_stops_the_robot(world, page, name):
     hands = Keys(page)
     hands.drive(world)
-    if "list" in name:  # of a tab whose lists a driver may open
+    if "list" in name:  # a driver may open lists on this tab
         page.driver.execute_script("document.getElementById('tab-bag').click()")
     UNREPORTED[name](page)
     world.wait_for_rest()

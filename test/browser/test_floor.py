@@ -61,7 +61,7 @@ def test_a_phone_shows_the_driven_one_of_two_robots_beside_what_thumbs_hold(
             assert min(box["width"], box["height"]) >= least
             assert 0 <= box["x"] <= width - box["width"]
             assert 0 <= box["y"] <= height - box["height"]
-        every = "[...document.body.querySelectorAll('*')]"  # of which none zooms
+        every = "[...document.body.querySelectorAll('*')]"  # none zooms
         assert "auto" not in phone.ask(f"{every}.map((e) => getComputedStyle(e).touchAction)")
 
 

@@ -36,9 +36,9 @@ def test_chosen_robot_stays_chosen_while_it_is_gone_and_for_a_new_server(page):
     const gone = [named(["robot_1"]), look.selectedOptions[0].text];
     hello([]);
     done([gone, [named([]), named(given), look.selectedOptions[0].text]]);"""
-    gone, anew = run(page, "robot_tab.js", ROBOT_TAB + script)
+    gone, again = run(page, "robot_tab.js", ROBOT_TAB + script)
     assert gone == ["robot_2", "robot_2 (gone)"]
-    assert anew == ["robot_2", "robot_2", "robot_2"]
+    assert again == ["robot_2", "robot_2", "robot_2"]
 
 
 def test_new_connection_opens_the_recording_again_and_publishes_nothing(page):

@@ -15,7 +15,7 @@ from tutorial_testing.two_hosts.network import AS_ROOT, Network
 from tutorial_testing.waiting import tolerance, wait_for
 
 LIMIT_S = 0.5 + 0.02  # half a second and a period of the odometry are promised
-STEADY_S = 1.0  # of driving with a steady stick; more than seat.TICKS periods
+STEADY_S = 1.0  # steady stick; more than seat.TICKS periods
 ROBOT, PHONE = "10.11.12.1", "10.11.12.2"
 CUT = "network cut"
 

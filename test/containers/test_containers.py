@@ -136,7 +136,7 @@ def test_a_students_workspace_stays_the_students(workspace):
         inside = str(wrong.value)
     assert re.search("isolated by Landlock alone|no isolation here", inside)
     assert {path.lstat().st_uid for path in workspace.rglob("*")} == {owner}
-    # The verdicts are the same outside, where the workspace and its build lie elsewhere.
+    # The verdicts are the same outside, where the workspace and its build are elsewhere.
     outside = workspace.parent / "outside"
     shutil.copytree(workspace / "src", outside / "src", symlinks=True)
     (outside / "src/CMakeLists.txt").unlink()

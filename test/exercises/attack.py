@@ -90,7 +90,7 @@ def processes():
 
 
 def in_memory(folder):
-    """Whether a folder lies in memory, and more than 1 GB fit."""
+    """Whether a folder is in memory, and more than 1 GB fit."""
     kind = subprocess.run(["stat", "-f", "-c", "%T", folder], stdout=subprocess.PIPE, check=False)
     about = os.statvfs(folder)
     return kind.stdout == b"tmpfs\n" and about.f_blocks * about.f_frsize > 1 << 30

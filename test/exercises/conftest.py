@@ -65,9 +65,9 @@ def underlay():
 
 @pytest.fixture
 def examined(request, underlay, tmp_path):
-    """examined(workspace, exercises, ...): the Outcomes, recorded afresh; what is stored says the same."""
+    """examined(workspace, exercises, ...): the Outcomes, recorded again; what is stored says the same."""
 
-    def afresh(workspace, exercises, **about):
+    def recorded(workspace, exercises, **about):
         outcomes = examine(workspace, underlay, exercises, **about)
         name = request.node.name
         if request.config.getoption("--store"):
@@ -78,7 +78,7 @@ def examined(request, underlay, tmp_path):
         assert statuses(again) == statuses(outcomes), "stored recordings are judged otherwise"
         return outcomes
 
-    return afresh
+    return recorded
 
 
 def statuses(outcomes):

@@ -198,7 +198,7 @@ ZONE = "def zone(value):\n    return value if abs(value) > 0.1 else 0.0\nmy.zone
 # (what, answer, keep)
 STYLES = [
     ("plain", PLAIN + PUBLISH, ""),
-    ("one message, set anew", SET + TWICE, KEPT),
+    ("one message, set again", SET + TWICE, KEPT),
     ("keywords", "my.pub.publish(Twist(linear=Vector3(x=data.axes[1]), angular=Vector3(z=data.axes[0])))", ""),
     ("unpacked", f"left, forwards, *rest = data.axes\n{values('forwards', 'left')}", ""),
     ("a factor and a parameter", values("my.top * data.axes[1]", "1.5 * data.axes[0]"), "my.top = rospy.get_param('~top', 0.7)"),

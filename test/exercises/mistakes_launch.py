@@ -123,7 +123,7 @@ ROWS = [
     ("5", "joy2twist.py misnamed, and the launch files right", [move(JOY2TWIST, f"{J}/scripts/Joy2Twist.py")], "C21", ("mv /", "/Joy2Twist.py /", "scripts/joy2twist.py: capitals")),
     ("5", "two launch files of one name", [copy(LAUNCH_BAG, f"{J}/backup/launch_bag.launch")], "C21", "multiple files named"),
     ("5", "a folder in place of a launch file", [remove(LAUNCH_BAG), write(f"{LAUNCH_BAG}/x", "")], "C21", "no such file"),
-    ("5", "a recording that cannot be played", [write(f"{J}/bag/joy.bag", "none")], "C22", ("joy2twist/bag/joy.bag", "copy it anew")),
+    ("5", "a recording that cannot be played", [write(f"{J}/bag/joy.bag", "none")], "C22", ("joy2twist/bag/joy.bag", "copy it again")),
     ("5", "a folder in place of the recording", [remove(f"{J}/bag/joy.bag"), write(f"{J}/bag/joy.bag/x", "")], "C22", "joy.bag"),
     ("5", "two packages of one name", [copy(f"{B}/package.xml", "old/package.xml")], "C21", ("old", "roslaunch starts nothing")),
     ("5", "a package.xml that catkin refuses", [put(f"{B}/package.xml", "<license>TODO</license>", "")], "C21", (f"{B}/package.xml", "license")),

@@ -50,7 +50,7 @@ ROWS = [
     row("it turns on the spot", WANDER, "any(one < FREE for one in scan.ranges)", "True", "C37", "turn until it is"),
     row("it stands before a wall", WANDER, "twist.angular.z = self.turn", "pass", "C37", "in a place"),
     row("it circles blindly", WANDER, "if since_bump < BACK_S:", "if True:\n            twist.linear.x, twist.angular.z = 0.3, 0.4\n        elif since_bump < BACK_S:", "C37", "it pushed"),
-    row("it stands after a while", WANDER, "if since_bump < BACK_S:", "self.began = getattr(self, 'began', rospy.get_time())\n        if rospy.get_time() - self.began > 25.0:\n            pass\n        elif since_bump < BACK_S:", "C37", "it stood for"),
+    row("it stands after a while", WANDER, "if since_bump < BACK_S:", "self.began = getattr(self, 'began', rospy.get_time())\n        if rospy.get_time() - self.began > 25.0:\n            pass\n        elif since_bump < BACK_S:", "C37", "it did not move for"),
     row("it ends", WANDER, "    rospy.spin()\n", "", "C37", "rospy.spin()"),
 ]  # fmt: skip
 RIGHT = [

@@ -114,11 +114,11 @@ def test_ctrl_c_ends_the_check_of_all(literal, underlay, tmp_path):
     words = command(underlay, "--all", tmp_path / "group")
     with Program(*words, PYTHONPATH=PYTHONPATH) as professor:
         wait_for(lambda: examines(professor), "worker")
-        begun = descendants(professor.pid)
+        started = descendants(professor.pid)
         professor.interrupt()
         assert professor.wait() == 130
         assert "interrupted: no verdict" in professor.output
-        wait_for(lambda: not any(map(lives, begun)), "end of the workers")
+        wait_for(lambda: not any(map(lives, started)), "end of the workers")
         assert "Traceback" not in professor.output
         assert not (tmp_path / "group" / "check" / "table.csv").exists()
 

@@ -15,7 +15,7 @@ def bare(tmp_path, monkeypatch):
 
 
 def test_right_is_right_or_not_judged_without_namespaces(literal, underlay):
-    """Where the suite lies below root's home folder, launch files of another user cannot name it."""
+    """Where the suite is below root's home folder, launch files of another user cannot name it."""
     others_may_enter = all(folder.stat().st_mode & 0o001 for folder in Path(underlay).parents)
     code, out, error = check(underlay, "--in", literal.parent, "2", "3", "4", "5")
     assert code == (0 if os.geteuid() or others_may_enter else 2), out + error

@@ -150,11 +150,11 @@ def test_results_are_those_of_one_machine(literal, folder, underlay, scheduler, 
 
 
 def test_a_submission_that_ends_workers_is_abandoned(scheduler, worker, client):
-    """Killed each time it has begun to check it, as by the kernel when memory is short."""
+    """Killed each time it has started to check it, as by the kernel when memory is short."""
     scheduler()
     call = client()
     for host in ("one", "two"):
-        each = worker(host, "--jobs", 1)  # of several, a second one may get it before that ends
+        each = worker(host, "--jobs", 1)  # with several, another could take it first
         wait_for(lambda each=each: examines(each), "a worker", 120)
         kill(each)
     assert call.wait(120) == 2, call.output

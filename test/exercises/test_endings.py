@@ -77,10 +77,10 @@ def test_nothing_is_left(literal, underlay, environment, how, work):
             lambda: [pid for pid in processes_like(f"{scratch}/") if seen in command_line(pid)],
             work,
         )
-        begun = descendants(checker.pid)
+        started = descendants(checker.pid)
         os.kill(checker.pid, how)
         assert checker.wait() == (-9 if how == signal.SIGKILL else 130)
-        wait_for(lambda: not any(map(lives, begun)), "end of what was started", SOON_S)
+        wait_for(lambda: not any(map(lives, started)), "end of what was started", SOON_S)
         wait_for(lambda: not processes_like(f"{scratch}/"), "end of what that started", SOON_S)
         wait_for(lambda: not os.listdir(scratch), "end of its folder", SOON_S)
         assert "Traceback" not in checker.output

@@ -1,4 +1,4 @@
-"""What is handed in may lie in the home folder, which is hidden before a program runs, and be a link."""
+"""What is handed in may be in the home folder, which is hidden before a program runs, and be a link."""
 
 import shutil
 from pathlib import Path
@@ -21,7 +21,7 @@ SETUP = {
 
 @pytest.fixture
 def home(tmp_path, monkeypatch):
-    """A home folder, in which `literal` lies too."""
+    """A home folder, in which `literal` is too."""
     monkeypatch.setenv("HOME", str(tmp_path))
     return tmp_path
 

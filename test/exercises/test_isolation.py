@@ -132,7 +132,7 @@ def test_a_hostile_program_reaches_what_the_readme_says(
     with (package / "CMakeLists.txt").open("a") as file:
         file.write(BUILD)
     home.mkdir(0o700)
-    (home / "secret").write_text("<html>")  # of which the checker would say that it is a web page
+    (home / "secret").write_text("<html>")  # the checker would call it a web page
     (home / "secret").chmod(0o600)
     environment = {**os.environ, "PYTHONPATH": PYTHONPATH, "HOME": str(home)}
     if mode not in MODES[:2]:

@@ -9,7 +9,7 @@ import rclpy
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from std_msgs.msg import String
 
-sys.path.insert(0, sys.argv[1])  # of the bridge
+sys.path.insert(0, sys.argv[1])  # the bridge's folder
 from link import Frame
 from ros2_side import Ros2Side, fitting
 from routes import Route

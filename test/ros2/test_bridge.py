@@ -84,7 +84,7 @@ def test_drivers_of_any_quality_are_carried_in_turn(bridge, start_ros2, twists, 
 def test_quality_of_service_and_what_is_kept_for_late_subscribers(start_ros2):
     """All publishers are heard; with an age limit, or what this node keeps, nothing old is.
 
-    A publisher is not made anew for a sender that does not latch; it is after the last that does.
+    A publisher is not renewed for a sender that does not latch; it is after the last that does.
     """
     program = start_ros2(QUALITIES, SOURCES)
     assert program.wait() == 0, program.output

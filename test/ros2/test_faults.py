@@ -75,7 +75,7 @@ def test_a_side_that_is_killed_stops_the_robot_and_comes_back(way, side):
     pid, late_s = way.bridge.process(side), tolerance()
     began_s = way.send(side, signal.SIGKILL)
     assert way.robot.wait_for_rest(began_s) - began_s < REST_S + late_s()
-    line = f"bridge: the side of {side} has ended (signal 9): it is started anew"
+    line = f"bridge: the side of {side} has ended (signal 9): it is restarted"
     wait_for(lambda: line in way.bridge.output, "the line about it")
     assert way.bridge.process(side) != pid
     wait_for(lambda: way.robot.moves, "a robot that drives again")

@@ -1,4 +1,4 @@
-"""joy2twist in a workspace of somebody else's: the commands of its README, with two folders."""
+"""joy2twist in a workspace of someone else's: the commands of its README, with two folders."""
 
 import re
 from pathlib import Path

@@ -107,7 +107,7 @@ def test_the_doctor_installs_nothing(tutorial, bare_system):
     missing = r"\d\d Debian packages are missing, such as python3-roslaunch"
     todo = r"\./tutorial setup installs them"
     assert re.search(rf"^tutorial: doctor: nothing can drive: {missing}; {todo}$", line)
-    assert not (bare_system / "calls").exists()  # of apt-get
+    assert not (bare_system / "calls").exists()  # apt-get was not called
 
 
 def test_set_up_shows_how_far_it_is_and_asks_again_for_what_an_archive_out_of_reach_has(
@@ -160,7 +160,7 @@ def test_without_pypi_only_replay_bag_is_missing(call, bare_system):
 
 
 def test_pip_installs_no_file_of_another_hash(tmp_path, monkeypatch):
-    """A release whose file somebody exchanged is refused."""
+    """A release whose file someone exchanged is refused."""
     wheel, lock = tmp_path / "thing-1.0-py3-none-any.whl", tmp_path / "test/locks/own.txt"
     about = {"METADATA": "Metadata-Version: 2.1\nName: thing\nVersion: 1.0"}
     about.update(WHEEL="Wheel-Version: 1.0\nTag: py3-none-any", RECORD="")

@@ -4,7 +4,7 @@ from tutorial_testing.two_hosts.scene import REPOSITORY, ROBOT, WORKSTATION
 from tutorial_testing.waiting import tolerance, wait_for
 
 TURTLEBOT = "roslaunch joy2twist joy2twist_turtlebot.launch log_rate:=50"
-TIMEOUT_S = 0.6  # of the base
+TIMEOUT_S = 0.6  # the base's
 
 
 def distance(a, b):
@@ -67,7 +67,7 @@ def test_a_pulled_cable_stops_the_robot_which_drives_again_after_neutral(scene):
     scene.more()
     assert max(distance(m, stands) for m in scene.odometry if m.stamp > stands.stamp) == 0.0
 
-    # Neutral once, and it drives as before, with no program started anew.
+    # Neutral once, and it drives as before, with no program restarted.
     scene.tell("neutral")
     wait_for(lambda: "is back" in scene.workstation.output, "word of joy2twist")
     wait_for(lambda: ends_with(active, "idle"), "robot that nobody drives")

@@ -45,7 +45,7 @@ DEBIAN = {
     **{name: f"python3-{name}" for name in (
         "evdev", "matplotlib", "numpy", "rospkg", "tornado", "tqdm", "yaml")},
 }  # fmt: skip
-UNDECLARED = {"rosbags", "rclpy"}  # PyPI's, of which package.xml cannot speak
+UNDECLARED = {"rosbags", "rclpy"}  # PyPI's, which package.xml cannot name
 
 
 @pytest.mark.parametrize("package", [p for p in PACKAGES if p != "common/tutorial_check"])

@@ -34,7 +34,7 @@ export function offer(select, choices) {
   if (choices.some(([value]) => value === chosen)) select.value = chosen;
 }
 
-/** Set a text only if it differs: screen readers read each change aloud. */
+/** Set a text only if it differs: screen readers read each change. */
 export function say(target, text) {
   if (target.textContent !== text) target.textContent = text;
 }

@@ -20,9 +20,9 @@ export class Floor {
   #robots = {};
   #pointers = new Map();
   #due = false;
-  #free = { left: 0, top: 0, right: 0, bottom: 0 }; // the part of the canvas on which nothing lies [pixel]
+  #free = { left: 0, top: 0, right: 0, bottom: 0 }; // the part of the canvas that nothing covers [pixel]
 
-  /** above(): the elements that lie on the canvas. Robots and texts are drawn beside them. */
+  /** above(): the elements that cover the canvas. Robots and texts are drawn beside them. */
   constructor(canvas, above) {
     this.canvas = canvas;
     this.above = above;
@@ -102,7 +102,7 @@ export class Floor {
     this.#drawSoon();
   }
 
-  /** The boxes of what lies on the canvas, in its pixels. */
+  /** The boxes of the elements above the canvas, in its pixels. */
   #boxes() {
     const corner = this.canvas.getBoundingClientRect();
     const boxes = this.above().map((one) => one.getBoundingClientRect());

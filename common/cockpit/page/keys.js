@@ -33,7 +33,7 @@ export class Keys {
       if (!isKnown || !isOurs() || event.target.matches?.(TYPED_INTO)) return;
       event.preventDefault();
       event.stopPropagation();
-      // A key that was down before the page came back only repeats: it must be pressed anew.
+      // A key that was down before the page came back only repeats: it must be pressed again.
       if (event.repeat || event.ctrlKey || event.altKey || event.metaKey) return;
       this.#down.add(event.code);
       onChange();

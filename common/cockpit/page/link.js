@@ -18,7 +18,7 @@ export class Link {
   #socket = null;
   #handlers = new Map();
   heardAt = 0; // when the newest message came [ms since 1970], also on a machine that slept since
-  #lastHeard = 0; // or when the connection was begun
+  #lastHeard = 0; // or when the connection was started
   #lostAt = 0;
   #state = "connecting";
   #robots = {}; // the newest of each, as a message has only those that changed

@@ -24,7 +24,7 @@ START_S = 1372636800  # stamp of the first message: 2013-07-01, the month of the
 FRAME_ID = "/dev/input/js0"  # what joy_node writes: the device
 JS_FULL = 32767  # a stick at its end, in the events of the Linux joystick device
 LB = 4  # the dead-man button of the F710
-AXES, BUTTONS = 6, 12  # of the F710 in D mode
+AXES, BUTTONS = 6, 12  # the F710 in D mode
 
 # A heading that swings as 1 - cos closes to a figure of eight if the swing's half height [rad] is
 # the first zero of the Bessel function J0 (Abramowitz and Stegun, table 9.5).

@@ -1,4 +1,4 @@
-"""Repeats what it hears on the topic chatter."""
+"""Repeats what it receives on the topic chatter."""
 
 import rclpy
 from rclpy.executors import ExternalShutdownException

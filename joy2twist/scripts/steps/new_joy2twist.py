@@ -35,7 +35,7 @@ class NewJoy2Twist:
         # lives: each Joy of that second becomes one more velocity, and the robot drives again.
         self.stopping = True  # so does what rospy has read and not yet handed out
         self.joy.unregister()
-        for _ in range(3):  # a callback that has begun already may send after the first zero
+        for _ in range(3):  # a callback that has started already may send after the first zero
             self.cmd_vel.publish(Twist())
             time.sleep(0.1)  # not rospy.sleep(): simulated time may stand still
 

@@ -34,7 +34,7 @@ class Axis:
     """One joystick axis that drives one component of the velocity."""
 
     component: int  # index into COMPONENTS
-    index: int  # of the axis in the Joy message
+    index: int  # axis in the Joy message
     scale: float  # velocity at full deflection [m/s or rad/s]
     turbo_scale: float  # the same with the turbo button
 

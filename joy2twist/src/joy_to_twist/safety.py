@@ -28,7 +28,7 @@ BAD_MESSAGE = "stopped: bad joystick message"
 ARMED = "armed: hold the dead-man button to drive"
 WARNS_BEFORE_S = 0.5  # before the stop, when a joystick does not change
 IN_TURN_S = 1.0  # two joystick nodes that send within this time of each other send in turn
-WARNING_PERIOD_S = 5.0  # of that
+WARNING_PERIOD_S = 5.0  # between such warnings
 
 
 class Safety:
@@ -51,7 +51,7 @@ class Safety:
         self._wake, self._warn = wake, warn
         self._period = 1.0 / p.output_rate
         self._gradual = p.max_linear_acceleration > 0 or p.max_angular_acceleration > 0
-        self._changes = (  # of the velocity in one period, at most
+        self._changes = (  # largest change of velocity in one period
             (p.max_linear_acceleration or math.inf) * self._period,
             (p.max_angular_acceleration or math.inf) * self._period,
         )
@@ -65,17 +65,17 @@ class Safety:
         self._hears = False  # a good message came since the last loss
         self._silent_at = math.inf  # when the joystick counts as silent
         self._still_at = math.inf  # when it has been unchanged for too long
-        self._is_warned = False  # of that
+        self._is_warned = False  # the warning has been sent
         self._watches_stillness = p.vigilance_timeout > 0
         self._sent: Velocity = ZERO  # the last velocity sent
         self._target: Velocity = ZERO  # where the acceleration limits lead to
         self._stopping = False  # zeros are being repeated, or have been
         self._repeats: float = 0  # zeros still to come
         self._next_output = math.inf  # when a zero or a step of the acceleration is due
-        self._sender: object = None  # of the last good message
+        self._sender: object = None  # sent the last good message
         self._switched_at = -math.inf  # when that was another one than before
         self._may_warn = Throttle(1.0 / WARNING_PERIOD_S)
-        self.arming = Arming(not p.arm_on_neutral)  # of that sender
+        self.arming = Arming(not p.arm_on_neutral)  # for this sender
         self._unarmed = NOT_ARMED  # the state until it is armed
         self.latched = False  # the stop button was pressed
         self.state = WAITING
@@ -173,7 +173,7 @@ class Safety:
         self.state = self._unarmed = NOT_ARMED
 
     def lost(self, why: str, now: float) -> Velocity | None:
-        """Stop, as the joystick cannot be relied upon, and disarm if so configured."""
+        """Stop, as the joystick is unreliable, and disarm if so configured."""
         if not self._hears:
             return None
         self._forget(f"stopped: {why}")

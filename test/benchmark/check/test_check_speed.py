@@ -35,7 +35,7 @@ def test_each_exercise_and_all_of_them(tmp_path, figure):
     course, late = read_course(), []
     parts = {f"{name} {course.exercises[name].title}": [name] for name in course.by_default}
     for what, exercises in {**parts, "all of them": course.by_default}.items():
-        # Anew each time: what else runs here changes.
+        # Again each time: what else runs here changes.
         bare_s, _ = seconds_of(
             lambda: subprocess.run(rostest, check=True, stdout=subprocess.DEVNULL)
         )

@@ -54,7 +54,7 @@ def fill_twist(twist, number, held):
 
 
 def of_page(port, token):
-    """Return a function (number, held) of a page that drives; it sits down anew where it must."""
+    """Return a function (number, held) of a page that drives; it sits down again where it must."""
     page = SocketPage(port, token).__enter__()
     page.wait_for("drives", lambda message: not message["refusal"])  # it has found the robot
 

@@ -18,7 +18,7 @@ def test_a_classroom(figure):
         ["roslaunch", "joy2twist", "student.launch", f"name:={name}", *OPTIONS] for name in DRIVEN
     ]
     with master():
-        # As the first roslaunch sets it; ten at once would quarrel about which is the first.
+        # As the first roslaunch sets it; ten at once would compete for being the first.
         ServerProxy(os.environ["ROS_MASTER_URI"]).setParam("/classroom", "/run_id", "classroom")
         simulator = [*FAKE_TURTLEBOT, f"_robots:={ROBOTS}"]
         heard, loads = observe([simulator, *students], [*TOPICS, *STUDENTS], SECONDS)

@@ -72,14 +72,14 @@ def test_a_thousand_odometry_messages_a_second_pass_both_ways(bridge, figure):
     with Program(*ros2_python.command([str(MANY), str(count), str(ODOMETRY_HZ)])) as program:
         wait_for(lambda: "ready" in program.output, "ROS 2", 20)
         time.sleep(2.0)  # until the other side has found its publisher: no event says so
-        begun, begin_s = processor_time(bridge.pid), time.monotonic()
+        start, begin_s = processor_time(bridge.pid), time.monotonic()
         thread = threading.Thread(target=publish, args=(publisher, count))
         thread.start()
         program.wait(SECONDS * 4 + 20)
         thread.join()
         wait_for(lambda: len(came) >= count, "all of ROS 2's", 20)
         said = program.output.splitlines()[-1]
-        share = (processor_time(bridge.pid) - begun) / (time.monotonic() - begin_s)
+        share = (processor_time(bridge.pid) - start) / (time.monotonic() - begin_s)
     figure("odometry of ROS 1 in ROS 2", said, f"{count}, in order")
     there = f"came {len(came)}, in order {came == sorted(came)}"
     figure("odometry of ROS 2 in ROS 1", there, f"{count}, in order")

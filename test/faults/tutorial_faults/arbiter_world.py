@@ -72,7 +72,7 @@ class ArbiterWorld(World):
         return self._tick() if event == TICK else self._command(event)
 
     def _speaking(self):
-        """Return the inputs that speak, the highest first."""
+        """Return the inputs that send, the highest first."""
         spoke_s = self._spoke_s
         return [one for one in self._inputs if self.now < spoke_s[one.name] + one.timeout]
 
@@ -95,7 +95,7 @@ class ArbiterWorld(World):
             else:
                 yield "f", f"{velocity} goes through, and did not wait"
         if not through and any(self._is_highest(one.input) for one in due.values()):
-            yield "e", "the highest that speaks has waited, and does not go through"
+            yield "e", "the highest that sends has waited, and does not go through"
         if self._arbiter.must_stop(self.now):
             self._sent = ZERO
         yield from self._must_look_in_time()
@@ -107,7 +107,7 @@ class ArbiterWorld(World):
         lull_s = self._arbiter.lull(self.now)
         shortest_s = min(one.timeout for one in self._inputs)
         if not 0 < lull_s <= shortest_s or (moves(self._sent) and lull_s > max(ends_s, default=0)):
-            yield "d", f"asleep for {lull_s} s, and something is due sooner"
+            yield "d", f"sleeping for {lull_s} s, and something is due sooner"
 
     def _command(self, command):
         name, velocity, sender = command
@@ -128,12 +128,12 @@ class ArbiterWorld(World):
         if verdict is Verdict.OBEYED:
             yield from self._through(command)
         elif self._is_highest(name):
-            yield "e", f"{name} is the highest that speaks, and not obeyed"
+            yield "e", f"{name} is the highest that sends, and not obeyed"
 
     def _through(self, command):
         self._sent = command.velocity
         yield from beyond(command.velocity)
         if not self._is_highest(command.input):
-            yield "e", f"{command.input} drives while a higher one speaks"
+            yield "e", f"{command.input} drives while a higher one sends"
         if moves(command.velocity) and self._lateness[command.sender].is_late(self.now):
             yield "f", f"a late command of {command.sender} is obeyed"

@@ -80,7 +80,7 @@ class TeleoperationWorld(World):
         """given: private parameters of joy2twist."""
         p = self._p = load(given)
         self._meaning = Meaning(p)
-        self._woken = []  # of the transition that is made just now
+        self._woken = []  # in the current transition
         self._machine = Teleoperation(p, lambda line: None, lambda: self._woken.append(True))
         self._suspensions = 0
         self._sent, self._has_moved = ZERO, False
@@ -88,7 +88,7 @@ class TeleoperationWorld(World):
         self._held_s = self._still_s = -math.inf  # before both the robot may move
         self._heard_s = -math.inf  # the last good message
         self._settled_s = -math.inf  # what arrives before was sent before a suspension
-        self._shown = self._sender = None  # of the newest good message
+        self._shown = self._sender = None  # newest good message
         self._armed = False  # all was seen released since a start, silence or loss
         self._all_released = True  # by the last message, if no loss came after it
         self._latched = False  # the stop button was pressed, and not yet the reset button

@@ -7,7 +7,7 @@ velocity is linear x, y, z [m/s] and angular x, y, z [rad/s], in the frame of th
 import math
 
 TICK, SUSPENDED = "tick", "suspended"  # events; a TICK: the node looks at the clock
-ROUNDING = 1e-9  # of a float64, as part of a limit
+ROUNDING = 1e-9  # float64 rounding, as part of a limit
 
 
 def moves(velocity):

@@ -54,7 +54,7 @@ class Flood(WithCockpit):
             with Program(*command, str(VIEWERS), str(FLOOD_S)) as program:
                 wait_for(lambda: "ready" in program.output, "flood")
                 while not program.ended:
-                    self.rig.drive(page)  # sits down anew, in the midst of it
+                    self.rig.drive(page)  # sits down again, in the midst of it
                     drives += 1
                 self.assertEqual(program.wait(), 0, program.output)
                 self.assertGreater(json.loads(program.output.splitlines()[-1])["sent"], 1000)

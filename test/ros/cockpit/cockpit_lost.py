@@ -11,7 +11,7 @@ from tutorial_testing.rostests import run
 from tutorial_testing.waiting import Stopwatch
 
 WITHIN_S = 0.5 + PERIOD_S
-ROUNDS = 3  # of each way; on a busy machine one may be late
+ROUNDS = 3  # per way; on a busy machine one may be late
 
 
 class OperatorLost(WithCockpit):

@@ -31,7 +31,7 @@ class Tabs(WithCockpit):
 
         def held():
             nonlocal begin, losses, seen
-            if len(self.page.of("lost")) != losses or not self.rig.moves:  # of a busy machine
+            if len(self.page.of("lost")) != losses or not self.rig.moves:  # the machine was busy
                 self.rig.drive(self.page)
                 begin, losses = time.monotonic(), len(self.page.of("lost"))
                 seen = len(self.page.messages)

@@ -42,7 +42,7 @@ class SteppedRobotTest(RosTest):
     def test_it_is_limited_stops_by_itself_is_put_elsewhere_and_bears_a_clock_set_back(self):
         transforms = self.record("/tf", TFMessage)
         told, truths = (self.record(one, Odometry) for one in ("odom", "base_pose_ground_truth"))
-        # Nobody tells when the robot hears /clock and is heard: time goes on until then.
+        # When the robot is connected to /clock is unknown: time goes on until it answers.
         wait_for(lambda: self.tell(PERIOD_NS) or (self.robot.odometry and truths), "odometry")
         self.check_a_drive(told, truths)
         self.assertEqual(transforms, [])  # ~publish_tf is false

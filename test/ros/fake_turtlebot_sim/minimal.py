@@ -67,7 +67,7 @@ class MinimalTest(RosTest):
             ]
 
         wait_for(lambda: not missing(), "topics of a TurtleBot 2")
-        # The base hears the mux alone.
+        # The base subscribes to the mux alone.
         self.assertNotIn("/cmd_vel", dict(master.getTopicTypes()))
 
     def test_the_safety_controller_outranks_teleop(self):

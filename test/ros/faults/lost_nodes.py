@@ -23,8 +23,8 @@ class LostNodes(RosTest):
     def check_rest(self, rig, began_s, ended_s, what, rests_s=0.0):
         """Nothing moves from some time after the end on, for WATCHED_S, or again before that."""
         wait_for(lambda: rig.since(ended_s + WATCHED_S), "odometry")
-        stood = itertools.dropwhile(lambda moment: moment.moves, rig.since(began_s))
-        moved = [moment for moment in stood if moment.moves]
+        resting = itertools.dropwhile(lambda moment: moment.moves, rig.since(began_s))
+        moved = [moment for moment in resting if moment.moves]
         moved += [moment for moment in rig.since(rests_s or ended_s) if moment.moves]
         self.assertEqual([moment.stamp - began_s for moment in moved], [], what)
 

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Other programs that speak to a node: another joystick, unreadable messages, silence."""
+"""Other programs that send to a node: another joystick, unreadable messages, silence."""
 
 import io
 import socket

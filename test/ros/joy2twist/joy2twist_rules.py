@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What the node joy2twist sends for what it hears: bare, and set up for a real robot.
+"""What the node joy2twist sends for what it receives: bare, and set up for a real robot.
 
 Which rules there are is for unit tests: here each parameter, topic and clock reaches them.
 """

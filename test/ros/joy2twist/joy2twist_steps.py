@@ -62,7 +62,7 @@ class StepsTest(RosTest):
         self.assertIn("Stopping the node", node.output)
         self.assertEqual(self.velocities[-1], (0.0, 0.0))
         stop = self.velocities.index((0.0, 0.0))
-        # The callback that had begun by then.
+        # The callback that had started by then.
         self.assertLessEqual(self.velocities[stop:].count((0.5, 0.25)), 1)
 
     def test_each_is_read_at_a_glance(self):

@@ -14,7 +14,7 @@ from tutorial_testing.robot import Robot
 from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import wait_for
 
-RATE_HZ = 50  # of joy.bag and of the simulation
+RATE_HZ = 50  # joy.bag and simulation
 # A recording without autorepeat and without any button: time [s] and axes of each message.
 SPARSE = ((0.0, (0.0, 0.0)), (1.0, (0.0, 1.0)), (3.5, (0.0, 0.0)), (6.5, (0.0, 0.0)))
 SPARSE_M = 2.5  # the robot drives at 1 m/s between the second and the third

@@ -33,7 +33,7 @@ class StudentTest(RosTest):
             places = [complex(moment.x, moment.y) for moment in robot.odometry]
             ways[name] = [place - places[0] for place in places]
         self.assertEqual([name for name in STANDING if any(ways[name])], [])
-        for name in DRIVEN:  # of the same recording
+        for name in DRIVEN:  # with the same recording
             self.assertGreater(max(map(abs, ways[name])), 0.5, name)
             self.assertFalse(robots[name].moves)
             self.assertLess(abs(ways[name][-1] - ways[DRIVEN[0]][-1]), TOLERANCE_M, name)

@@ -82,7 +82,7 @@ class CockpitRig(Robot):
 
 
 class WithCockpit(RosTest):
-    options = ()  # of the cockpit
+    options = ()  # cockpit options
 
     @classmethod
     def setUpClass(cls):

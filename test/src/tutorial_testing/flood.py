@@ -38,7 +38,7 @@ OTHERS = [
     {"kind": "bag_seek", "position": 0.5},
     {**WATCH, "robots": False, "topic": "/joy", "look": None},
 ]  # fmt: skip
-READERS = 5  # of six viewers; the sixth reads nothing
+READERS = 5  # a sixth viewer reads nothing
 
 
 class Flood:

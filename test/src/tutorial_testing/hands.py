@@ -12,7 +12,7 @@ SHOWN = {  # turn and forward of the left stick, buttons that are held
     RELEASED: (0.0, 0.0, ()),
     DRIVE: (0.0, 0.8, ("LB",)),
     TURN: (0.6, 0.7, ("LB",)),
-    TURBO: (0.2, 0.8, ("LB", "RB")),  # LB, too: between LB and RB alone lies a release
+    TURBO: (0.2, 0.8, ("LB", "RB")),  # LB, too: between LB and RB alone there is a release
     STICK: (0.0, 0.8, ()),
 }
 PERIOD_S = 0.05  # how often they move

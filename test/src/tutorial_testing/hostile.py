@@ -1,4 +1,4 @@
-"""A child process that reads a file that somebody damaged, or made to do harm."""
+"""A child process that reads a file that someone damaged, or made to do harm."""
 
 import os
 import resource
@@ -7,7 +7,7 @@ import sys
 import tempfile
 import traceback
 
-MOST_S, MOST_MB = 5.0, 200.0  # of processor time, and of memory with what Python and ROS need
+MOST_S, MOST_MB = 5.0, 200.0  # [s of processor time], [MB with Python and ROS]
 BARE_MB = 70.0  # what they need before a file is read
 
 
@@ -24,7 +24,7 @@ def end_of(main):
         text = said.read()
     assert not os.WIFSIGNALED(status), signal.strsignal(os.WTERMSIG(status))
     code, lines = os.WEXITSTATUS(status), text.splitlines()
-    # rosbag itself may warn about what it can read nevertheless.
+    # rosbag itself may warn about what it can still read.
     assert code == 0 or (code, len(lines)) == (1, 1), f"{code}: {text[-2000:]}"
     spent_mb = BARE_MB + max(0.0, used.ru_maxrss * 1024 / 1e6 - before_mb)
     assert spent_mb <= MOST_MB, f"{spent_mb} MB: {text}"

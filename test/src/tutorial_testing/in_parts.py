@@ -6,7 +6,7 @@ import sys
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 
-TRIALS = 10  # of a part: the start of a system takes as long as some trials
+TRIALS = 10  # per part: a start takes as long as some trials
 MUTATION = Path(__file__).resolve().parents[2] / "mutation" / "run.py"
 
 

@@ -14,7 +14,7 @@ from tutorial_testing.nodes import node_path
 from tutorial_testing.rostests import RosTest
 from tutorial_testing.waiting import wait_for
 
-AXES, BUTTONS = 6, 12  # of the F710 in D mode
+AXES, BUTTONS = 6, 12  # the F710 in D mode
 LAUNCH = ("roslaunch", "joy2twist", "launch_joy_node.launch", "rviz:=false", "cockpit:=false")
 
 
@@ -68,7 +68,7 @@ class JoystickTest(RosTest):
     def start_driver(self, *parameters):
         """Start joy_node, which reads the FIFO; parameters as ~name:=value without the ~."""
         if rospy.has_param("/joy_node"):
-            rospy.delete_param("/joy_node")  # of the test before: the master keeps them
+            rospy.delete_param("/joy_node")  # left by the previous test: the master keeps them
         given = [f"_{parameter}" for parameter in (f"dev:={self.stream.path}", *parameters)]
         return self.start(node_path("gamepad", "joy_node"), *given)
 

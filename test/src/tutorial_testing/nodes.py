@@ -31,6 +31,6 @@ def pid_of(node):
 
 
 def init_node(name, **options):
-    """Call rospy.init_node(); deaf by a fault of rospy, a test would blame what it tests."""
+    """Call rospy.init_node(); a fault of rospy would otherwise fail the test."""
     connect_once()
     rospy.init_node(name, **options)

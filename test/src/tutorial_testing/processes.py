@@ -78,7 +78,7 @@ def _is_stopped(pid):
 class Started:
     """A context manager: begin() starts what is needed, and what is on self._stack ends it.
 
-    It ends what has begun, too, if begin() fails.
+    It ends what has started, too, if begin() fails.
     """
 
     def __init__(self):

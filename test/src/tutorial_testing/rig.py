@@ -22,7 +22,7 @@ from tutorial_testing.robot import Robot
 from tutorial_testing.waiting import Stopwatch
 
 JOYSTICK, DRIVER, MUX, BASE = "/joy_node", "/NewJoy2Twist", "/cmd_vel_mux", "/fake_turtlebot"
-TIMEOUT_S = 0.6  # of the base
+TIMEOUT_S = 0.6  # the base's
 # As the launch files have it.
 LAUNCHED = {"arm_on_neutral": True, "joy_timeout": 0.5, "log_rate": 0}
 REST_S = 0.6  # for which all is shown released, until each node has seen it

@@ -17,7 +17,7 @@ from tutorial_testing.nodes import init_node
 from tutorial_testing.processes import Started
 from tutorial_testing.waiting import DEADLINE_S, wait_for
 
-PERIOD_S = 0.02  # of the odometry
+PERIOD_S = 0.02  # odometry
 RESTING = 50  # odometry messages, a second of them, in which nothing moves
 TRY_S = 5.0  # until the robot moves, before all is released and held again
 OBSERVER = ("/usr/bin/python3", "-m", __name__)

@@ -84,17 +84,17 @@ class Topics:
     def __init__(self):
         self._wants = {}
 
-    def want(self, owner, hears, every):
-        self._wants[owner] = hears
+    def want(self, owner, handlers, every):
+        self._wants[owner] = handlers
 
     @property
-    def hears(self):
-        return {topic: hear for hears in self._wants.values() for topic, hear in hears.items()}
+    def handlers(self):
+        return {topic: hear for one in self._wants.values() for topic, hear in one.items()}
 
     def hear(self, topic, message):
         """message: of ROS, or bytes."""
         data = message if isinstance(message, bytes) else serialised(message)
-        self.hears[topic](SimpleNamespace(data=data), topic)
+        self.handlers[topic](SimpleNamespace(data=data), topic)
 
 
 def serialised(message):

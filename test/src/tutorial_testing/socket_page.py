@@ -1,4 +1,4 @@
-"""A page of the cockpit without a browser: it speaks over a WebSocket, in a thread of its own."""
+"""A page of the cockpit without a browser: it sends over a WebSocket, in a thread of its own."""
 
 import asyncio
 import contextlib

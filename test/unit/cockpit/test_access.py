@@ -35,7 +35,7 @@ def test_names_of_this_machine(hosts, here, lan):
 def test_the_origin_must_be_the_same(origin, is_same):
     host = "127.0.0.1:8080"
     assert HERE.may_connect(host, origin) == HERE.may_request(host, origin) == is_same
-    assert HERE.may_request(host, None)  # of an address that is typed
+    assert HERE.may_request(host, None)  # a typed address has no origin
     assert not HERE.may_connect(host, None)
 
 

@@ -34,7 +34,7 @@ HERE = (DRIVER, ADA, LONG)
         # a viewer replaces one of an address that has more
         ([(VIEWER, ADA, 1), (VIEWER, ADA, 2), (VIEWER, BOB, 3)], VIEWER, CY, 1),
         ([(VIEWER, ADA, 1), (VIEWER, ADA, 2), (VIEWER, BOB, 3)], VIEWER, BOB, None),
-        # of one address, one that is idle; else two pages would replace each other again and again
+        # only an idle one from the same address; else two pages would replace each other again
         ([(VIEWER, ADA, 1), (VIEWER, ADA, LONG), (VIEWER, ADA, LONG + 1)], VIEWER, ADA, 2),
         ([(VIEWER, ADA, 1), (VIEWER, ADA, IDLE_S)], VIEWER, ADA, None),
     ],

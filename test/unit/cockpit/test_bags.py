@@ -108,7 +108,7 @@ def test_recording_is_read_once_for_all_pages(page, monkeypatch):
 
 
 def test_messages_of_all_open_recordings_are_bounded(page, monkeypatch):
-    monkeypatch.setattr(recording, "MOST_MESSAGES", 5)  # of 3 messages each there is room for one
+    monkeypatch.setattr(recording, "MOST_MESSAGES", 5)  # room for one, with 3 messages each
     page.open("good.bag")
     page.bags.prepare([page.client], 0.0)
     why = "other pages have long recordings open: close one of them"

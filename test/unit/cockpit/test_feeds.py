@@ -45,5 +45,5 @@ def test_refused_topic_does_not_hold_up_the_others_and_many_changes_are_one(wait
         all_feeds.want("page", dict.fromkeys(topics, print), every=every)
         waiting.pop()()
         assert (waiting, subscribed) == ([], {(topic, every) for topic in topics[1:-1]})
-    assert len(told) == len(topics)  # of each once: two are refused, the others do not end well
+    assert len(told) == len(topics)  # each once: two are refused, the others fail
     assert sum("ValueError" in line for line in told) == 2

@@ -1,4 +1,4 @@
-"""What the hub sends and hears; a failure, a flood or a slow page does not hold up others."""
+"""What the hub sends and receives; a failure, a flood or a slow page does not hold up others."""
 
 import json
 from types import SimpleNamespace
@@ -90,7 +90,7 @@ def test_failure_does_not_hold_up_other_sources_and_pages(clock):
         clock.now += 0.1
         hub.tick()
     assert [kinds(sent) for _, sent in others] == [["hello", "seat", "well", "well"]] * 2
-    assert len(hub.told) == 4  # of each once: the player, the source, and of that page two
+    assert len(hub.told) == 4  # each once: the player, the source, and two for that page
 
 
 def test_page_waits_for_what_its_messages_cost_unless_it_drives(clock, monkeypatch):

@@ -16,7 +16,7 @@ from tutorial_testing.seat_room import Topics, look, page, serialised
 
 
 def graph(*robots, **types):
-    """These robots with an odometry, and robot_9, which only hears a joystick."""
+    """These robots with an odometry, and robot_9, which only receives a joystick."""
     return Graph(
         publishers={topic_of(robot, "odom"): {"/sim"} for robot in robots},
         subscribers={"/robot_9/joy": {"/joy2twist"}},

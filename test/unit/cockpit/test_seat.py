@@ -139,7 +139,7 @@ def test_silence_for_a_fifth_of_a_second_is_a_loss_and_for_five_frees_the_seat(r
         room.seat.tick(now)
         assert [why for _, why in room.lost] == lost
         assert (room.seat.driver, room.seat.armed) == (driver, not lost)
-    assert room.seat.why == ""  # it stood before
+    assert room.seat.why == ""  # it was at rest before
 
 
 FRESH = {  # inputs after the beat 1 at the time 0 -> the number of the last that is taken
@@ -190,7 +190,7 @@ PADS = {  # (time, position, the gamepad's own time) -> whether it is frozen at 
     "8 times": (held(*range(9)) + still(8), True),
     "another gamepad, with an earlier time": (
         held(*range(1000, 1009)) + held(5, now=0.15) + held(5, now=0.25), False),
-    "7 times after it stood still": (held(*range(8), 7, *range(8, 15)) + still(14), False),
+    "7 times after a rest": (held(*range(8), 7, *range(8, 15)) + still(14), False),
     "while it moved": (MOVED + still(19), False),
     "released": ([(now, REST, pad) for now, _, pad in held(*range(9)) + still(8)], False),
 }  # fmt: skip

@@ -72,8 +72,8 @@ def test_of_this_host_none_is_late():
 
 
 def test_what_one_sender_left_is_not_held_against_the_next():
-    """Who ends a program in the middle of a motion and starts it anew drives at once."""
-    running, anew = Running(), Publisher("/rostopic_2", is_remote=True)
-    assert running.send(0.2, 0.0) is running.send(0.2, 5.0, anew) is Verdict.OBEYED
+    """A program that is ended in the middle of a motion and restarted drives at once."""
+    running, restarted = Running(), Publisher("/rostopic_2", is_remote=True)
+    assert running.send(0.2, 0.0) is running.send(0.2, 5.0, restarted) is Verdict.OBEYED
     assert running.arbiter.command("teleop", (0.2,), 5.1, FAR) is Verdict.WAITS
     assert running.arbiter.active(9.0) == IDLE  # what waits, or is late, keeps nobody active

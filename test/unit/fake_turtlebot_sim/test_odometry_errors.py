@@ -53,7 +53,7 @@ def test_umbmark(way, ratio, track):
     robot = SimulatedRobot(Parameters(wheel_radius_ratio=ratio, track_ratio=track))
     drive_square(robot, way)
     odometry, truth = robot.state(), robot.true_state()
-    assert odometry[:3] == pytest.approx((0, 0, 0), abs=1e-9)  # it believes to be home
+    assert odometry[:3] == pytest.approx((0, 0, 0), abs=1e-9)  # its estimate is home
     x, y, heading = true_end_of_square(way, ratio, track)
     assert truth[:2] == pytest.approx((x, y), rel=0, abs=1e-9)
     assert exp(1j * truth.yaw) == pytest.approx(heading, abs=1e-9)

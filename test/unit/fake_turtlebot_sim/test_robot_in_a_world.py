@@ -43,7 +43,7 @@ def test_at_a_wall_the_wheels_stall_and_odometry_says_so():
     assert (state.x, state.v, state.left_rate) == (pytest.approx(1 - R, abs=EXACT), 0.0, 0.0)
     assert robot.contact == pytest.approx(0.0, abs=EXACT)
     assert robot.sensed().bumpers == (False, True, False)
-    assert state.left_angle == pytest.approx((1 - R) / 0.035)  # of a wheel of 35 mm
+    assert state.left_angle == pytest.approx((1 - R) / 0.035)  # wheel radius: 35 mm
     assert driven(robot, (-0.5, 0.0), 0.5, 4).state().x == pytest.approx(1 - R - 0.25, abs=EXACT)
     assert robot.contact is None and not any(map(any, robot.sensed()))
 
@@ -74,7 +74,7 @@ def test_both_wheels_drop_exactly_at_the_edge(limits):
     robot = driven(SimulatedRobot(Parameters(world=EDGE, **limits)), (0.7, 0.0), 5)
     assert robot.sensed().wheels == (True, True)
     assert robot.true_pose[0] == pytest.approx(1.0, abs=EXACT)
-    assert robot.state()[3:5] == (0.0, 0.0)  # it lies there
+    assert robot.state()[3:5] == (0.0, 0.0)  # it stays there
     assert driven(robot, (-0.5, 0.0), 1, 5).true_pose[0] == pytest.approx(1.0, abs=EXACT)
 
 

@@ -45,7 +45,7 @@ def test_one_stamp_the_right_frames_the_executed_twist_and_the_wheels():
     assert joints.name == ["left", "right"]
     assert joints.velocity == pytest.approx((0.346 / 0.035, 0.254 / 0.035))
     pose = np.reshape(odometry.pose.covariance, (6, 6))
-    assert (pose == np.diag([0.1, 0.1, 1e10, 1e10, 1e10, 0.05])).all()  # of the Kobuki
+    assert (pose == np.diag([0.1, 0.1, 1e10, 1e10, 1e10, 0.05])).all()  # as the Kobuki
     assert not any(odometry.twist.covariance)
 
 

@@ -17,7 +17,7 @@ from fake_turtlebot_sim.simulator.world import BASE_RADIUS_M
 from fake_turtlebot_sim.simulator.world_files import read_world, shipped_worlds
 
 EXACT = 1e-9
-PERIOD_S = 0.02  # of the sensors
+PERIOD_S = 0.02  # sensor period
 DELAY, LONGEST_DELAY = 2, 5  # periods from an event to the command that answers it
 LONGEST_PUSH_S = 0.5
 ROOM, TABLE = (read_world(shipped_worlds()[name]) for name in ("room", "table"))

@@ -69,7 +69,7 @@ def test_a_preset_that_does_not_exist_is_named_beside_those_that_do(tmp_path):
 def test_a_recording_that_is_cut_short_can_be_mended(tmp_path, content):
     bag = tmp_path / "joy.bag"
     bag.write_bytes(content)
-    assert refused("bag", str(bag)) == f"cut short; mend it with: rosbag reindex {bag}"
+    assert refused("bag", str(bag)) == f"cut short; fix it with: rosbag reindex {bag}"
 
 
 def test_a_recording_that_is_damaged_is_one_line_of_the_guard(tmp_path):

@@ -106,7 +106,7 @@ def test_a_plain_file_is_read_once_until_it_changes(tmp_path):
         (True, "pid", True),
         (True, "uts", True),
         (True, "none", False),  # a virtual machine made from a container's image
-        (True, "all", True),  # of a kernel without namespaces
+        (True, "all", True),  # a kernel without namespaces
         (False, "pid", False),  # a sandbox, such as the checker's
     ],
 )

@@ -144,7 +144,7 @@ class Simulated:
         self.driver = driver(deadzone=0.0, **parameters)
         self.now, self.sent = 0, 0
         self.untold = []  # when the changes were read that no message has shown yet
-        self.ages = []  # of the oldest untold change, for each message
+        self.ages = []  # age of the oldest unsent change, per message
 
     def change(self, after, pressed=False):
         """After a time an axis changes to the number of changes so far, and maybe a button."""

@@ -74,5 +74,5 @@ def test_the_tour_closes_on_an_eight_a_spin_and_a_way_back(recording):
     assert math.remainder(heading[-1], math.tau) == pytest.approx(0, abs=1e-3)
     assert abs(turn[forward == 0]).sum() == pytest.approx(math.tau, abs=1e-3)
     assert -forward[forward < 0].sum() == pytest.approx(1.2, abs=1e-3)
-    # The two loops of the eight lie on opposite sides of where it starts and crosses itself.
+    # The two loops of the eight are on opposite sides of where it starts and crosses itself.
     assert y.max() > 0.5 and x.min() < -0.5 and x.max() > 0.5

@@ -21,7 +21,7 @@ PRESSED = [
     ("9w", (0, 0.9), []),
     ("5w0", (0, 1), []),
     ("5w\u00b2", (0, 0.5), []),  # a superscript, of French keyboards, is no digit
-    ("\u0130w", (0, 1), []),  # of Turkish keyboards: two letters when lower
+    ("\u0130w", (0, 1), []),  # Turkish keyboards: two letters in lower case
     ("5wa", (0.5, 0.5), []),  # directions add up
     ("wad\x1bOB", (-1, -1), []),  # opposite ones replace each other
     ("w\x1b[Aaw", (1, 1), []),  # the same one, and not a second

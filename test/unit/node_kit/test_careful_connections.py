@@ -13,7 +13,7 @@ from sensor_msgs.msg import Joy
 from node_kit import careful_connections
 from node_kit.throttle import Throttle, ThrottleEach
 
-LIES = b"\x03\0\0\0abc"  # three bytes are no Joy
+WRONG_LENGTH = b"\x03\0\0\0abc"  # three bytes are no Joy
 
 
 @pytest.fixture
@@ -41,7 +41,7 @@ def read(monkeypatch):
 
 def test_unreadable_messages_are_reported_once_a_second(read):
     for number in range(25):
-        lines, messages = read(LIES, 0.1 * number)
+        lines, messages = read(WRONG_LENGTH, 0.1 * number)
         assert messages is None
     assert len(lines) == 3
     assert "/joy cannot be read" in lines[0]
@@ -49,8 +49,8 @@ def test_unreadable_messages_are_reported_once_a_second(read):
 
 def test_a_message_that_does_not_end_is_reported(read):
     buffer = io.BytesIO()
-    begun = b"\0\0\1\0" + b"." * 20  # 65536 bytes, it says
-    assert read(begun, 0.0, buffer) == ([], [])
+    started = b"\0\0\1\0" + b"." * 20  # 65536 bytes, it says
+    assert read(started, 0.0, buffer) == ([], [])
     assert read(b".", 0.4, buffer) == ([], [])
     lines, messages = read(b".", 0.6, buffer)
     assert messages is None

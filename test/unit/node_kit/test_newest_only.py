@@ -8,7 +8,7 @@ import pytest
 from node_kit import newest_only
 from node_kit.newest_only import NewestOnly
 
-SIZE = 52  # of a Twist on the wire
+SIZE = 52  # [bytes] a Twist on the wire
 DEADLINE_S = 20.0
 STOP = bytes(SIZE)
 
@@ -48,7 +48,7 @@ def test_a_side_that_does_not_read_gets_whole_messages_and_the_newest_one(connec
         sender.write(message(number))
     numbers = numbers_until(far, 19_999)
     assert numbers == sorted(set(numbers))
-    assert len(numbers) < 10_000  # what lay between is not sent any more
+    assert len(numbers) < 10_000  # what was between is not sent any more
     for number in range(100):  # from here on each arrives at once again
         sender.write(message(number))
         assert far.recv(SIZE, socket.MSG_WAITALL) == message(number)

@@ -111,5 +111,5 @@ def test_a_publisher_is_made_anew_when_its_type_or_latching_changes(room):
     for kind, is_latched in (("a/msg/B", True), ("a/msg/B", False), ("a/msg/C", False)):
         frame = Frame("/note", kind, b"1", time.monotonic(), is_latched)
         made.other.sendall(frame.packed() * 2)
-    anew = [["a/B", True, b"1", b"1", "ended"], ["a/B", False, b"1", b"1", "ended"]]
-    wait_for(lambda: made.publishers == [*anew, ["a/C", False, b"1", b"1"]], "three publishers")
+    again = [["a/B", True, b"1", b"1", "ended"], ["a/B", False, b"1", b"1", "ended"]]
+    wait_for(lambda: made.publishers == [*again, ["a/C", False, b"1", b"1"]], "three publishers")

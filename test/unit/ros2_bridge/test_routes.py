@@ -15,7 +15,7 @@ def test_our_list_keeps_only_the_newest_velocity_and_no_old_one():
     velocity = routes["/cmd_vel"]
     assert (velocity.depth, velocity.to_ros1, velocity.to_ros2) == (1, True, False)
     assert 0 < velocity.longest_s <= 0.6 and 0 < routes["/joy"].longest_s <= 0.6
-    assert routes["/odom"].depth == 100  # of the defaults
+    assert routes["/odom"].depth == 100  # the default
 
 
 @pytest.mark.parametrize("given", [{}, {"topics": ""}, {"topics": str(OURS)}], ids=str)

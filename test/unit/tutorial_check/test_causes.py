@@ -78,7 +78,7 @@ def test_another_error_is_not_called_python_2(line):
 @pytest.mark.parametrize(
     ("text", "line", "word"),
     [
-        ("x = y\u200b\n", 1, "type the line anew"),
+        ("x = y\u200b\n", 1, "type the line again"),
         ("x = 3 \u2013 2\n", 1, "type - for a dash"),
         ("x = □y\n", 1, "delete it"),
         ("def f():\n    pub = 1\n    global pub\n", 3, "`global pub` is the first line"),

@@ -53,7 +53,7 @@ def wrong(seen, check="C16", **more):
 
 def test_how_many_fail_what_and_why():
     students = [
-        Student("ada", None, [wrong("the sign of ada is wrong", hint="mend Ada's")]),
+        Student("ada", None, [wrong("the sign of ada is wrong", hint="fix Ada's")]),
         Student("bob", None, [wrong("angular.z = -0.98 * axes[0]")]),
         Student("eve", None, [wrong("angular.z = -1.00 * axes[0]")]),
         Student("zoe", None, [wrong("no file", "C12")]),
@@ -63,7 +63,7 @@ def test_how_many_fail_what_and_why():
     assert [count for count, _ in found] == [2, 1, 1]
     assert found[0][1].seen == "angular.z = -0.98 * axes[0]"
     # An example does not say whose it is.
-    assert (found[1][1].seen, found[1][1].hint) == ("the sign of NAME is wrong", "mend NAME's")
+    assert (found[1][1].seen, found[1][1].hint) == ("the sign of NAME is wrong", "fix NAME's")
     page = table_html(students, ["5"], TITLES)
     below = page[page.index("<h2>") :]
     assert "ada" not in below and "<td>C16</td><td>axes</td><td>3</td>" in below
@@ -74,13 +74,13 @@ def test_what_changed_since_the_last_run():
     changes = class_page.changes
     well = Outcome("5", NOTED.results, done=True)
     again = Student("ada", None, [wrong("b")], before=[wrong("a")])
-    mended = Student("bob", None, [well], before=[wrong("a")])
+    fixed = Student("bob", None, [well], before=[wrong("a")])
     worse = Student("eve", None, [wrong("a")], before=[well])
     another = Student("zoe", None, [wrong("a", "C17")], before=[wrong("a")])
     assert changes(again)["stuck"] == ["C16 axes"]
-    assert (changes(mended)["now done"], changes(worse)["no more done"]) == (["5"], ["5"])
+    assert (changes(fixed)["now done"], changes(worse)["no more done"]) == (["5"], ["5"])
     assert not any(changes(another).values())
-    page = table_html([again, mended, worse, another], ["5"], TITLES)
+    page = table_html([again, fixed, worse, another], ["5"], TITLES)
     since = page[page.index("Since the last run") : page.index("Legend")]
     assert [name in since for name in ("ada", "bob", "eve", "zoe")] == [True, True, True, False]
     assert "Since the last run" not in table_html([Student("ada", None, [BAD])], ["2"], TITLES)

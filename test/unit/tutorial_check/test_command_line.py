@@ -106,6 +106,6 @@ def test_a_file_that_cannot_be_written(main, tmp_path, capsys):
     files = "--json", tmp_path / "json", "--junit", tmp_path / "junit"
     assert main(lambda *_, **__: (tmp_path / "json").mkdir() or [WELL], *files) == 2
     assert (tmp_path / "junit").exists()
-    assert main(lambda *_, **__: pytest.fail("begun"), *files) == 2
+    assert main(lambda *_, **__: pytest.fail("started"), *files) == 2
     why = f"check: no verdict: {tmp_path / 'json'}: Is a directory"
     assert capsys.readouterr().err.count(why) == 2

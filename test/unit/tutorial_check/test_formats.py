@@ -14,7 +14,7 @@ NAMES = ("id", "status", "title", "expected", "seen", "where", "hint")
 VALUES = ("C16", WRONG, "three", "a < b", "c\x00\x1b & d", "f.py:3", "do it")
 ABOUT = {"section": "handout 4.3", "look": "rostopic echo"}
 GOOD = Outcome("2", [Result("C1", OK, "one"), Result("C2", NOTE, "two", seen="odd")], 1.0, True)
-STOPPED = Result("C17", UNREACHED, "four", seen="first mend C16")
+STOPPED = Result("C17", UNREACHED, "four", seen="first fix C16")
 BAD = Outcome("4.3", [Result(*VALUES, **ABOUT), STOPPED], 2.0, True, title="joy2twist")
 NO_VERDICT = Outcome("5", [Result("C21", UNREACHED, "five")], 1.0, True, "C21: no\x1b space")
 CUT_OFF = Outcome("5", [Result("C21", OK, "five")], 0.0, False)

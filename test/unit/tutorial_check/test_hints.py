@@ -1,4 +1,4 @@
-"""Graded hints: the first failure says what is wrong, the same one again how to mend it."""
+"""Graded hints: the first failure says what is wrong, the same one again how to fix it."""
 
 import json
 

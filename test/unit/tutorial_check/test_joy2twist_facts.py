@@ -25,7 +25,7 @@ LOOP = """rospy.Subscriber("/joy", Joy, callback)
 while not rospy.is_shutdown():
     pub.publish(Twist())
 """
-DEAF = 'rospy.Subscriber("/joy", Joy)\n'
+NO_CALLBACK = 'rospy.Subscriber("/joy", Joy)\n'
 LATCHED = "from sensor_msgs.msg import Joy\npub = rospy.Publisher('/cmd_vel', Twist, latch=True)\n"
 
 
@@ -71,9 +71,9 @@ def test_recorded_facts_have_a_diagnosis(rows, text, recorded, seen, where):
 @pytest.mark.parametrize(
     ("rows", "text", "recorded"),
     [
-        ("CONNECTED", DEAF, {"shown": 3}),
+        ("CONNECTED", NO_CALLBACK, {"shown": 3}),
         ("TOPICS", LATCHED, {}),
-        ("ONCE", LOOP, {"strays": 2}),  # of a machine that stuttered
+        ("ONCE", LOOP, {"strays": 2}),  # the machine stuttered
         ("ONCE", LOOP, {"twists": each(ZERO), "has_clock": True}),  # before the first Joy
         ("ONCE", LOOP, {"twists": [ZERO], "has_clock": True, "complaint": "every Twist is zero"}),
         ("RIGHT_RULE", LOOP, {}),

@@ -27,7 +27,7 @@ def test_a_warning_is_no_error_and_not_shown(recwarn):
     assert not recwarn
 
 
-@pytest.mark.parametrize("odd", ["\f", "\v", "\x1c", "\x85", "\u2028"])  # of a PDF
+@pytest.mark.parametrize("odd", ["\f", "\v", "\x1c", "\x85", "\u2028"])  # copied from a PDF
 def test_a_character_that_ends_no_line_for_python_ends_none_here(odd):
     wrong = PythonFacts(f"# {odd}\nfrom std msgs.msg import String")
     assert wrong.error_text.startswith("from std")

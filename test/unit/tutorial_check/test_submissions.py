@@ -21,15 +21,15 @@ NO_VERDICT = Outcome("2", [Result("C1", UNREACHED, "one")], 1.0, True, "C1: no s
 
 
 class Group:
-    """A folder of students, all of whom are right; begun: whose check has begun."""
+    """A folder of students, who are all right; started: whose check has started."""
 
     def __init__(self, folder):
-        self.folder, self.check, self.begun = folder, folder / "check", []
+        self.folder, self.check, self.started = folder, folder / "check", []
         self.come_to = lambda name: [WELL]
         folder.mkdir()
 
     def examine(self, path, *_, **__):
-        self.begun.append(path.name)
+        self.started.append(path.name)
         return self.come_to(path.name)
 
     def check_all(self, out=None, again=False, variant=None):
@@ -136,12 +136,12 @@ def test_only_what_changed_or_had_no_verdict_is_checked_again(group, capsys):
     (group.folder / "eve" / "talker.py").chmod(0o755)
     first = group.check_all()
     assert group.check_all() == (0, [[*row[:4], "0.0", *row[5:]] for row in first[1]])
-    assert group.begun == ["ada", "bob", "eve", "bob", "eve"]
+    assert group.started == ["ada", "bob", "eve", "bob", "eve"]
     assert "ada: 1 of 1 exercises done, unchanged since the last check" in capsys.readouterr().out
     group.come_to = lambda name: [NO_VERDICT]
     group.check_all(again=True)
     group.check_all()
-    assert group.begun[5:] == ["ada", "bob", "eve"] * 2
+    assert group.started[5:] == ["ada", "bob", "eve"] * 2
 
 
 def test_the_page_can_be_read_while_it_is_made(group):
@@ -205,12 +205,12 @@ def test_results_that_cannot_be_written_are_found_before_the_work(group, blocked
     path.mkdir(parents=True) if blocked.endswith("/") else path.touch()
     with pytest.raises(CannotCheck, match=why):
         group.check_all(out and group.folder / out)
-    assert not group.begun
+    assert not group.started
 
 
 def test_a_run_that_was_interrupted_goes_on_where_it_was(group, monkeypatch):
     def interrupted_once(name):
-        if name == "bob" and len(group.begun) < 3:
+        if name == "bob" and len(group.started) < 3:
             raise KeyboardInterrupt
         return [WELL]
 
@@ -220,4 +220,4 @@ def test_a_run_that_was_interrupted_goes_on_where_it_was(group, monkeypatch):
     with pytest.raises(KeyboardInterrupt):
         group.check_all()
     assert group.check_all()[0] == 0
-    assert group.begun == ["ada", "bob", "bob"]
+    assert group.started == ["ada", "bob", "bob"]

@@ -37,7 +37,7 @@ def test_the_picture_is_well_formed_and_has_a_line_for_each():
         ("folder", "cannot be read: Is a directory"),
         (b"", "not a bag that can be read"),
         (b"no bag", "not a bag that can be read"),
-        (b"#ROSBAG V2.0\n", "cut short; mend it with: rosbag reindex"),
+        (b"#ROSBAG V2.0\n", "cut short; fix it with: rosbag reindex"),
         *((WHOLE[:size], ": ") for size in (12, 4096, 20_000, -1)),
     ],
 )

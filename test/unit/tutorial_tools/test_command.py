@@ -45,7 +45,7 @@ def test_a_students_workspace_is_absolute_and_built_last(tmp_path, monkeypatch):
     assert made["student"] == [f"{tmp_path}/ws"]
     assert made["builds"][-1] == f"student={tmp_path}/ws"
     assert made["command"] == ["env", "--in", "x"]
-    monkeypatch.setenv("TUTORIAL_IN", "/mine")  # of the shell that it is called in
+    monkeypatch.setenv("TUTORIAL_IN", "/mine")  # set in the calling shell
     assert plan("doctor", [])["student"] == ["/mine"]
 
 

@@ -2,12 +2,12 @@
 
 from typing import Optional
 
-SHARE = 0.3  # of that thread, for all pages together but the one that drives
+SHARE = 0.3  # [part of that thread] all pages together, except the one that drives
 BURST_S = 0.05  # that one page may use at once, as for opening
 ALL_BURST_S = 0.01  # that the messages of all may use at once, while the driver waits
-REQUEST_S = 0.002  # of answering an HTTP request, measured: 1 to 2 ms
+REQUEST_S = 0.002  # answering an HTTP request; measured: 1 to 2 ms
 REQUESTS_BURST_S = 0.1  # that one address may use at once: a page loads 25 files
-MESSAGE_S = 0.0002  # of receiving a message, whatever it asks for
+MESSAGE_S = 0.0002  # receiving a message, whatever it asks for
 
 
 class Budget:

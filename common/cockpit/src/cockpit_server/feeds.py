@@ -84,13 +84,13 @@ class Feeds:
         self._subscribers: dict[tuple[str, bool], Any] = {}
         self._adjust_later = OnceLater(self._adjust)
 
-    def want(self, owner: Hashable, hears: Mapping[str, Hear], every: bool) -> None:
+    def want(self, owner: Hashable, handlers: Mapping[str, Hear], every: bool) -> None:
         """Have hear(message, topic) called for these topics, {topic: hear}, and for no others that
         the owner wanted before. every: for every message, or only for the newest, now and then.
         """
-        if self._wants.get(owner) == (hears, every):
+        if self._wants.get(owner) == (handlers, every):
             return
-        self._wants[owner] = (hears, every)
+        self._wants[owner] = (handlers, every)
         listeners: dict[str, list[Hear]] = {}
         complete: set[str] = set()
         for wanted, wants_all in self._wants.values():

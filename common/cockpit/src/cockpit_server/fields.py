@@ -12,7 +12,7 @@ NUMBERS = {
     "bool", "byte", "char", "float32", "float64", "int16", "int32", "int64", "int8", "uint16",
     "uint32", "uint64", "uint8", "time", "duration",
 }  # fmt: skip
-FIRST_ENTRIES = 12  # of an array are offered; the others can be asked for by name
+FIRST_ENTRIES = 12  # entries of an array that are offered; ask for others by name
 DEEPEST = 8
 _PART = re.compile(r"([A-Za-z]\w*)(?:\[(\d{1,6})\])?")
 

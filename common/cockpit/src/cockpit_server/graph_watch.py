@@ -23,7 +23,7 @@ class GraphWatch:
         self._uri = rosgraph.get_master_uri()
         self.graph, self.version = Graph(), 0
         self._is_lost = False
-        self._pid: int | None = None  # of the master, once known
+        self._pid: int | None = None  # the master's, once known
         self.look()
 
     def joysticks(self, robot: str) -> tuple[str, ...]:

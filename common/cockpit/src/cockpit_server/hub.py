@@ -18,9 +18,9 @@ from cockpit_server.seat import PAGE, Input, RefusedError, Seat
 from gamepad.gamepads import F710
 from node_kit.throttle import Throttle
 
-BEAT_S = 0.05  # of the server to the driver, and of the robots to all
+BEAT_S = 0.05  # period of messages to the driver, and of robots to all pages
 TICK_S = 0.01  # how often the seat and a recording that plays look at the time
-GIVE_S = 0.005  # of a tick for what pages are sent; the others' turn comes in the next
+GIVE_S = 0.005  # each tick sends to pages for this long; the next tick serves the others
 CONNECT_S = 2.0  # after which a node that is registered is not waited for any longer
 RIVAL_S = 1.0  # another joystick that was heard within that has the first say
 
@@ -46,11 +46,11 @@ class Hub(Source):
         self._sources: tuple[Source, ...] = ()
         self.clients: dict[int, Client] = {}
         self._numbers, self._beats = itertools.count(1), 0
-        self._messages = Budget(budget.ALL_BURST_S)  # of all pages but the one that drives
+        self._messages = Budget(budget.ALL_BURST_S)  # all pages share it, except the driver
         self._requests: dict[str, Budget] = {}  # address -> of its HTTP requests
         self._due: deque[int] = deque()  # pages whose turn it is to be sent something
         self._may_beat = Throttle(1 / BEAT_S, burst=1.5)  # even, though the ticks are not
-        self._modes: tuple[str, ...] = ()  # of the gamepad that may drive
+        self._modes: tuple[str, ...] = ()  # modes that the driving gamepad may have
         self._seat_version = 0
         self._advertised: str | None = None  # the robot for which a joystick is to be advertised
         self._advertise = OnceLater(lambda: joysticks.keep(self._advertised))

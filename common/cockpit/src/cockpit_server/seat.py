@@ -20,7 +20,7 @@ FROZEN_S = 0.2  # a gamepad's own time stands still for so long: it is frozen
 # with movements alone (Chromium on Linux, gamepad_device_linux.cc), a stick held still is no loss.
 TICKS = 8
 AWAY_S = 5.0  # without any fresh input the seat is free again
-KEPT_BEATS = 16  # of the server, as many as are sent in several SILENCE_S
+KEPT_BEATS = 16  # [beats] as many as are sent in several SILENCE_S
 # The page's clock may run slower than ours by this; crystals differ by a tenth of it.
 CLOCK_DRIFT = 1e-3
 NEUTRAL = 0.1  # a stick that was let go is within this, as joy2twist has it
@@ -201,7 +201,7 @@ class Seat:
             self.why, self.stopped = why, self.robot
 
     def moves_on(self, robot: str) -> None:
-        """Forget why a robot stood: it moves again."""
+        """Forget why a robot was stopped: it moves again."""
         if robot == self.stopped:
             self.why, self.stopped = "", None
 

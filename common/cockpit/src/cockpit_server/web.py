@@ -27,8 +27,8 @@ MOST_CLIENTS = 64  # a class, each with a page and a phone
 MOST_CONNECTIONS = 256  # each takes a file descriptor, of which a process may have 1024
 LONGEST_IDLE_S = 20.0  # a connection on which nothing is asked
 PING_S = 1.0  # a page that does not answer three of them is closed
-MOST_PINGS = 100  # of a page
-MOST_FRAGMENTS = 64  # of a message: browsers send one of our size in one piece
+MOST_PINGS = 100  # unanswered, per page
+MOST_FRAGMENTS = 64  # per message: browsers send ours in one piece
 LONGEST_HEADER = 16384  # bytes
 LONGEST_BODY = 1024  # bytes; nothing is uploaded
 # What waits in the kernel for a page that does not read [bytes]; the kernel doubles it.

@@ -26,7 +26,7 @@ def opened(path: str | Path) -> Iterator[rosbag.Bag]:
     except OSError as error:
         raise BagError(f"{path}: cannot be read: {error.strerror or error}") from None
     except rosbag.ROSBagUnindexedException:
-        raise BagError(f"{path}: cut short; mend it with: rosbag reindex {path}") from None
+        raise BagError(f"{path}: cut short; fix it with: rosbag reindex {path}") from None
     except Exception as error:  # rosbag lets struct.error and more through from a damaged file
         why = " ".join(str(error).split()) or type(error).__name__
         raise BagError(f"{path}: not a bag that can be read: {why:.200}") from None

@@ -7,8 +7,8 @@ for it.
 
 from typing import Tuple
 
-EVERY = 8  # of so many equal messages, one trembles: 0.4 s at 20 Hz
-LAST_BIT = 2.0**-23  # of a float32, as a part of its value: axes are such in sensor_msgs/Joy
+EVERY = 8  # one in this many equal messages trembles: 0.4 s at 20 Hz
+LAST_BIT = 2.0**-23  # part of a float32, the type of axes in sensor_msgs/Joy
 
 
 class Trembling:

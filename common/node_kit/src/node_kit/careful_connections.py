@@ -1,8 +1,8 @@
-"""Mends three faults of rospy's connections from outside.
+"""Fixes three faults of rospy's connections from outside.
 
 A peer that connects and sends nothing holds up every other, since rospy greets one after the other.
 A message that cannot be read leaves its bytes in the buffer, so that the next connection counts as
-broken, too, and the node receives nothing more. The same happens when rospy hears of a publisher
+broken, too, and the node receives nothing more. The same happens when the master names a publisher
 twice and connects twice at once: the publisher may close one of the two, the subscriber the other.
 """
 
@@ -148,13 +148,13 @@ def _read_messages(self: Any, buffer: Any, messages: list[Any], _sock: object) -
         if _warn and _may_warn.ready(self.resolved_name, time.monotonic()):
             _warn(
                 f"A message on {self.resolved_name} cannot be read ({error}): the connection to "
-                "its sender is made anew."
+                "its sender is renewed."
             )
         raise TransportException(f"{self.resolved_name}: a message cannot be read") from None
 
 
 def _check_arrival(self: Any, buffer: Any) -> None:
-    """Raise ValueError if the message that has begun does not come to an end."""
+    """Raise ValueError if the message that has started does not come to an end."""
     now = time.monotonic()
     if getattr(self, "incomplete_since", None) is None:
         self.incomplete_since = now

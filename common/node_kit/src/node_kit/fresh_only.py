@@ -17,7 +17,7 @@ class FreshOnly:
     """Renews the connections of a node's subscribers after a suspension.
 
     What waits in the old ones is never read. A program that goes on sending is obeyed again as soon
-    as it is connected anew. A hold-to-run style publisher finds a subscriber that is new, which it
+    as it is connected again. A hold-to-run style publisher finds a subscriber that is new, which it
     drives only once all was released (prompt_publisher.VelocityPublisher).
     """
 

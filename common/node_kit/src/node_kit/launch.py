@@ -129,5 +129,5 @@ def ends_launch() -> None:
     name = next((word[8:] for word in command if word.startswith("__name:=")), command[0])
     print(f"roslaunch: {name} has finished, which ends this launch", file=sys.stderr)
     os.kill(os.getppid(), signal.SIGINT)
-    # A node that exits before roslaunch has begun to end is reported as one that has died.
+    # A node that exits before roslaunch starts to end is reported as one that has died.
     signal.sigtimedwait(ENDING, LONGEST_END_S)

@@ -25,7 +25,7 @@ class NewestOnly:
 
     What the kernel does not take is kept, and of several such messages only the newest: an old
     velocity is worth nothing. A thread that lives only as long as the other side is behind sends
-    it later. A message that has begun is always finished before the next one.
+    it later. A message that has started is always finished before the next one.
 
     With a stop message: when the network is cut, the kernel keeps what it has taken and delivers it
     when the network is back, all at once. So that this ends with a stop, a cut connection gets a

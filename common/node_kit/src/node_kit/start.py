@@ -90,7 +90,7 @@ def _check_master() -> None:
         ) from None
     answer, _ = call(uri, "getPid")
     if answer is Answer.SILENT:
-        raise StartError(f"the ROS master at {uri} does not answer: end it and start roscore anew")
+        raise StartError(f"the ROS master at {uri} does not answer: end it and restart roscore")
     if answer is not Answer.WELL:
         raise StartError(
             f"no ROS master at {uri}: start roscore first, or set ROS_MASTER_URI to where it runs"

@@ -33,7 +33,7 @@ class Suspensions:
 
     def _notice(self, now: float) -> None:
         if now - self._looked > _LONGEST_GAP_S:
-            with self._lock:  # of several threads that notice it, one counts it
+            with self._lock:  # several threads may notice it; one counts it
                 if now - self._looked > _LONGEST_GAP_S:
                     self._number += 1
                     self._counted = self._looked = now

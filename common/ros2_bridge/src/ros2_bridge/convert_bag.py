@@ -17,7 +17,7 @@ from rosbags.rosbag2 import Reader as Reader2
 from rosbags.rosbag2 import Writer
 from rosbags.typesys import Stores, get_typestore
 
-VERSION = 9  # of the format: that of ROS 2 Jazzy and later
+VERSION = 9  # bag format of ROS 2 Jazzy and later
 STORE, STORE_1 = get_typestore(Stores.LATEST), get_typestore(Stores.ROS1_NOETIC)
 
 

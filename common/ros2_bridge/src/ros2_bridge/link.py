@@ -34,7 +34,7 @@ class Frame:
     topic: str
     type: str  # as ROS 2 writes it: package/msg/Name; "": no latched sender is left, forget all
     data: bytes
-    stamp_s: float  # of the monotonic clock, which both sides share
+    stamp_s: float  # monotonic clock, which both sides share
     is_latched: bool = False
     announces: bool = False  # no message, but that some will come: subscribers find the topic
 

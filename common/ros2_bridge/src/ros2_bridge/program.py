@@ -86,6 +86,6 @@ def _watch(sides: list[Side], listens: Path) -> int:
             if is_node and (code == 0 or (code == CANNOT_START and not listens.exists())):
                 return int(code)
             how = f"signal {-code}" if code < 0 else f"exit code {code}"
-            line = f"bridge: the side of {side.name} has ended ({how}): it is started anew"
+            line = f"bridge: the side of {side.name} has ended ({how}): it is restarted"
             print(line, file=sys.stderr, flush=True)
             side.start()

@@ -54,7 +54,7 @@ class Ros1Side:
 
     def _look(self) -> None:
         """Announce to the other side what others publish, before a first message comes."""
-        announced: dict[str, tuple[Sender, str]] = {}  # to whom, and with which type
+        announced: dict[str, tuple[Sender, str]] = {}  # the sender, and its type
         state = rospy.Publisher("/diagnostics", DiagnosticArray, queue_size=1)
         while not rospy.is_shutdown():
             time.sleep(LOOK_S)

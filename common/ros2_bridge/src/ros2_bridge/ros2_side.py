@@ -1,6 +1,6 @@
 """The side of ROS 2, run by its Python: converts the bytes, subscribes and publishes.
 
-Needs rclpy and rosbags, and of the suite this folder alone: link.py and routes.py lie beside it.
+Needs rclpy and rosbags, and of the suite this folder alone: link.py and routes.py are beside it.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ class Ros2Side:
         self._sender = Sender(connection, lambda topic: depth_of(self._routes, topic))
         self._publishers: dict[str, tuple[tuple[str, bool], Any]] = {}
         self._subscriptions: dict[str, tuple[tuple[str, QoSProfile] | None, Any]] = {}
-        self._own: dict[str, collections.deque[tuple[float, bytes]]] = {}  # of both directions
+        self._own: dict[str, collections.deque[tuple[float, bytes]]] = {}  # both directions
         self._said: set[str] = set()
         self._wrong: dict[str, str] = {}  # by topic: why it is not carried
         self._lock = threading.Lock()
@@ -79,7 +79,7 @@ class Ros2Side:
                 continue
             try:
                 self._publish(frame, route)
-            except Exception as error:  # of a message, a type or a conversion: of this topic alone
+            except Exception as error:  # message, type or conversion; only this topic is affected
                 self._say_lost(frame.topic, frame.type, "ROS 2", error)
 
     def _publish(self, frame: Frame, route: Route) -> None:
@@ -168,7 +168,7 @@ class Ros2Side:
                 return
             try:
                 converted = bytes(self._store.cdr_to_ros1(data, kind))
-            except Exception as error:  # of this message alone
+            except Exception as error:  # only this message is affected
                 self._say_lost(route.topic, kind, "ROS 1", error)
                 return
             self._sender.put(Frame(route.topic, kind, converted, sent_s, is_latched))
@@ -202,7 +202,7 @@ def quality(route: Route, is_latched: bool) -> QoSProfile:
 
 
 def fitting(route: Route, offered: list[QoSProfile], is_own_kept: bool) -> QoSProfile:
-    """Return the quality of service of a subscription that hears all of these publishers.
+    """Return the quality of service of a subscription that receives from all of these publishers.
 
     is_own_kept: this node's own publisher keeps messages, which must not come back.
     """

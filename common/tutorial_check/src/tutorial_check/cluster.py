@@ -1,7 +1,7 @@
 """--cluster: checks on the workers of a Dask scheduler, each a ./tutorial worker on its machine.
 
 What a student handed in is sent as an archive; a worker needs this suite, in the same version, and no
-shared folder. Dask does the rest: distribution, TLS, and another try if a worker dies.
+shared folder. Dask does the rest: distribution, TLS, and another try if a worker exits.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from tutorial_check.source.workspace import IGNORED, MOST_BYTES
 
 MOST_AT_ONCE = 1000  # submissions that the scheduler knows of
 TRIES = 2  # a submission that ends so many workers is abandoned
-PORT = 8786  # of a Dask scheduler
+PORT = 8786  # Dask scheduler
 CONNECT_S = 10.0
 # Who has this file is let in: certificate, authority and private key of all.
 CONFIG = os.environ.get("XDG_CONFIG_HOME") or "~/.config"
@@ -192,7 +192,7 @@ def _must_isolate() -> None:
     """Raise CannotCheck where a student's program could reach the scheduler, unless told to go on."""
     if bubblewrap.instead() and INSISTS not in os.environ:
         why = f"{bubblewrap.granted().why}: a student's program could reach the scheduler"
-        todo = "mend that, or ./tutorial worker --not-isolated"
+        todo = "fix that, or ./tutorial worker --not-isolated"
         raise CannotCheck(f"worker {socket.gethostname()} cannot isolate programs: {why}; {todo}")
 
 

@@ -54,9 +54,9 @@ def _parser() -> Parser:
     add("exercises", nargs="*", metavar="EXERCISE", help="all of the handout without one")
     what = "a folder with course.yaml and your own checks, in place of the handout"
     add("--course", type=path, default=str(OURS), metavar="FOLDER", help=what)
-    what = "check the solutions that lie in the course, right ones and wrong ones"
+    what = "check the solutions of the course, right ones and wrong ones"
     where.add_argument("--self-test", action="store_true", help=what)
-    what = "0: say what is wrong, never how to mend it; 1: when the same is wrong again; 2: always"
+    what = "0: say what is wrong, never how to fix it; 1: when the same is wrong again; 2: always"
     add("--hints", type=int, choices=(0, 1, 2), help=f"{what} (1; with --all 2)")
     add("--no-hints", action="store_const", const=0, dest="hints", help="the same as --hints 0")
     what = "YAML of what differs from the course, as --show-variant prints; or folder of NAME.yaml"

@@ -18,7 +18,7 @@ from tutorial_check.model import CannotCheck, Check
 
 FILE = "course.yaml"
 OURS = Path(__file__).resolve().with_name("handout")
-# The modules of a course, which may lie anywhere, are those of a package of this name.
+# The modules of a course, which may be anywhere, are those of a package of this name.
 PACKAGE = "tutorial_course"
 
 # Of what YAML gives, by the type of a field; of others anything.
@@ -27,7 +27,7 @@ KINDS: dict[str, tuple[type, ...]] = {
 }  # fmt: skip
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
-_checks: list[Check] = []  # of all courses that were loaded
+_checks: list[Check] = []  # all loaded courses
 _loaded: dict[object, list[Check]] = {}  # by folder, files and when these have changed
 _loading = threading.Lock()
 MOST_LOADED = 8
@@ -182,7 +182,7 @@ def _load(course: Course) -> list[Check]:
     package = package_of(course)
     if course.folder != OURS:
         for name in [each for each in sys.modules if f"{each}.".startswith(f"{PACKAGE}.")]:
-            del sys.modules[name]  # of another course
+            del sys.modules[name]  # left by another course
         _checks[:] = [one for one in _checks if not one.function.__module__.startswith(PACKAGE)]
         sys.modules[PACKAGE] = types.ModuleType(PACKAGE)
         sys.modules[PACKAGE].__path__ = [str(course.folder)]

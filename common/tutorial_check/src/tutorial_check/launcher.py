@@ -43,8 +43,8 @@ class Outcome:
     trouble: str = ""  # why a check could not be made, through no fault of the student's
     title: str = ""
     points: float = 0.0  # for all of it; 0: one a check
-    place: str = ""  # of the workspace in what was handed in, if that is another folder
-    remark: str = ""  # how well a program of somebody else's was isolated, if not by bubblewrap
+    place: str = ""  # the workspace within what was handed in, if another folder
+    remark: str = ""  # how well a program of someone else's was isolated, if not by bubblewrap
     # What was asked for these results and not before, with the answers of the worker, which see.
     recordings: list[dict[str, Any]] = field(default_factory=list)
 
@@ -181,7 +181,7 @@ def _hand_in(workspace: str, folder: Path, own: bool) -> tuple[workspaces.Layout
     shown = [inside, folder / workspaces.COPY]
     if own:
         shown += [layout.source, *map(Path, workspaces.named_outside(copied))]
-    # A home folder is no workspace, though one may lie in it.
+    # A home folder is no workspace, though one may be in it.
     home = Path(os.path.expanduser("~")).resolve()
     return layout, [each for each in shown if each.resolve() not in (home, *home.parents)]
 

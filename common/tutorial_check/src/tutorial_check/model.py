@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, Callable, Iterable, Iterator
 
 OK, WRONG, NOTE, UNREACHED = "ok", "wrong", "note", "unreached"
-LINE = re.compile(r":\d+$")  # of a file, at the end of a place
+LINE = re.compile(r":\d+$")  # line number at the end of a place
 
 
 @dataclass(frozen=True)
@@ -89,7 +89,7 @@ class Check:
     id: str
     exercise: str
     title: str
-    section: str  # of the course: "handout 4.3"
+    section: str  # in the course: "handout 4.3"
     needs: tuple[str, ...] = ()  # ids of the checks without which this one says nothing
     look: str = ""
     timeless: bool = False  # it reads files alone: no machine is too busy for that
@@ -126,7 +126,7 @@ class Run:
         self._session = session
         self._second_look, self._too_busy = second_look, too_busy
         self._done: dict[str, Result] = {}
-        self._blocked_by: dict[str, list[Result]] = {}  # of each check not reached
+        self._blocked_by: dict[str, list[Result]] = {}  # by each unreached check
         self._reported: set[str] = set()
         self._troubles: dict[str, str] = {}  # id of a check that could not be made: why
 
@@ -228,7 +228,7 @@ class Run:
     def _unreached(self, check: Check, culprits: list[Result]) -> Result:
         self._blocked_by[check.id] = culprits
         first = culprits[0]
-        why = f"first mend {first.id}: {first.title}"
+        why = f"first fix {first.id}: {first.title}"
         if first.status == UNREACHED:
             why = f"{first.id} could not be checked"
         return check.result(UNREACHED, seen=why)

@@ -11,9 +11,9 @@ class Order:
     """One workspace to be checked. Paths are whole."""
 
     folder: str  # for this order alone; the copy of the workspace is in it
-    root: str  # of the workspace as it was handed in
+    root: str  # the workspace as it was handed in
     source: str  # its src
-    place: str  # of the root in what was handed in, if that is another folder
+    place: str  # root within what was handed in, if another folder
     is_workspace: bool  # not only packages
     own: bool  # the caller's own workspace
     exercises: Tuple[str, ...]
@@ -21,8 +21,8 @@ class Order:
     course: str  # its folder
     variant: Dict[str, Any]  # the values of the student's task
     underlay: str  # its setup.bash
-    environment: Dict[str, str]  # of a shell that has sourced it
+    environment: Dict[str, str]  # as in a shell that has sourced it
     kept: Tuple[str, ...]  # what the student's programs need of the suite
     shown: Tuple[str, ...]  # what they may read
-    number: int  # of this order, for a uid of its own
+    number: int  # for a separate uid
     apart: bool = False  # in namespaces of its own, by bubblewrap

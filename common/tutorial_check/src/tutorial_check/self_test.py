@@ -16,7 +16,7 @@ SOLUTIONS, RIGHT, WRONG_OF = "solutions", "right", "wrong_"
 
 
 def solutions(course: Course) -> Iterator[tuple[str, str, list[Path]]]:
-    """Yield (name, the check that it fails at or "", folders that lie one over the other).
+    """Yield (name, the check that it fails at or "", folders that are put one over the other).
 
     solutions/right, and right_WHAT, are packages; wrong_CHECK_WHAT has what differs from right.
     Raises CannotCheck.

@@ -30,7 +30,7 @@ from tutorial_check.source import workspace
 if TYPE_CHECKING:
     from tutorial_check.record.ground import Ground
 
-SHARED_PAGES = 1 << 16  # of System V shared memory: 256 MB
+SHARED_PAGES = 1 << 16  # System V shared memory: 256 MB
 
 
 def main() -> None:
@@ -39,7 +39,7 @@ def main() -> None:
     privileges.keep_to_itself()
     order = from_json(Order, json.load(sys.stdin))
     if order.apart:
-        privileges.prctl(privileges.PR_SET_PDEATHSIG, signal.SIGKILL)  # of bwrap
+        privileges.prctl(privileges.PR_SET_PDEATHSIG, signal.SIGKILL)  # ends with bwrap
         with contextlib.suppress(OSError):  # where the kernel does not allow it
             Path("/proc/sys/kernel/shmall").write_text(str(SHARED_PAGES))
     else:  # its runner notices that the reader has ended, and ends what was started
@@ -130,7 +130,7 @@ def _prepared(order: Order, reader: int) -> Ground:
         task=variants.task_of(course)(order.variant),
     )
     if uid is not None:
-        if not order.apart:  # then the suite may lie where that user cannot read
+        if not order.apart:  # then the suite may be where that user cannot read
             importlib.import_module("rosbag")
             importlib.import_module("tutorial_check.record.driver")
         os.setgroups([])

@@ -29,7 +29,7 @@ _no_more = threading.Event()
 
 
 def end_all() -> None:
-    """End the workers of all threads, and those that have just begun; each raises CannotCheck."""
+    """End the workers of all threads, and those that have just started; each raises CannotCheck."""
     _no_more.set()
 
 

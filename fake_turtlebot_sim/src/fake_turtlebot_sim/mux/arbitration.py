@@ -1,6 +1,6 @@
 """Which of several inputs drives the robot. Reads no clock: time enters in seconds.
 
-The rule is that of yocs_cmd_vel_mux, the TurtleBot's own: of the inputs that spoke within their
+The rule is that of yocs_cmd_vel_mux, the TurtleBot's own: of the inputs that sent within their
 timeout the one with the highest priority is active, and its commands alone go through. A command
 goes through at once or never; none is kept for later.
 """
@@ -41,7 +41,7 @@ HERE = Publisher()
 
 
 class Sender:
-    """Tells the commands that a broken network kept from those of a slow sender.
+    """Separates the commands that a broken network kept from those of a slow sender.
 
     When a cable is pulled, TCP keeps what is sent meanwhile and delivers all of it once the cable
     is back. A Twist has no stamp; but of such commands several arrive at once after a silence of

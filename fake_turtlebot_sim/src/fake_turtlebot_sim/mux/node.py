@@ -101,7 +101,7 @@ class CmdVelMux:
             self._log.warn("This node was suspended. What was sent meanwhile is not obeyed.")
 
     def _look(self) -> float:
-        """Act upon silence; return for how long [s] nothing will be due."""
+        """Act on silence; return for how long [s] nothing will be due."""
         self._wake.clear()
         with self._lock:
             now = time.monotonic()

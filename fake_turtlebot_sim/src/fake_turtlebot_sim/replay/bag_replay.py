@@ -27,14 +27,14 @@ Commands = List[Tuple[int, Optional[Velocity]]]  # times [ns]; None: a message n
 
 
 class ReplayError(Exception):
-    """What the user can mend; the text says how, in one line."""
+    """What the user can fix; the text says how, in one line."""
 
 
 @dataclass
 class Replay:
     """What came of it."""
 
-    seconds: float  # of simulated time
+    seconds: float  # simulated time
     distance: float  # [m] along the path
     path: list[RobotState]  # one for each period, by the odometry; in a world, by the truth
     ignored: int  # commands that were none

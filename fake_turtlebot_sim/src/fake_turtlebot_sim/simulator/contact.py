@@ -16,7 +16,7 @@ from fake_turtlebot_sim.simulator.differential_drive import Pose, Velocity, arc,
 TOUCH_M = 1e-11  # a gap that counts as none: some hundred times the rounding of a place in metres
 TANGENT = 1e-9  # the sine of an angle below which a motion leads along an obstacle, not into it
 MOST_LINES = 50  # Each line leaves at most a quarter of a gap.
-HALVINGS = 52  # of a time, to its rounding
+HALVINGS = 52  # halving a time this often reaches its rounding
 
 Obstacle = Tuple[float, float, float, float, float]  # x1, y1, x2, y2, radius [m]
 
@@ -52,7 +52,7 @@ def gap(x: float, y: float, radius: float, obstacle: Obstacle) -> float:
 
 
 def direction_to(pose: Pose, obstacle: Obstacle) -> float:
-    """Return the direction [rad] in which an obstacle lies from a pose, in the frame of both."""
+    """Return the direction [rad] of an obstacle from a pose, in the frame of both."""
     px, py = nearest(pose[0], pose[1], obstacle)
     return atan2(py - pose[1], px - pose[0])
 

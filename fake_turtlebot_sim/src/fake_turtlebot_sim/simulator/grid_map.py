@@ -24,7 +24,7 @@ OCCUPIED, UNKNOWN = 100, -1  # nav_msgs/OccupancyGrid; 0: free
 LARGEST_MAP = 4096 * 4096  # cells
 LARGEST_IMAGE = 100_000_000  # bytes
 MOST_WALLS = 200_000  # pieces of outlines
-FARTHEST_M = 1e4  # of a world from (0, 0): beyond, places round to more than counts as a touch
+FARTHEST_M = 1e4  # from (0, 0): beyond, places round to more than a touch
 TRINARY, SCALE, RAW = MODES = ("trinary", "scale", "raw")
 
 
@@ -134,7 +134,7 @@ def read_map(path: Path, about: Mapping[str, Any]) -> Grid:
         raise WorldError(f"{image}: reaches farther than {FARTHEST_M:g} m from (0, 0)")
     channels = pixels.shape[2]
     counted = channels - (channels == 4 and mode != TRINARY)  # without alpha
-    mean = np.arange(255 * counted + 1) / counted  # of each sum that the channels can have
+    mean = np.arange(255 * counted + 1) / counted  # for each sum of the channels
     table = _values(255 - mean if str(negate) == "1" else mean, mode, occupied, free)
     cells = table[pixels[..., :counted].sum(axis=2, dtype=np.uint16)]
     if mode == SCALE and channels > 1:  # the last channel counts as alpha, whichever it is
@@ -183,7 +183,7 @@ def _pixels(data: bytes) -> Any:
     if isinstance(picture.info.get("transparency"), bytes):
         kinds["P"] = "RGBA"  # else the number of the colour counts
     pixels = np.asarray(picture.convert(kinds.get(picture.mode, picture.mode)))
-    if pixels.dtype != np.uint8:  # of 16 bits the higher 8
+    if pixels.dtype != np.uint8:  # 16 bits: keep the higher 8
         pixels = (pixels >> 8).astype(np.uint8)
         if not pixels.any():
             raise WorldError("of its 16 bits map_server reads the higher 8, which are all 0")

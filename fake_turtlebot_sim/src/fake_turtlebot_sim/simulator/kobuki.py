@@ -18,8 +18,8 @@ EVENTS = (
 )
 QUEUE = 30  # events; none of them may be lost
 BOTTOM = (1500, 0)  # a cliff sensor above ground and above none, about: the farther, the less
-WRAP = 1 << 16  # of the counters, which have 16 bits
-TICKS_PER_TURN = 52 * 6545 / 132  # of an encoder and its gears: 2578.33 (kobuki_driver's appendix)
+WRAP = 1 << 16  # counters have 16 bits
+TICKS_PER_TURN = 52 * 6545 / 132  # encoder and gears: 2578.33 (kobuki_driver's appendix)
 FULL_RATE = 0.7 / 0.035  # [rad/s] of a wheel at full voltage: 0.7 m/s (Kobuki's specifications)
 FULL_CURRENT = 30  # [10 mA] of a motor at FULL_RATE, about
 BATTERY = 164  # [0.1 V] of 4 lithium cells that are almost full

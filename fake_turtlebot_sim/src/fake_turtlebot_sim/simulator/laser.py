@@ -42,7 +42,7 @@ class Scanner:
             beams, ranges = (np.concatenate(parts) for parts in zip(*found))
         nearest = np.full(self._count, np.inf)
         if len(beams):
-            order = np.argsort(beams, kind="stable")  # of small integers: linear
+            order = np.argsort(beams, kind="stable")  # small integers: linear time
             beams, ranges = beams[order], ranges[order]
             first = np.flatnonzero(np.diff(beams, prepend=-1))
             nearest[beams[first]] = np.minimum.reduceat(ranges, first)
@@ -110,7 +110,7 @@ class Laser:
         """
         p = self._parameters
         x, y, _ = sensor = composed(pose, (p.scan_x, p.scan_y, 0.0))
-        if not hypot(x - self._at[0], y - self._at[1]) < REACH_M:  # choose anew what is in reach
+        if not hypot(x - self._at[0], y - self._at[1]) < REACH_M:  # choose again what is in reach
             self._at, reach = (x, y), p.scan_range_max + REACH_M
             near = self._obstacles[gaps(x, y, self._obstacles) <= reach]
             self._walls, self._posts = near[near[:, 4] == 0.0], near[near[:, 4] > 0.0]

@@ -104,7 +104,7 @@ class FakeTurtlebot:
             if self._world:
                 self._world.after_move(now.stamp)
         self._cycle_number += 1
-        if now.stamp:  # zero: simulated time has not begun
+        if now.stamp:  # zero: simulated time has not started
             for topics in self._topics:
                 topics.publish()
             if self._world:
@@ -114,7 +114,7 @@ class FakeTurtlebot:
         return now
 
     def _lay(self, frames: list[tuple[str, str, Place]]) -> None:
-        """Publish where frames lie for good: (parent, child, place [m] in the parent)."""
+        """Publish where static frames are: (parent, child, place [m] in the parent)."""
         stamp = rospy.Time.now()
         self._tf_static = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
         self._tf_static.publish(TFMessage([static_transform(one, stamp) for one in frames]))

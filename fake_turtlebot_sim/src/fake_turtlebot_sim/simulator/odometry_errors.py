@@ -3,7 +3,7 @@
 The systematic errors are those of UMBmark (Borenstein and Feng, 1996, "Measurement and correction
 of systematic odometry errors in mobile robots"): E_d, the ratio of the actual wheel diameters,
 right to left, at an unchanged mean, and E_b, the ratio of the actual to the nominal track. They
-bend the true path, while the odometry believes in the nominal robot.
+bend the true path, while the odometry assumes the nominal robot.
 
 The noise is that of Chong and Kleeman (1997, "Accurate odometry and error modelling for a mobile
 robot"): the measured travel of each wheel is off by a normal error whose variance grows with the
@@ -41,7 +41,7 @@ class OdometryErrors:
 
     def forget(self) -> None:
         """Trust the odometry fully again, as after the robot was put at a known place."""
-        self.covariance: Any = np.zeros((3, 3))  # of x [m], y [m], yaw [rad]
+        self.covariance: Any = np.zeros((3, 3))  # x [m], y [m], yaw [rad]
 
     def true_velocity(self, velocity: Velocity) -> Velocity:
         """Return the velocity of the actual robot whose wheels turn as the nominal one's."""

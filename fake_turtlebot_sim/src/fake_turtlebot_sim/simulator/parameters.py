@@ -112,9 +112,7 @@ class Parameters:
     robots: dict[str, Pose | None] = parameter(
         {}, _robots, "several: how many, `[ada, bob]`, or `{ada: [x, y, yaw], ...}` [m, m, rad]"
     )
-    world_frame: str = parameter(
-        "world", _FRAME, "in which the odometry frames of several robots lie"
-    )
+    world_frame: str = parameter("world", _FRAME, "common to the odometry frames of several robots")
     world: World | None = parameter(
         None, _world, "to drive in: `room`, `maze`, `table`, or a file; none: an empty plane", '""'
     )

@@ -46,7 +46,7 @@ class RobotTopics:
         self.rejected = 0
         self.robot = SimulatedRobot(parameters, start_pose, name)
         self.odom_frame = prefix + parameters.odom_frame
-        # The frames a pose may be given in: that of all robots lies on that of each odometry.
+        # The frames a pose may be given in: that of all robots coincides with each odometry's.
         self._frames = [self.odom_frame] + ([parameters.world_frame] if name else [])
         self._is_in_world = parameters.world is not None
         if parameters.world:
@@ -72,7 +72,7 @@ class RobotTopics:
                 self._fresh.watch(subscriber)
         kobuki = prefix, self.robot, motion, self._is_in_world
         self._kobuki = KobukiTopics(*kobuki) if parameters.kobuki else None
-        if name:  # of a single robot the node's own does the same
+        if name:  # for a single robot the node's own does this
             rospy.Service(f"{prefix}reset", srv.Empty, self._on_reset)
 
     def move(self, now: Instant) -> None:

@@ -31,7 +31,7 @@ from fake_turtlebot_sim.simulator.world import BASE_RADIUS_M, FARTHEST_PLACE_M, 
 
 REST: Velocity = (0.0, 0.0)
 ON_ITS_WHEELS = (False, False)
-Change = Tuple[Velocity, Velocity]  # of a velocity, linear in time: at its begin and at its end
+Change = Tuple[Velocity, Velocity]  # a velocity, linear in time: at its start and at its end
 
 
 def meet(robots: Sequence[SimulatedRobot], reach: float) -> None:
@@ -239,7 +239,7 @@ class SimulatedRobot:
         elif self._dropped == ON_ITS_WHEELS:
             self._drive_in_world(self._surroundings, Piece(*wheels, dt), Piece(*true, dt))
         else:
-            self._velocity = REST  # it lies there until it is lifted
+            self._velocity = REST  # it stays there until it is lifted
 
     def _drive_in_world(self, around: Surroundings, wheels: Piece, true: Piece) -> None:
         """Drive until something is in the way, or a wheel drops."""

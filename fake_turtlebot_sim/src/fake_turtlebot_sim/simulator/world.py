@@ -16,7 +16,7 @@ from fake_turtlebot_sim.simulator.grid_map import Grid
 
 BASE_RADIUS_M = 0.178  # kobuki.urdf.xacro
 Point = Tuple[float, float]  # x, y [m]
-FARTHEST_PLACE_M = 1e6  # of a robot that is put somewhere
+FARTHEST_PLACE_M = 1e6  # limit of a robot's position
 REACH_M = 1.0  # around a robot: what is farther away is looked at again only after so long a way
 INSIDE_M = 1e-9  # how deep in a wall a robot may be put
 GRID_M = 0.5  # between robots that are lined up
@@ -39,7 +39,7 @@ class World:
         if self.start or not self.grid:
             return self.start or ORIGIN
         x, y, _ = place = self.grid.free_place(BASE_RADIUS_M)
-        if hypot(x, y) < self.grid.resolution:  # of one cell, or nearly
+        if hypot(x, y) < self.grid.resolution:  # about one cell
             with suppress(ValueError):
                 self.check_place(ORIGIN)
                 return ORIGIN

@@ -16,7 +16,7 @@ from node_kit.parameters import is_number
 
 LARGEST_WORLD = 2_000_000  # bytes
 MOST = {"walls": 40_000, "posts": 2_000, "cliffs": 1_000}  # corners, or posts
-DEEPEST = 20  # of lists in lists
+DEEPEST = 20  # levels of lists in lists
 # libyaml is ten times as fast as PyYAML alone.
 LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
@@ -48,7 +48,7 @@ def read_world(path: Path) -> World:
     if "image" in data:
         return _from_map(path, data)
     found = {}
-    for key, items in reversed(node.value):  # of two that are the same, data has the last
+    for key, items in reversed(node.value):  # duplicate key: data has the last
         name, line = key.value, key.start_mark.line + 1
         if name not in FIELDS:
             known = ", ".join(FIELDS)

@@ -16,7 +16,7 @@ from fake_turtlebot_sim.simulator.grid_map import OCCUPIED, UNKNOWN, Grid
 from fake_turtlebot_sim.simulator.sensors import CENTER_RAD, SIDE_RAD, Three
 from fake_turtlebot_sim.simulator.world import BASE_RADIUS_M, World, gaps, is_inside
 
-MARGIN_M = 0.5  # of free cells around everything
+MARGIN_M = 0.5  # free cells around everything
 MOST_CELLS = 4_000_000
 MOST_WALLS = 20_000  # as markers; of a map with more they are several MB each second
 WALL_M, LINE_M = 0.3, 0.02  # how high walls and posts are drawn, and how thick lines

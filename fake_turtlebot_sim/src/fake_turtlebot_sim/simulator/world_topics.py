@@ -53,7 +53,7 @@ class WorldTopics:
         self._shown = shown.getvalue()
 
     def frames(self) -> list[tuple[str, str, Place]]:
-        """Return where frames lie for good: (parent, child, place [m] in the parent)."""
+        """Return where static frames are: (parent, child, place [m] in the parent)."""
         p = self._parameters
         place = p.scan_x, p.scan_y, SCAN_Z
         found = [(one.base_frame, one.scan_frame, place) for one in self._sensors]

@@ -121,7 +121,7 @@ class Trial:
         return last
 
     def _waits(self):
-        """Yield (b): wheels that stood turn without a release."""
+        """Yield (b): wheels at rest turn without a release."""
         stood_s = None
         for now, _, velocity in self.of(WHEELS):
             if not moves(velocity):

@@ -30,7 +30,7 @@ CANNOT = 2  # exit code
 
 
 class Plan(NamedTuple):
-    """A trial; times [s] count from when the robot, driven by the hands, has begun to move."""
+    """A trial; times [s] count from when the robot, driven by the hands, has started to move."""
 
     seed: int
     hands: list  # (time, what they show from then on)

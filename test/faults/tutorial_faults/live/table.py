@@ -19,11 +19,11 @@ NODES = {"joy_node": JOYSTICK, "joy2twist": DRIVER, "mux": MUX, "base": BASE}
 TELEOP = "cmd_vel_mux/input/teleop"
 TOPICS = {"teleop": TELEOP, "navi": "cmd_vel_mux/input/navi", "cmd_vel": "cmd_vel"}
 # What must hold: the wheels rest in time, and then wait for the release of all; they wait for it
-# if they stood; the robot is driven on all the while; it may stop and drive on, for it is no loss.
+# if they were at rest; the robot is driven on meanwhile; it may stop and drive on: no loss.
 RESTS, WAITS, DRIVES_ON, MAY_STOP = "rests", "waits", "drives on", "may stop"
 
 VIGILANCE_S = 1.0  # joy2twist's ~vigilance_timeout here, for more trials
-PERIOD_S = 0.05  # of the messages of other programs
+PERIOD_S = 0.05  # messages of other programs
 LB = 4
 HELD = Joy(axes=[0.0, 1.0, 0.0, 0.0, 0.0, 0.0], buttons=[int(n == LB) for n in range(12)])
 ODD = (math.nan, math.inf, -math.inf, 0.0, 1.0, -1.0, 1e38, 1e-45, 2.0, 1e6)
@@ -66,7 +66,7 @@ def serialised(message):
     return buff.getvalue()
 
 
-# Cut, or with lengths that lie; of what is too long rospy reads the beginning.
+# Cut, or with wrong lengths; of what is too long rospy reads the beginning.
 BROKEN = (b"", bytes(20), serialised(HELD)[:-3], b"\xff" * 100_000)
 
 

@@ -19,7 +19,7 @@ from tutorial_testing.waiting import BUSY_S, wait_for
 
 ENDS_S = 1.5 + BUSY_S  # for a node to exit, when asked to
 MOVES_S = 4.0  # to release all and drive again, at least
-DRIVES_S = 90.0  # after which a system that does not drive is deaf
+DRIVES_S = 90.0  # after which a system that does not drive has failed
 STARTS_S = 0.3  # a node that is restarted does nothing sooner: it loads rospy
 
 

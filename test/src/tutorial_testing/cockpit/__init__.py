@@ -1,1 +1,1 @@
-"""The cockpit in a browser, beside a robot whose odometry tells what is true."""
+"""The cockpit in a browser, beside a robot whose odometry is the truth."""

@@ -65,7 +65,7 @@ class WebDriver(Browser):
 
 
 class Firefox(Browser):
-    """Firefox over WebDriver BiDi, spoken directly: Debian has no geckodriver.
+    """Firefox over WebDriver BiDi, used directly: Debian has no geckodriver.
 
     https://w3c.github.io/webdriver-bidi: JSON over a WebSocket, {id, method, params} and its
     answer.

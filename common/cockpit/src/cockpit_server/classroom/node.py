@@ -38,7 +38,7 @@ BODY = (
     (Marker.TEXT_VIEW_FACING, (0.0, 0.0, 0.75), (0.0, 0.0, 0.26), BLACK),  # the name
 )
 
-Pairs = Set[Tuple[str, str]]  # of transforms, as (parent, child)
+Pairs = Set[Tuple[str, str]]  # transforms: (parent, child)
 
 
 def robots(known: Pairs) -> set[str]:

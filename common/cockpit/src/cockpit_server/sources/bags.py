@@ -106,7 +106,7 @@ class Bags(Source):
         if opened is None:
             client.refuse("bag_open", why, now)
             return
-        self.on_bag_pause(client, now)  # what was begun meanwhile is not what is shown
+        self.on_bag_pause(client, now)  # what was started meanwhile is not what is shown
         self._opened[client.number] = opened
         client.seen.pop("bag_at", None)
 

@@ -36,7 +36,7 @@ class Doctor(Source):
     def __init__(self) -> None:
         self._lines: list[dict[str, str]] = []
         self._running, self._version = False, 0
-        self._ended_at = -math.inf  # of the last run [s]
+        self._ended_at = -math.inf  # [s] end of the last run
 
     def give(self, client: Client, now: float) -> None:
         if self._version and client.lacks("doctor", self._version):

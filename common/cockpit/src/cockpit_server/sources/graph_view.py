@@ -29,7 +29,7 @@ class GraphView(Source):
 
     def __init__(self, graph_watch: GraphWatch) -> None:
         self._graphs = graph_watch
-        self._version, self._text = -1, ""  # of the graph, and its message to pages
+        self._version, self._text = -1, ""  # the graph's version, and its message to pages
         self._pids: dict[str, int | None] = {}  # node -> process, in that version
 
     def prepare(self, clients: Sequence[Client], now: float) -> None:

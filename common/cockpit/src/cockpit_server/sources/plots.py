@@ -18,7 +18,7 @@ from cockpit_server.fields import numeric_fields, parts_of, split, value_at
 from cockpit_server.graph_watch import GraphWatch
 from cockpit_server.schema import MOST_FIELDS, list_of, switch, text
 
-NEAR_S = 1.0  # of a stamp and this clock; curves of two clocks would not be seen side by side
+NEAR_S = 1.0  # between a stamp and this clock: curves of two clocks are not side by side
 KEPT = 2000  # samples of a field for a page that is behind
 
 

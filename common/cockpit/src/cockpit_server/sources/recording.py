@@ -13,11 +13,11 @@ from cockpit_server.graph import JOY
 from cockpit_server.player import Message
 from gamepad.bags import BagError, opened
 
-Point = List[float]  # of a curve: time [s], value
+Point = List[float]  # time [s], value
 LARGEST = 200_000_000  # bytes
-MOST_MESSAGES = 500_000  # of joysticks; at 100 Hz more than an hour
-MOST_POINTS = 3000  # of a curve
-MOST_NAMES = 100  # of this folder
+MOST_MESSAGES = 500_000  # [Joys] at 100 Hz more than an hour
+MOST_POINTS = 3000  # in a curve
+MOST_NAMES = 100  # files shown of this folder
 MOST_KEPT = 20  # recordings
 
 

@@ -17,7 +17,7 @@ from cockpit_server.motion import Motion, covered, is_somewhere, motion
 from cockpit_server.schema import or_null, switch, text
 from node_kit.careful_connections import sender_of
 
-DIGITS = 4  # of metres: a tenth of a millimetre
+DIGITS = 4  # after the point [m]: a tenth of a millimetre
 LONGEST_JOY = 4000  # bytes; a gamepad's message has some 100, a huge one would hold up the driver
 KOBUKI = {  # what a robot's commands of these types ask for, by their value
     "kobuki_msgs/Led": ("off", "green", "orange", "red"),
@@ -26,7 +26,7 @@ KOBUKI = {  # what a robot's commands of these types ask for, by their value
     ),
 }  # fmt: skip
 COMMANDS = "/mobile_base/commands/"
-FRESH_S, LEAST_SPEED = 1.0, 0.01  # of odometry that says that a robot moves [m/s, rad/s]
+FRESH_S, LEAST_SPEED = 1.0, 0.01  # [s], [m/s, rad/s]: newer and faster odometry is motion
 
 
 class Robots(Source):
@@ -141,15 +141,15 @@ class Pads(Source):
         self.driven: str | None = None  # the robot that is driven from a page
         # topic -> (when its newest message came [s], what pages get of it)
         self._newest: dict[str, tuple[float, dict[str, Any] | None]] = {}
-        self._rivals: dict[str, tuple[str, float]] = {}  # topic -> (node, when it last spoke [s])
+        self._rivals: dict[str, tuple[str, float]] = {}  # topic -> (node, newest message [s])
 
     def prepare(self, clients: Sequence[Client], now: float) -> None:
         looked_at = {client.watch.look for client in clients} & self._graphs.graph.robots()
         robots = {robot for robot in (*looked_at, self.driven) if robot is not None}
-        hears = {topic_of(robot, "joy"): self._hear for robot in robots}
-        self._feeds.want(self, hears, every=False)
-        self._newest = {topic: self._newest[topic] for topic in hears if topic in self._newest}
-        self._rivals = {topic: self._rivals[topic] for topic in hears if topic in self._rivals}
+        handlers = {topic_of(robot, "joy"): self._hear for robot in robots}
+        self._feeds.want(self, handlers, every=False)
+        self._newest = {topic: self._newest[topic] for topic in handlers if topic in self._newest}
+        self._rivals = {topic: self._rivals[topic] for topic in handlers if topic in self._rivals}
 
     def give(self, client: Client, now: float) -> None:
         robot = client.watch.look
@@ -159,8 +159,8 @@ class Pads(Source):
 
     def rival(self, robot: str, since: float) -> str | None:
         """Return the other node that sent on the robot's topic since a time [s], or None."""
-        name, spoke = self._rivals.get(topic_of(robot, "joy"), ("", 0.0))
-        return name if spoke >= since and name else None
+        name, sent = self._rivals.get(topic_of(robot, "joy"), ("", 0.0))
+        return name if sent >= since and name else None
 
     def _hear(self, message: Any, topic: str) -> None:
         now, sender = time.monotonic(), sender_of(message)

@@ -19,15 +19,15 @@ from cockpit_server.graph import ODOMETRY, topic_of
 from cockpit_server.graph_watch import GraphWatch
 from cockpit_server.motion import is_somewhere, motion
 
-MOST_CELLS = 250_000  # of the map as pages get it; a larger one gets larger cells
+MOST_CELLS = 250_000  # in a page's map; a larger map gets larger cells
 LARGEST_MAP = 20_000_000  # bytes
-MOST_POINTS = 160  # of a scan as pages get it
+MOST_POINTS = 160  # in a page's scan
 LONGEST_SCAN = 200_000  # bytes
 MOST_FRAMES, LONGEST_FRAMES, LONGEST_NAME = 5_000, 1_000_000, 200  # in all; bytes; characters
-DIGITS = 3  # of metres
-TRUTH, SCAN, EVENT = "base_pose_ground_truth", "scan", "mobile_base/events/bumper"  # of a robot
+DIGITS = 3  # after the point [m]
+TRUTH, SCAN, EVENT = "base_pose_ground_truth", "scan", "mobile_base/events/bumper"  # topics
 EVENT_TYPE = "kobuki_msgs/BumperEvent"
-BUMPERS, BUMPER_BYTES = 3, 2  # of an event: which one, and whether it is pressed
+BUMPERS, BUMPER_BYTES = 3, 2  # bytes of an event: which bumper, and whether it is pressed
 
 
 class Surroundings(Source):

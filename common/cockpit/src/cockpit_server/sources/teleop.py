@@ -13,7 +13,7 @@ from cockpit_server.graph import robot_of
 from node_kit.arming import DRIVING
 
 MARK = ": joystick"  # the end of the name of joy2twist's status; before it stands its node's
-SILENT_S = 4.0  # it speaks once a second
+SILENT_S = 4.0  # it publishes once a second
 SILENT = {"state": "silent", "why": "no report from joy2twist for 4 s", "level": 2, "deadman": None}
 UNKNOWN = "it reports once a second"  # what is shown meanwhile
 DEADMAN = "Dead-man button"  # key of the value that names it, or "none"
@@ -41,7 +41,7 @@ class Teleop(Source):
 
     def __init__(self, feeds: Feeds) -> None:
         self._states: dict[str, dict[str, Any]] = {}  # robot -> its report
-        self._heard: dict[str, float] = {}  # robot -> when it spoke last [s]
+        self._heard: dict[str, float] = {}  # robot -> time of its newest message [s]
         feeds.want(self, {"/diagnostics": self._hear}, every=True)
 
     def prepare(self, clients: Sequence[Client], now: float) -> None:

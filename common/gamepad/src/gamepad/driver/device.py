@@ -105,8 +105,8 @@ class Finder:
     def __init__(self, dev: str, dev_name: str) -> None:
         """dev: path. dev_name: name or part of a name, by which it is looked for if not empty."""
         self._dev, self._name = dev, dev_name
-        self._identity: tuple[str, str] | None = None  # of the gamepad that was opened first
-        self._content: tuple[int, ...] | None = None  # of the plain file that was opened last
+        self._identity: tuple[str, str] | None = None  # the first opened gamepad
+        self._content: tuple[int, ...] | None = None  # the last opened plain file
 
     def open(self) -> Device:
         """Open it. Raises DeviceError if it is not there."""

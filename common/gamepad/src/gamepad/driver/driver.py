@@ -28,11 +28,11 @@ class Driver:
 
     def __init__(self, parameters: DriverParameters) -> None:
         self._parameters = parameters
-        self._state: GamepadState | None = None  # of the open gamepad
+        self._state: GamepadState | None = None  # the open gamepad
         self._told = False  # whether what was published may be driving a robot
         self._mute = False  # nothing is published until the user touches the gamepad
         self.opens_at = -math.inf  # not to be opened before this time
-        self.unknown_events = 0  # of a type that linux/joystick.h does not have
+        self.unknown_events = 0  # events whose type linux/joystick.h lacks
         self.events = 0
         self.heard_at = -math.inf  # when the gamepad gave bytes last
 
@@ -103,7 +103,7 @@ class Driver:
     def lost(self, now: float) -> list[Message]:
         """Return the messages to publish at a loss: a neutral one, if any was before.
 
-        The next gamepad to be opened is mute until the user touches it. What the kernel says of a
+        The next gamepad sends nothing until the user touches it. What the kernel says of a
         gamepad at opening may be made up, and a made-up neutral position would arm a robot.
         """
         messages = [self._state.neutral(self._triggers)] if self._state and self._told else []

@@ -39,7 +39,7 @@ QUIT = ("q", "\x03", "\x04")
 # One key: a sequence, as of F4 or Ctrl with an arrow, or a character. Sequences are those of
 # ECMA-48, and of the function keys of the Linux console.
 _KEY = re.compile(r"\x1b(?:\[\[.|\[[0-?]*[ -/]*[@-~]|O.)|.", re.DOTALL)
-_BEGUN_KEY = re.compile(r"\x1b(?:\[\[|\[[0-?]*[ -/]*|O)?\Z")
+_STARTED_KEY = re.compile(r"\x1b(?:\[\[|\[[0-?]*[ -/]*|O)?\Z")
 
 
 class Keyboard:
@@ -58,8 +58,8 @@ class Keyboard:
         """Take in what the terminal sent at a time."""
         self._expire(now)
         text = self._rest + text
-        begun = _BEGUN_KEY.search(text)
-        self._rest = begun.group() if begun else ""
+        started = _STARTED_KEY.search(text)
+        self._rest = started.group() if started else ""
         for sent in _KEY.findall(text[: len(text) - len(self._rest)]):
             key = sent if sent in DIRECTIONS else sent.lower()
             if key in QUIT:

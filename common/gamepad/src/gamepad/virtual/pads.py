@@ -109,7 +109,7 @@ class StreamPad(ContextManager["StreamPad"]):
     ) -> None:
         """Make the FIFO, if it is missing. clock: gives seconds. Raises PadError."""
         self._gamepad, self._path, self._clock = gamepad, path, clock
-        self.gives_signs = True  # of life; the receiver of a radio gamepad gives none
+        self.gives_signs = True  # signs of life; the receiver of a radio gamepad gives none
         self._fd: int | None = None
         self._told: dict[tuple[int, int], int] = {}  # (type, number) -> value that the reader knows
         self._signed_at = -math.inf  # when the last sign of life was given

@@ -134,7 +134,7 @@ def command(folder: str | Path, shown: Iterable[str | Path], hidden: str | Path)
     """Return the words before a command that isolate it; empty if the system grants no isolation.
 
     folder: where the programs write, empty at first; shown: files and folders to see, read-only;
-    hidden: a folder that is not shown, though it may lie in one that is.
+    hidden: a folder that is not shown, though it may be in one that is.
     """
     isolation = granted()
     if not isolation.options:

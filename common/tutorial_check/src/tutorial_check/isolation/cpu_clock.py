@@ -11,10 +11,10 @@ import os
 import time
 from typing import Callable, Dict, Iterator, Tuple
 
-SLOWEST = 0.05  # of real time: a deadline is at most twenty times as long
-LOOKING = 0.05  # of the time at most goes into looking
-IDLE = 0.1  # of one processor; programs that use less only wait
-STRAINED = 0.15  # of the time spent waiting for a processor: a late answer proves little
+SLOWEST = 0.05  # part of real time: a deadline is at most twenty times as long
+LOOKING = 0.05  # largest part of the time that looking may take
+IDLE = 0.1  # [processors] programs that use less only wait
+STRAINED = 0.15  # part of the time waiting for a processor: a late answer proves little
 HOPELESS = 0.86  # it proves nothing
 REACH_S = 30.0  # the kernel counts how long a thread waited only when that is over
 STARVED_S = 0.5  # ready, and without a turn

@@ -14,8 +14,8 @@ from typing import Iterator
 PR_SET_PDEATHSIG, PR_SET_DUMPABLE, PR_SET_CHILD_SUBREAPER, PR_SET_NO_NEW_PRIVS = 1, 4, 36, 38
 MOST_PIDS = 1 << 22  # that Linux has
 UNUSED = 1_000_000  # from here on, and as many again, are uids that no system uses
-FEW_IDS = 4096  # of fewer any may be in use
-MOST_THREADS = 400  # of an unused uid; of another one, in addition to those that it has anyway
+FEW_IDS = 4096  # in a smaller range any uid may be in use
+MOST_THREADS = 400  # an unused uid; another uid may have these in addition to its own
 # The address space is what Python's threads reserve, not what they use.
 LIMITS = {
     resource.RLIMIT_AS: 6 << 30,

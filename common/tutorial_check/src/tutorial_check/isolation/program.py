@@ -10,7 +10,7 @@ from typing import Optional
 
 from tutorial_check.isolation.cpu_clock import Times, fields_of, is_ready, times_of
 
-SPINNING_S = 6.0  # of a processor's time; to start, a ROS program needs less than one
+SPINNING_S = 6.0  # [s of CPU time] a ROS program needs less than one to start
 KEPT_FIRST, KEPT_LAST = 200_000, 50_000  # bytes of a program's output
 
 
@@ -37,7 +37,7 @@ class Program:
         self.process, self.name = process, name
         self.was_stopped = False  # by us: then how it ended says nothing
         self._worked_s = 0.0
-        self._times: Times = {}  # of its threads, when rests() last looked
+        self._times: Times = {}  # per thread, at the last rests()
         self._first, self._last, self._printed = bytearray(), bytearray(), 0
 
     @property

@@ -191,7 +191,7 @@ class Runner:
         self._reap()
 
     def _reap(self) -> None:
-        """Reap orphans that have ended: till then they count against the user's limit."""
+        """Reap orphans that have ended: until then they count against the user's limit."""
         known = {program.process.pid for program in self._open} | self.trusted
         for pid, state, parent, _ in processes():
             if state in ENDED and parent == os.getpid() and pid not in known:

@@ -109,7 +109,7 @@ PermissionError|Read-only file system|Permission denied
 """
 SYNTAX = r"""
 \A.*U\+00A0|\n.*\xa0
-    invisible blanks came from the PDF: type them anew, or sed -i 's/\xc2\xa0/ /g' FILE
+    invisible blanks came from the PDF: type them again, or sed -i 's/\xc2\xa0/ /g' FILE
 \n.*[‘’“”]
     curly quotes came from the PDF: type " or ' instead
 \A.*invalid character '(?P<m>[□₽])'
@@ -117,7 +117,7 @@ SYNTAX = r"""
 \A.*invalid character '(?P<m>.)'
     {m} came from the PDF, or a text program: type - for a dash, ' for a quote, * for a cross
 \A.*invalid (?:non-printable )?character
-    a character of this line only looks right, or like nothing: type the line anew
+    a character of this line only looks right, or like nothing: type the line again
 \n.*(?:(?:std|sensor|geometry|nav) msgs|(?:is|on) shutdown|get (?:name|time|caller id))
     the PDF shows underscores as gaps: write _ (sensor_msgs, init_node, queue_size)
 \n.*(?:init node|queue size|load manifest|cmd vel|hello str)

@@ -103,7 +103,7 @@ class Builder(Session):
             except (NotADirectoryError, FileNotFoundError):
                 continue
             except PermissionError:
-                # What lies below a needed one is as closed; but a home folder is opened no further.
+                # What is below a needed one is as closed; but a home folder is opened no further.
                 is_needed = set(self._needed) & {folder, *folder.parents}
                 how = f"{'chmod -R o+rX' if is_needed else 'chmod o+x'} {folder}"
                 raise CannotCheck(

@@ -91,7 +91,7 @@ class Echo:
 
 
 class Driver:
-    """A node with which the checker speaks to the student's."""
+    """A node with which the checker exchanges messages with the student's."""
 
     def __init__(self) -> None:
         connect_once()

@@ -12,7 +12,7 @@ from gamepad.gamepads import F710
 from gamepad.virtual.pads import StreamPad
 
 MODE = F710["D"]  # as its switch stands
-PERIOD_S = 0.02  # how often it looks whether a driver has begun to read
+PERIOD_S = 0.02  # how often it looks whether a driver has started to read
 
 
 class Pad:

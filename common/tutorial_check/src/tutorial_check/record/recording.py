@@ -10,7 +10,7 @@ import dataclasses
 import inspect
 from typing import Any, Dict, List, Tuple, TypeVar, Union, cast, get_type_hints
 
-VERSION = 1  # of what recordings are; a change that an older judge would not read is a new one
+VERSION = 1  # raised by each change that an older judge could not read
 Recording = TypeVar("Recording")
 Heard = Tuple[float, str, Tuple[float, ...]]  # (when it came [s], from which node, its numbers)
 HeardText = Tuple[float, str, str]

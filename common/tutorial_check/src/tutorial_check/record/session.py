@@ -29,7 +29,7 @@ NEEDS_BUILD = re.compile(
     re.MULTILINE | re.IGNORECASE,
 )
 Recorded = TypeVar("Recorded")
-Recorder = Callable[..., Recorded]  # of a ground.Ground and arguments
+Recorder = Callable[..., Recorded]  # called with a ground.Ground and arguments
 Memory = Dict[object, Tuple[Any, Any]]  # {key: (value, what was raised in place of one)}
 
 
@@ -59,7 +59,7 @@ class Session:
         task: Any = None,
     ) -> None:
         """folder: its copy is in ws; underlay: its setup.bash; task: of this student, see variants.Task."""
-        self.task: Any = task or Task({})  # of the course
+        self.task: Any = task or Task({})  # the course's own task
         self.folder, self.layout = Path(folder), layout
         self.source = self.folder / "ws" / "src"
         self.exercises = frozenset(exercises)  # that are asked for

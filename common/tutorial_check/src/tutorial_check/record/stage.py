@@ -38,7 +38,7 @@ class Stage:
         master = {"ROS_MASTER_URI": f"http://127.0.0.1:{port}"}
         self.environment = {**session.environment, **master}
         # Our own programs are found in the underlay alone, whatever of their name the student has. Their
-        # logs lie elsewhere: the student's may not write in folders of ours.
+        # logs are elsewhere: the student's may not write in folders of ours.
         own = dict.fromkeys(("HOME", "ROS_HOME", "ROS_LOG_DIR"), str(session.folder / "ours"))
         self._ours = {**session.underlay_environment, **master, **own}
         self._helpers: list[helper_process.Helper] = []

@@ -1,4 +1,4 @@
-"""A class at a glance: the table of --all as a page and as CSV, and what lies below it (pure)."""
+"""A class at a glance: the table of --all as a page and as CSV, and what is below it (pure)."""
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ LEGEND = {
 KINDS = {"ok": "ok", "-": "no", "?": "no", "not done": "no", "...": "no"}  # word: CSS class
 LONGEST = 70  # characters of a cause in a cell
 MOST_CAUSES = 10
-BAR = "\u2588"  # of one student
-WORDS = ("expected", "seen", "where", "hint")  # of a Result, in its order
+BAR = "\u2588"  # one student
+WORDS = ("expected", "seen", "where", "hint")  # a Result's fields, in its order
 # No script, picture or other content can load, whatever a name or an output contains.
 POLICY = "default-src 'none'; style-src 'unsafe-inline'"
 STYLE = """
@@ -117,7 +117,7 @@ def table_csv(students: Iterable[Student], exercises: Sequence[str]) -> str:
 def table_html(
     students: Sequence[Student], exercises: Sequence[str], titles: Mapping[str, str]
 ) -> str:
-    """Return the page. While students are still being checked it loads itself anew."""
+    """Return the page. While students are still being checked it loads itself again."""
     heads = ["student", *(f"{each}<small>{escape(titles[each])}</small>" for each in exercises)]
     rows = [_row((*heads, "done", "notes", "took"), "th")]
     for student in students:
@@ -143,7 +143,7 @@ def _row(cells: Iterable[str], tag: str = "td") -> str:
 
 
 def _below(students: Sequence[Student]) -> Iterator[str]:
-    """Yield what lies below the table: a heading and a table each, if there is something in it."""
+    """Yield what is below the table: a heading and a table each, if there is something in it."""
     failed = ((one, title, str(count), BAR * count) for one, title, count in failures(students))
     yield _section("How many fail each check", (), failed)
     frequent = (

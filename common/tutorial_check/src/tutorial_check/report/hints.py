@@ -1,4 +1,4 @@
-"""Graded hints: what is wrong comes first; how to mend it, when the same is wrong again.
+"""Graded hints: what is wrong comes first; how to fix it, when the same is wrong again.
 
 What was wrong and what was done is remembered in the cache, for each workspace, and not in it.
 """

@@ -18,7 +18,7 @@ from tutorial_check.report.hints import read_state, write_state
 from tutorial_check.source.workspace import all_below
 
 STATE = ".state.json"  # beside the table, out of reach of what is checked
-MOST_BYTES = 200_000_000  # of a student; of a larger one nothing is remembered
+MOST_BYTES = 200_000_000  # per student; a larger one is not remembered
 
 
 class LastRun:

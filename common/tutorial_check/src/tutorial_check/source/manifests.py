@@ -13,7 +13,7 @@ from tutorial_check.model import Wrong
 from tutorial_check.source.launch_xml import place_of, read
 from tutorial_check.source.workspace import Package
 
-# The real ones may well lie in a student's src.
+# The real ones may well be in a student's src.
 STAND_INS = Path(__file__).resolve().parents[4] / "stand_ins"
 # What catkin says of a package.xml, the word that it means, what to do.
 WANTS = (

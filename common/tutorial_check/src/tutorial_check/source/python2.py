@@ -1,4 +1,4 @@
-"""Python 2, by the errors that Python 3 makes of it: all that 2to3 mends, by its fixers. Pure."""
+"""Python 2, by the errors that Python 3 makes of it: all that 2to3 fixes, by its fixers. Pure."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ htmlentitydefs thread tkColorChooser tkFileDialog tkFont tkMessageBox tkSimpleDi
 urlparse xmlrpclib
 """
 NAMES = "apply basestring execfile intern long raw_input reduce reload unichr unicode xrange"
-INNER = "getcwdu ifilter imap izip maxint quote unquote urlencode urlopen urlretrieve"  # of modules
+INNER = "getcwdu ifilter imap izip maxint quote unquote urlencode urlopen urlretrieve"  # in modules
 LISTS = [f"(?:{'|'.join(words.split())})" for words in (MODULES, NAMES, INNER)]
 # In an error of Python 3, or in the program's line, which follows it.
 MARKS = re.compile(

@@ -191,7 +191,7 @@ class PythonFacts:
         return next(iter(self.calls.get(name, [])), None)
 
     @property
-    def deaf(self) -> Call | None:
+    def without_callback(self) -> Call | None:
         """The first Subscriber that is given no callback."""
         calls = self.calls.get("Subscriber", [])
         return next((c for c in calls if len(c.words) == 2 and "callback" not in c.names), None)

@@ -10,7 +10,7 @@ from tutorial_check.model import CannotCheck
 
 
 def put(base: Path, path: Path, text: str, mode: int = 0o644) -> None:
-    """Make a file below a folder anew; what lies there is removed. Raises CannotCheck."""
+    """Make a new file below a folder; what is there is removed. Raises CannotCheck."""
     with _folder_of(base, path) as (folder, name):
         with contextlib.suppress(FileNotFoundError):
             os.unlink(name, dir_fd=folder)
@@ -35,7 +35,7 @@ def _folder_of(base: Path, path: Path) -> Iterator[Tuple[int, str]]:
     """Yield (descriptor of the folder that a file is in, its name there)."""
     wanted = os.path.normpath(os.path.realpath(base) / path.parent.relative_to(base))
     try:
-        if ".." in path.parts:  # of a recording, which may be made up
+        if ".." in path.parts:  # a recording may be made up
             raise OSError("its path leads elsewhere")
         folder = os.open(path.parent, os.O_RDONLY | os.O_DIRECTORY)
         try:

@@ -12,8 +12,8 @@ class Traceback:
 
     error: str  # "NameError: name 'pub' is not defined"
     where: str = ""  # "scripts/joy2twist.py:14", the student's own line
-    text: str = ""  # of that line
-    places: tuple[str, ...] = ()  # of all calls to it, the outermost first
+    text: str = ""  # the source line
+    places: tuple[str, ...] = ()  # all calls to it, the outermost first
 
     @property
     def message(self) -> str:

@@ -18,14 +18,14 @@ from catkin_pkg.package import InvalidPackage, parse_package
 from tutorial_check.isolation.privileges import own_rights
 from tutorial_check.model import CannotCheck
 
-MOST_BYTES = 300 << 20  # of a workspace's sources; bags included
+MOST_BYTES = 300 << 20  # sources of a workspace, including bags
 MOST_FILES = 20_000
 SOLUTIONS = {"beginner_tutorials", "joy2twist"}  # the packages of the exercises
 COPY = "handed_in/src"  # the copy of what was handed in, as in a workspace
 # The words of a launch file, and in one of them what a node of the exercises reads.
 BETWEEN_WORDS, WHOLE_PATH = re.compile(r"[\s\"'<>$]+"), re.compile(r"/.+\.(?:bag|rviz)\b")
 IGNORED = {"build", "devel", ".git", "__pycache__"}  # folders that no student writes
-LEFT_OUT = {*IGNORED, "install", ".catkin_tools", "logs"}  # of a workspace's sources
+LEFT_OUT = {*IGNORED, "install", ".catkin_tools", "logs"}  # not sources of a workspace
 
 
 @dataclass
@@ -54,11 +54,11 @@ class Layout:
     root: Path  # what the student handed in
     source: Path  # its src folder, or the folder of packages itself
     is_workspace: bool  # there is a src
-    place: str = ""  # of the root in what was handed in, if that is another folder
+    place: str = ""  # root within what was handed in, if another folder
 
 
 def hand_in(given: str | Path, folder: Path) -> tuple[Layout, Path]:
-    """Return the Layout, and the folder it lies in, of a workspace or a zip, which is unpacked in a folder.
+    """Return the Layout, and the folder it is in, of a workspace or a zip, which is unpacked in a folder.
 
     A folder with nothing but a zip, as Moodle has it, is that zip. Raises CannotCheck.
     """
@@ -99,7 +99,7 @@ def unpack(archive: Path, folder: Path) -> None:
 
 
 def find_layout(folder: str | Path) -> Layout:
-    """Return the Layout of a workspace, its src, a folder of packages, or one package, however deep it lies.
+    """Return the Layout of a workspace, its src, a folder of packages, or one package, however deep it is.
 
     Of several the one with the packages of the exercises. A home folder is not searched: others may
     keep their workspaces there.
@@ -174,7 +174,7 @@ def copy(layout: Layout, target: Path, inside: str | Path | None = None) -> Path
 
 @dataclass
 class _Copying:
-    """What lies at a path may change meanwhile: it is first held, then looked at, then opened."""
+    """What is at a path may change meanwhile: it is first held, then looked at, then opened."""
 
     target: str
     inside: str | None
@@ -182,7 +182,7 @@ class _Copying:
     count: int = 0
 
     def copy(self, source: Path, target: Path, seen: frozenset[str]) -> None:
-        """Copy a file, or what is in a folder; nothing else, and nothing that lies outside."""
+        """Copy a file, or what is in a folder; nothing else, and nothing that is outside."""
         with contextlib.ExitStack() as stack:
             try:
                 held = os.open(source, os.O_PATH | os.O_CLOEXEC)

@@ -24,7 +24,7 @@ from tutorial_tools.hidden import hidden_stand_ins
 REPOSITORY = Path(__file__).resolve().parents[5]
 # The prefix of a ROS that is not the system's own, as ./tutorial has found it.
 PREFIX = os.environ.get("TUTORIAL_ROS", "")
-SHARE = Path(PREFIX or "/usr", "share")  # of its packages
+SHARE = Path(PREFIX or "/usr", "share")  # where its packages are
 OVERLAY = ("beginner_tutorials", "joy2twist", "test")  # the solutions
 # Commands of the shell, under these names.
 SCRIPTS = "common/tutorial_tools/scripts"
@@ -186,7 +186,7 @@ def build_student(workspace: Path, student: Path) -> None:
             build_new(workspace, student)
             return
     for path, why in broken_manifests(str(student / "src"))[:1]:
-        say(f"{path}: {why}; until that is mended no ROS program starts in {student}")
+        say(f"{path}: {why}; until that is fixed no ROS program starts in {student}")
     util = student / "devel" / "_setup_util.py"
     made = util.read_text(errors="replace") if util.exists() else ""
     if f"{workspace}/lower/devel" not in made:
@@ -205,7 +205,7 @@ def build_new(workspace: Path, student: Path) -> None:
         lines = log.read_text(errors="replace").splitlines()
         for line in [line for line in lines if WRONG.search(line)][:5] or lines[-1:]:
             print(f"   {line}", file=sys.stderr)
-        todo = f"mend what is said above, then catkin_make in it ({log} has all)"
+        todo = f"fix what is said above, then catkin_make in it ({log} has all)"
         say(f"{student} does not build: {todo}")
 
 

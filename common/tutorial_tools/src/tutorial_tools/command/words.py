@@ -42,7 +42,7 @@ WORDS = {  # word: (arguments as the help shows them, what it does)
     "completion": ("", 'completion for bash: eval "$(./tutorial completion)"'),
     "help": ("", "this list"),
 }
-KINDS = {  # of tests
+KINDS = {  # kinds of tests
     "unit": "seconds, no ROS running",
     "launch": "whether roslaunch can read each launch file",
     "ros": "rostests: all, or a folder or file of test/ros; --times N",

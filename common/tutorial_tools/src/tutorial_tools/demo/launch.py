@@ -33,7 +33,7 @@ class DemoError(Exception):
 class DriveReport:
     """A drive; poses are in metres and radians, in the frame of the odometry."""
 
-    MOVED_M = 0.001  # less than this is a robot that stood
+    MOVED_M = 0.001  # less than this is a robot at rest
 
     def __init__(self, topics: tuple[str, ...]) -> None:
         """topics: the names whose messages are counted, in the order of the report."""

@@ -33,8 +33,8 @@ STAMPED = (
     "diagnostic_msgs/DiagnosticArray", "nav_msgs/Odometry", "sensor_msgs/JointState", JOY,
     "sensor_msgs/LaserScan",
 )  # fmt: skip
-STAMPED_TOPICS = 6  # of each host
-STAMPED_MESSAGES = 20  # of each topic: the one that was fastest on its way counts
+STAMPED_TOPICS = 6  # per host
+STAMPED_MESSAGES = 20  # per topic; the fastest one counts
 BRIDGE = "/ros2_bridge"  # the node of ros2_bridge
 LISTEN_S = 2.5  # /diagnostics comes once a second
 Messages = List[Tuple[float, bytes]]  # (arrival [s], bytes)

@@ -29,7 +29,7 @@ def some(names: Iterable[str], between: str = ", ") -> str:
 JOY = "sensor_msgs/Joy"
 TWIST = "geometry_msgs/Twist"
 OK, WRONG, UNKNOWN = "ok", "wrong", "unknown"
-DEAD = (Answer.REFUSED, Answer.STRANGE)  # of a node: nothing listens, or another program
+DEAD = (Answer.REFUSED, Answer.STRANGE)  # a node exited, or another program has its port
 
 
 class Finding(NamedTuple):
@@ -130,10 +130,10 @@ class Facts:
     types: dict[str, str] = field(default_factory=dict)
     use_sim_time: bool = False
     clock_ticks: bool = False
-    clocks: dict[str, Offset | None] = field(default_factory=dict)  # of the other hosts
+    clocks: dict[str, Offset | None] = field(default_factory=dict)  # by host
     transforms: list[Transform] = field(default_factory=list)
     muxes: dict[str, Mux] = field(default_factory=dict)  # by the name of the node
-    states: dict[str, tuple[bool, str]] = field(default_factory=dict)  # of joy2twist: well, text
+    states: dict[str, tuple[bool, str]] = field(default_factory=dict)  # joy2twist: well, text
     bridge: list[tuple[bool, str]] = field(default_factory=list)  # to ROS 2: well, text
     silent_s: dict[str, float] = field(default_factory=dict)  # since a joy_node's gamepad moved
 
@@ -156,6 +156,6 @@ class Facts:
             for node in self.subscribers.get(joy, []):
                 sends = [t for t in self.topics(TWIST) if node in self.publishers.get(t, [])]
                 if sends:
-                    hears, _ = found.setdefault(node, ([], sends))
-                    hears.append(joy)
+                    inputs, _ = found.setdefault(node, ([], sends))
+                    inputs.append(joy)
         return found

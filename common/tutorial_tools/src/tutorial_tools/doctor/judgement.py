@@ -37,7 +37,7 @@ def overlay(facts: Facts) -> Iterator[Finding]:
     """Judge whose joy2twist would run."""
     path, workspace = facts.joy2twist, facts.workspace
     for broken, why in facts.broken_manifests:
-        todo = "mend that line or the one before; until then no ROS program starts"
+        todo = "fix that line or the one before; until then no ROS program starts"
         yield wrong("overlay", f"{broken}: {why}", todo)
     if facts.broken_manifests:
         return

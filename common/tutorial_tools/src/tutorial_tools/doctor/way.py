@@ -19,7 +19,7 @@ def topics(facts: Facts) -> Iterator[Finding]:
     """Judge whether the way from joystick to robot is connected from end to end."""
     converters = facts.converters()
     joys = facts.topics(JOY)
-    heard = {joy for hears, _ in converters.values() for joy in hears}
+    heard = {joy for inputs, _ in converters.values() for joy in inputs}
     if not joys:
         todo = start_all(facts)
         yield wrong("topics", "there is neither a joystick nor joy2twist", todo)
@@ -38,8 +38,8 @@ def topics(facts: Facts) -> Iterator[Finding]:
                 half = f"rosrun joy2twist joy2twist.py{into}"
             todo = f"start joy2twist ({half})"
             yield wrong("topics", f"nothing turns {joy} into velocities", todo)
-    for node, (hears, sends) in sorted(converters.items()):
-        yield from way(facts, node, hears, sends)
+    for node, (inputs, outputs) in sorted(converters.items()):
+        yield from way(facts, node, inputs, outputs)
 
 
 def start_all(facts: Facts) -> str:
@@ -57,16 +57,16 @@ def undriven(facts: Facts) -> list[str]:
     return [t for t in facts.topics(TWIST) if not facts.publishers.get(t)]
 
 
-def way(facts: Facts, node: str, hears: list[str], sends: list[str]) -> Iterator[Finding]:
+def way(facts: Facts, node: str, inputs: list[str], outputs: list[str]) -> Iterator[Finding]:
     """Judge whether one converter is connected on both sides."""
-    both = [*((topic, True) for topic in hears), *((topic, False) for topic in sends)]
+    both = [*((topic, True) for topic in inputs), *((topic, False) for topic in outputs)]
     cut = [finding for end in both for finding in link(facts, node, *end)]
     yield from cut
     alive = node not in facts.nodes or facts.nodes[node].answer is Answer.WELL
-    if alive and not cut and all(facts.publishers.get(topic) for topic in hears):
-        begins = sorted({name for topic in hears for name in facts.senders(topic)})
-        ends = sorted({name for topic in sends for name in facts.subscribers[topic]})
-        steps = (begins, hears, [node], sends, ends)
+    if alive and not cut and all(facts.publishers.get(topic) for topic in inputs):
+        begins = sorted({name for topic in inputs for name in facts.senders(topic)})
+        ends = sorted({name for topic in outputs for name in facts.subscribers[topic]})
+        steps = (begins, inputs, [node], outputs, ends)
         yield ok("topics", " -> ".join(", ".join(step) for step in steps))
 
 
@@ -82,7 +82,7 @@ def link(facts: Facts, node: str, topic: str, inwards: bool) -> Iterator[Finding
     known = facts.nodes.get(node)
     if others and known and known.answer is Answer.WELL and (topic, inwards) not in known.links:
         seen = f"{topic}: {', '.join(others)} and {node} know of each other, but are not connected"
-        todo = "mend what the lines above say, or a firewall between them"
+        todo = "fix what the lines above say, or a firewall between them"
         yield wrong("topics", seen, todo)
 
 

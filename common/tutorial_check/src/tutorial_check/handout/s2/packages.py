@@ -53,7 +53,7 @@ def _package(session: Session, name: str) -> Package:
         raise _missing(session, name, expected)
     outer = [each for each in packages if each.folder in named[0].folder.parents]
     if outer:
-        seen = f"it lies within another package, {outer[0].inside}"
+        seen = f"it is within another package, {outer[0].inside}"
         hint = "move it up: packages stand side by side in src"
         raise Wrong(expected, seen, named[0].inside, hint)
     return named[0]
@@ -63,7 +63,7 @@ def _missing(session: Session, name: str, expected: str) -> Wrong:
     """Return the Wrong for a package that is not there, or is elsewhere, or has another name."""
     for beside in (each.inside for each in packages_beside(session.layout) if each.name == name):
         hint = f"mv {session.whole(beside)} {session.whole('src')}"
-        return Wrong(expected, f"it lies beside src: {beside}", beside, hint)
+        return Wrong(expected, f"it is beside src: {beside}", beside, hint)
     link = session.layout.source / name
     with own_rights():
         leads_to = os.readlink(link) if link.is_symlink() and not link.exists() else ""
@@ -88,7 +88,7 @@ def _dependencies(session: Session, name: str) -> Package:
     for odd in sorted(package.depends):
         if not re.fullmatch(r"[a-z][a-z0-9_+-]*", odd, re.IGNORECASE):
             hint = "between the dependencies stand spaces only, no commas:"
-            hint += " mend package.xml and CMakeLists.txt"
+            hint += " fix package.xml and CMakeLists.txt"
             raise Wrong("names of packages", f"a dependency on {odd!r}", where, hint)
     missing = [each for each in wanted if each not in package.depends]
     others = package.depends - set(wanted)

@@ -33,14 +33,14 @@ def workspace(session: Session) -> Note | str | None:
         raise Wrong("a folder src in the workspace", seen, hint=hint)
     _check_names(session)
     if not layout.is_workspace:
-        return Note("handed in as packages, without their workspace: built afresh here")
+        return Note("handed in as packages, without their workspace: built again here")
     devel = layout.root / "devel"
     real = Path(os.path.realpath(devel / "setup.sh"))
     if layout.root.resolve() not in real.parents and not session.may_see(real):
         return Note("never built here (devel is a link that leads elsewhere)")
     made_for, below = underlays(devel)
     if made_for and os.path.realpath(made_for) != os.path.realpath(devel):
-        return Note(f"its devel folder was made elsewhere ({made_for}); built afresh here")
+        return Note(f"its devel folder was made elsewhere ({made_for}); built again here")
     if setup_size is not None and (not made_for or below is None or not setup_size):
         gone = setup.name if made_for and below is not None else "_setup_util.py or setup.sh"
         seen = f"it is not whole: {gone} is missing or empty"

@@ -36,7 +36,7 @@ TALKS = "std_msgs/String on /chatter, about 10 times a second"
 LISTENS = "every text sent on /chatter, displayed once"
 GOES_ON = "it goes on until Ctrl-C"
 LOOP = "while not rospy.is_shutdown(): ..., rate.sleep() within it"
-RATE_TOLERANCE = 0.2  # of a rate that is asked for
+RATE_TOLERANCE = 0.2  # part of the expected rate
 FEW = 3  # messages: too few for a rate
 
 
@@ -116,7 +116,7 @@ DEAF_LISTENER = (
         "{f.subscriber}", sure=True),
     Row(lambda h: TOPIC not in h.talk.subscribers, "it subscribes to nothing",
         "{f.subscriber_line}, before rospy.spin()", "{f.subscriber}"),
-    Row(lambda h: not h.found and h.facts.deaf, "its Subscriber has no callback",
+    Row(lambda h: not h.found and h.facts.without_callback, "its Subscriber has no callback",
         "{f.subscriber_line}", "{f.script}:{found.line}", sure=True),
     Row(lambda h: h.wanted, "it wants {found} on /chatter", "{f.subscriber_line}",
         "{f.subscriber}"),
@@ -172,7 +172,7 @@ def talker(session: Session) -> Note | str:
     return f"{rate:.1f} Hz" if is_as_asked else Note(f"{rate:.1f} Hz, the handout's is 10")
 
 
-@check("C7", "the listener displays what it hears", "3.1", "C5",
+@check("C7", "the listener displays what it receives", "3.1", "C5",
        look="rosrun beginner_tutorials listener.py")  # fmt: skip
 def listener(session: Session) -> Note | None:
     half = Half(session, is_talker=False)
@@ -202,7 +202,7 @@ def _pair(session: Session) -> Pair:
     if not pair:
         talker(session)
         listener(session)
-        raise Wrong("a second talker speaks, or ends the first", "neither", scripts(session)[0])
+        raise Wrong("a second talker publishes, or ends the first", "neither", scripts(session)[0])
     return pair
 
 
@@ -218,7 +218,7 @@ def anonymous(session: Session) -> Note | str:
     if given == "False" and pair.both and not pair.first_ended:
         raise Wrong("the second talker of one name ends the first", "both go on", where)
     if not pair.both and not pair.first_ended:
-        raise Wrong("a second talker speaks, or ends the first", "neither", script)
+        raise Wrong("a second talker publishes, or ends the first", "neither", script)
     flipped = None
     if given in ("True", "False"):
         flipped = flipped_anonymous(session.text(PACKAGE, script), given == "False")

@@ -29,7 +29,7 @@ def recording(session: Session) -> Note | str | None:
     if not bags:
         seen = "no bag in the workspace; look at /joy with rosbag play and rostopic echo /joy"
         return Note(seen, hint=f"the recording: {COPY_BAG}", empty=True)
-    spoilt: list[Wrong] = []
+    damaged: list[Wrong] = []
     others: list[Wrong] = []
     for path in bags:
         name = str(path.relative_to(session.source))
@@ -37,9 +37,9 @@ def recording(session: Session) -> Note | str | None:
             return f"{name}: {', '.join(check_recording(session, name))}"
         except Wrong as wrong:
             meant = path.name == "joy.bag" or (ours and ours.folder in path.parents)
-            (spoilt if meant and not isinstance(wrong, NoJoy) else others).append(wrong)
-    if spoilt:
-        raise spoilt[0]
+            (damaged if meant and not isinstance(wrong, NoJoy) else others).append(wrong)
+    if damaged:
+        raise damaged[0]
     return Note(f"no recording of /joy; {others[0].seen}", others[0].where, others[0].hint, True)
 
 
@@ -47,7 +47,7 @@ def check_recording(session: Session, name: str) -> tuple[str, ...]:
     """Return the topics of a recording that can be played to joy2twist. name: within src. Raises Wrong."""
     found = session.recording(bag, name)
     if found.error:
-        hint = f"copy it anew: {COPY_BAG[:-1]}{shlex.quote(str(session.source / name))}"
+        hint = f"copy it again: {COPY_BAG[:-1]}{shlex.quote(str(session.source / name))}"
         raise Wrong("a recording that rosbag can read", found.error, name, hint)
     if found.axes is None:
         seen = f"topics: {', '.join(found.topics) or 'none'}"

@@ -20,7 +20,7 @@ MAPS = "for each Joy one Twist: linear.x = axes[1], angular.z = axes[0], all els
 KEEPS_UP = "at 50 Joys a second as many Twists, each within 50 ms"
 IN_CALLBACK = "publish in the callback alone, once for every Joy; end with rospy.spin()"
 
-ASLEEP = Row(
+SLEEPING = Row(
     lambda c: c.seen.naps and f"{statistics.median(c.seen.waits):.1f} s",
     "{found} from one Twist to the next: the callback sleeps",
     "no sleep in the callback: it is called once for every message", "{f.sleep}",
@@ -32,7 +32,7 @@ CONNECTED = (
     Row(lambda c: not c.seen.master_alive, lambda c: master_gone(c.script)),
     Row(lambda c: not c.seen.connected and JOY in c.seen.subscribers,
         "it wants {f.wanted} on /joy", "{f.joy_line}", "{f.at[Subscriber]}"),
-    Row(lambda c: not (c.seen.samples or c.seen.shown) and c.facts.deaf,
+    Row(lambda c: not (c.seen.samples or c.seen.shown) and c.facts.without_callback,
         "its Subscriber has no callback", "{f.joy_line}", "{f.script}:{found.line}", sure=True),
 )  # fmt: skip
 NOT_CONNECTED = (
@@ -42,7 +42,7 @@ NOT_CONNECTED = (
     ENDED,
     Row(lambda c: JOY in c.seen.publishers and c.seen.types.get(JOY, "?"),
         "it PUBLISHES on /joy ({found})",
-        "a Subscriber hears what the joystick says, a Publisher speaks", "{f.at[Subscriber]}"),
+        "a Subscriber receives what the joystick sends, a Publisher sends", "{f.at[Subscriber]}"),
     Row(lambda c: c.heard_on.lower() == JOY and c.heard_on,
         "it subscribes to {found}", "the topic is called /joy, in lower case",
         "{f.at[Subscriber]}"),
@@ -55,7 +55,7 @@ DISPLAYED = (
     CRASHED,
     Row(lambda c: c.first_version, "displayed by {found}, no more by {f.script}", note=True),
     Row(lambda c: c.seen.shown, f"{{found}} of {COUNT} were displayed", note=True),
-    ASLEEP,
+    SLEEPING,
     Row(lambda c: c.throttled, "it displays a Joy now and then; the handout's displays every one",
         "rospy.loginfo in place of rospy.loginfo_throttle", "{f.script}:{found}", note=True),
 )  # fmt: skip
@@ -166,7 +166,7 @@ def check_mapping(session: Session, seen: Drive) -> Note | None:
     """Check that linear.x follows axis 1, angular.z axis 0; a Wrong names the rule found."""
     one = Facts(session, seen)
     if not seen.trouble:
-        demand([ASLEEP], one, MAPS)
+        demand([SLEEPING], one, MAPS)
     if len(seen.samples) < COUNT * 0.9:
         demand(ANSWERED, one, MAPS)
     one.complaint, one.hint = judge(seen.evidence)

@@ -42,7 +42,7 @@ class Drive:
     # The numbered Joys, one at a time.
     asked: int = 0
     samples: Tuple[Sample, ...] = ()
-    first_samples: Tuple[Sample, ...] = ()  # of an earlier pass
+    first_samples: Tuple[Sample, ...] = ()  # from an earlier pass
     missing: int = 0
     unasked: int = 0
     came: int = 0  # for the numbered Joys

@@ -100,7 +100,7 @@ def ctrl_c(session: Session) -> Note | str:
     return note or f"{seen.taken_s:.1f} s"
 
 
-@check("C18", "it starts while the joystick speaks", "4.3", "C16",
+@check("C18", "it starts while the joystick sends", "4.3", "C16",
        look="rosbag play --loop joy.bag; rosrun joy2twist joy2twist.py")  # fmt: skip
 def under_load(session: Session) -> Note | None:
     """Start it while 200 Joys a second come. Never a failure."""

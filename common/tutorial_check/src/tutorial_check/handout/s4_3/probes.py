@@ -27,7 +27,7 @@ def _pressed(*pressed: int) -> tuple[int, ...]:
 
 
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e-?\d+)?")
-SLOW, STEP = 0.3, 0.005  # of rising_joys()
+SLOW, STEP = 0.3, 0.005  # start and step of rising_joys()
 ROUNDED = 0.0056  # to two decimals a value is off by no more
 EARLY_S = 0.06  # by which a Twist may seem to come before its Joy
 AT_REST: Joy = (REST, _pressed(LB))
@@ -170,7 +170,7 @@ REPLIES = (
         " no += and no `if` around the line"),
     Row(lambda r: r.differs and not r.other and r.last_button,
         "the same Joy gives {f.name} = {f.again:.2f} and, once {found} was pressed, {f.value:.2f}",
-        "a button changes the speed only while it is held: set the factor anew in the callback"),
+        "a button changes the speed only while it is held: set the factor again in the callback"),
     Row(lambda r: r.differs,
         "{f.name} depends on earlier Joys: the same Joy gives {f.again:.2f} and {f.value:.2f}",
         rules.ONLY_THIS),

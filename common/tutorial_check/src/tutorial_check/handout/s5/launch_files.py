@@ -249,7 +249,7 @@ def _check_finds(file: LaunchFile) -> None:
                 hint = copy_bag(file.session)
             there = sorted(each.relative_to(folder) for each in folder.rglob(name))
             if there:
-                hint = f"it lies elsewhere: $(find {PACKAGE})/{there[0]}"
+                hint = f"it is elsewhere: $(find {PACKAGE})/{there[0]}"
             expected = f"$(find {PACKAGE}){rest} in your package"
             hint += "; roslaunch would take another workspace's file and not say so"
             raise Wrong(expected, "no such file there", f"{file.where}:{number}", hint)

@@ -19,8 +19,8 @@ from tutorial_check.record.session import Session
 from tutorial_check.record.simulated_robot import ODOM
 from tutorial_check.source.tracebacks import first_traceback
 
-ONCE_S = 60.0  # of a recording that is not played again: it lasts until the others have started
-LOOP = re.compile(r"--l(oop|oo|o)?|-[a-z]*l[a-z]*")  # of rosbag play, as it may be written
+ONCE_S = 60.0  # a recording that is not repeated lasts until the others have started
+LOOP = re.compile(r"--l(oop|oo|o)?|-[a-z]*l[a-z]*")  # rosbag play's option, as it may be written
 ERRORS = re.compile(r"^(?!.*(?:rviz|INFO)).*(?:ERROR|died|Invalid|cannot|Unable)", re.MULTILINE)
 COLOUR = re.compile(r"\x1b\[[0-9;]*m|\x1b\][^\x07]*\x07")
 

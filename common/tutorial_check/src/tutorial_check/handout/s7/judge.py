@@ -127,7 +127,7 @@ def wanders(session: Session) -> str:
     stand_s = longest_stand_s(drive.path)
     if stand_s > LONGEST_STAND_S:
         hint = "where nothing is free ahead, turn until min(scan.ranges) is large again"
-        raise Wrong(expected, f"it stood for {stand_s:.0f} s", script, hint)
+        raise Wrong(expected, f"it did not move for {stand_s:.0f} s", script, hint)
     return f"{way_m:.1f} m"
 
 
