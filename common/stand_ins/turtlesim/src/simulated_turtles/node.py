@@ -17,6 +17,7 @@ from turtlesim.msg import Color, Pose
 from node_kit.start import run
 from simulated_turtles.field import BACKGROUND, START, Field, State, background, wait_s
 from simulated_turtles.paper import outline
+from simulated_turtles.turtle import Turtle
 
 
 class Turtlesim:
@@ -35,22 +36,19 @@ class Turtlesim:
             rospy.set_param(f"~{name}", given.get(name, default))
         self._lock = threading.RLock()
         self._field = Field(self._background())
-        self._ends: dict[str, tuple[Any, ...]] = {}  # what each turtle publishes, hears and serves
+        self._ends: dict[str, list[Any]] = {}  # what each turtle publishes, hears and serves
         rospy.loginfo(f"Starting turtlesim with node name {rospy.get_name()}")
         self._spawn("", *START)
-        for name, kind, answer in (
-            ("clear", Empty, self._clear),
-            ("reset", Empty, self._reset),
-            ("spawn", srv.Spawn, lambda one: self._spawn(one.name, one.x, one.y, one.theta)),
-            ("kill", srv.Kill, self._kill),
-        ):
-            self._serve(name, kind, answer)
+        self._serve("clear", Empty, self._clear)
+        self._serve("reset", Empty, self._reset)
+        self._serve("spawn", srv.Spawn, lambda a: {"name": self._spawn(a.name, a.x, a.y, a.theta)})
+        self._serve("kill", srv.Kill, self._kill)
 
     def _serve(self, name: str, kind: Any, answer: Callable[[Any], Any]) -> rospy.Service:
         def handle(request: Any) -> Any:
             try:
                 with self._lock:
-                    return answer(request)
+                    return answer(request) or {}
             except ValueError as error:
                 rospy.logerr(str(error))
                 raise rospy.ServiceException(str(error)) from None
@@ -61,73 +59,70 @@ class Turtlesim:
     def _background() -> tuple[int, int, int]:
         return background({name: rospy.get_param(f"~{name}", None) for name in BACKGROUND})
 
-    def _spawn(self, name: str, x: float, y: float, theta: float) -> srv.SpawnResponse:
+    def _clear(self, _: object) -> None:
+        rospy.loginfo("Clearing turtlesim.")
+        self._field.paper.fill(self._background())
+
+    def _reset(self, _: object) -> None:
+        rospy.loginfo("Resetting turtlesim.")
+        self._field.reset(self._background())
+        self._spawn("", *START)
+
+    def _spawn(self, name: str, x: float, y: float, theta: float) -> str:
         name = self._field.spawn(name, x, y, theta, time.monotonic())
         self._open_and_close()
         rospy.loginfo(f"Spawning turtle [{name}] at x=[{x:f}], y=[{y:f}], theta=[{theta:f}]")
-        return srv.SpawnResponse(name)
+        return name
 
-    def _kill(self, request: srv.KillRequest) -> srv.KillResponse:
+    def _kill(self, request: srv.KillRequest) -> None:
         self._field.kill(request.name)
         self._open_and_close()
-        return srv.KillResponse()
-
-    def _clear(self, _: object) -> object:
-        rospy.loginfo("Clearing turtlesim.")
-        self._field.paper.fill(self._background())
-        return {}
-
-    def _reset(self, _: object) -> object:
-        rospy.loginfo("Resetting turtlesim.")
-        name = self._field.reset(self._background(), time.monotonic())
-        self._open_and_close()
-        x, y, theta = START
-        rospy.loginfo(f"Spawning turtle [{name}] at x=[{x:f}], y=[{y:f}], theta=[{theta:f}]")
-        return {}
 
     def _open_and_close(self) -> None:
         """Have topics and services for exactly the turtles of the field."""
-        for name in self._ends.keys() - self._field.turtles.keys():
-            pose, color, commands, *services = self._ends.pop(name)
-            for topic in (pose, color, commands):
-                topic.unregister()
-            for service in services:
-                service.shutdown(f"turtle {name} is gone")
-        for name in self._field.turtles.keys() - self._ends.keys():
-            self._ends[name] = (
+        turtles = self._field.turtles
+        for name in self._ends.keys() - turtles.keys():
+            for end in self._ends.pop(name):
+                end.shutdown() if isinstance(end, rospy.Service) else end.unregister()
+        for name in turtles.keys() - self._ends.keys():
+            self._ends[name] = [
                 rospy.Publisher(f"{name}/pose", Pose, queue_size=1),
                 rospy.Publisher(f"{name}/color_sensor", Color, queue_size=1),
-                rospy.Subscriber(f"{name}/cmd_vel", Twist, partial(self._command, name), queue_size=1),
-                self._serve(f"{name}/set_pen", srv.SetPen, partial(self._set_pen, name)),
-                self._serve(
-                    f"{name}/teleport_absolute", srv.TeleportAbsolute, partial(self._jump_to, name)
-                ),
-                self._serve(
-                    f"{name}/teleport_relative", srv.TeleportRelative, partial(self._jump_by, name)
-                ),
-            )
+                rospy.Subscriber(f"{name}/cmd_vel", Twist, self._command, name, queue_size=1),
+            ]
+            for service, kind, answer in (
+                ("set_pen", srv.SetPen, self._set_pen),
+                ("teleport_absolute", srv.TeleportAbsolute, self._jump_to),
+                ("teleport_relative", srv.TeleportRelative, self._jump_by),
+            ):
+                answers = partial(self._of_turtle, name, answer)
+                self._ends[name].append(self._serve(f"{name}/{service}", kind, answers))
 
-    def _command(self, name: str, twist: Twist) -> None:
-        velocity = twist.linear.x, twist.linear.y, twist.angular.z
+    def _of_turtle(self, name: str, answer: Callable[[Turtle, Any], None], request: Any) -> None:
+        if name not in self._field.turtles:  # killed meanwhile
+            raise ValueError(f"there is no turtle [{name}]")
+        answer(self._field.turtles[name], request)
+
+    def _set_pen(self, turtle: Turtle, pen: srv.SetPenRequest) -> None:
+        color = pen.r, pen.g, pen.b
+        self._field.set_pen(turtle, color, pen.width, pen.off, time.monotonic())
+
+    def _jump_to(self, turtle: Turtle, to: srv.TeleportAbsoluteRequest) -> None:
+        jump = partial(turtle.jump_to, to.x, to.y, to.theta)
+        self._field.teleport(turtle, jump, time.monotonic())
+
+    def _jump_by(self, turtle: Turtle, by: srv.TeleportRelativeRequest) -> None:
+        jump = partial(turtle.jump_by, by.linear, by.angular)
+        self._field.teleport(turtle, jump, time.monotonic())
+
+    def _command(self, twist: Twist, name: str) -> None:
         try:
             with self._lock:
                 if name in self._field.turtles:
+                    velocity = twist.linear.x, twist.linear.y, twist.angular.z
                     self._field.turtles[name].command(*velocity, time.monotonic())
         except ValueError as error:
             rospy.logwarn_throttle(1.0, f"{name}/cmd_vel is ignored: {error}")
-
-    def _set_pen(self, name: str, pen: srv.SetPenRequest) -> object:
-        color = pen.r, pen.g, pen.b
-        self._field.set_pen(name, color, pen.width, pen.off, time.monotonic())
-        return {}
-
-    def _jump_to(self, name: str, to: srv.TeleportAbsoluteRequest) -> object:
-        self._field.teleport_absolute(name, to.x, to.y, to.theta, time.monotonic())
-        return {}
-
-    def _jump_by(self, name: str, by: srv.TeleportRelativeRequest) -> object:
-        self._field.teleport_relative(name, by.linear, by.angular, time.monotonic())
-        return {}
 
     def _step(self) -> list[State]:
         with self._lock:
@@ -136,10 +131,9 @@ class Turtlesim:
                 pose, color, *_ = self._ends[state.name]
                 pose.publish(*state.pose)
                 color.publish(*state.color)
-        for state in states:
-            if state.outside:
-                place = "[x={:f}, y={:f}]".format(*state.outside)
-                rospy.logwarn(f"Oh no! I hit the wall! (Clamping from {place})")
+        for place in filter(None, (state.outside for state in states)):
+            words = "[x={:f}, y={:f}]".format(*place)
+            rospy.logwarn(f"Oh no! I hit the wall! (Clamping from {words})")
         return states
 
     def spin(self) -> None:
@@ -153,22 +147,17 @@ class Turtlesim:
                 window.show(change, [outline(*state.pose[:3]) for state in states])
             pause_s, due_s = wait_s(due_s, time.monotonic())
             time.sleep(pause_s)
-        if window:
-            window.destroy()
 
 
 def open_window() -> Any:
-    """Return the window; None without a screen or python3-tk, which a line reports if DISPLAY is set."""
-    if not os.environ.get("DISPLAY"):
-        return None
+    """Return the window; None without a screen, or in a line why there is none."""
     try:
-        from simulated_turtles.window import Window  # noqa: PLC0415 - python3-tk may be missing
+        if os.environ.get("DISPLAY"):
+            from simulated_turtles.window import Window  # noqa: PLC0415 - it needs python3-tk
 
-        return Window()
-    except ImportError:
-        rospy.logwarn("no window: sudo apt install python3-tk; the turtles run without it")
-    except Exception as error:  # tkinter.TclError, of a module that may be missing
-        rospy.logwarn(f"no window: {error}; the turtles run without it")
+            return Window()
+    except Exception as error:  # ImportError, or TclError of the module that may be missing
+        rospy.logwarn(f"no window, for which python3-tk and a screen are needed: {error}")
     return None
 
 

@@ -33,45 +33,42 @@ def outline(x: float, y: float, theta: float) -> list[float]:
 class Paper:
     """SIZE x SIZE pixels, and which of them changed."""
 
-    def __init__(self, background: Color) -> None:
-        """Begin with a blank one."""
-        self._pixels = np.empty((SIZE, SIZE, 3), np.uint8)
-        self.fill(background)
+    def __init__(self) -> None:
+        """Begin with black."""
+        self._pixels = np.zeros((SIZE, SIZE, 3), np.uint8)
 
     def fill(self, background: Color) -> None:
         """Have one color everywhere."""
         self._pixels[:] = background
-        self._changed = (0, 0, SIZE, SIZE)  # columns from, rows from, columns to, rows to
+        self._changed = [(0, 0, SIZE, SIZE)]  # left, top, right, bottom
 
     def color_at(self, x: float, y: float) -> Color:
         """Return the color of a place [m] in the field."""
         column, row = (min(max(round(value), 0), SIZE - 1) for value in pixel(x, y))
-        return tuple(int(value) for value in self._pixels[row, column])
+        red, green, blue = map(int, self._pixels[row, column])
+        return red, green, blue
 
     def line(self, start: Point, end: Point, color: Color, width: int) -> None:
         """Draw a line of a width [pixels] between two places [m], which may be outside."""
         (x0, y0), (x1, y1), reach = pixel(*start), pixel(*end), max(width, 1.5) / 2
-        left, top = (max(math.floor(min(pair) - reach), 0) for pair in ((x0, x1), (y0, y1)))
-        right, bottom = (
-            min(math.ceil(max(pair) + reach) + 1, SIZE) for pair in ((x0, x1), (y0, y1))
-        )
+        left, top = (max(math.floor(min(x) - reach), 0) for x in ((x0, x1), (y0, y1)))
+        right, bottom = (min(math.ceil(max(x) + reach) + 1, SIZE) for x in ((x0, x1), (y0, y1)))
         if left >= right or top >= bottom:
             return
         rows, columns = np.mgrid[top:bottom, left:right]
         dx, dy = x1 - x0, y1 - y0
-        length2 = dx * dx + dy * dy or 1.0
-        along = np.clip(((columns - x0) * dx + (rows - y0) * dy) / length2, 0.0, 1.0)
-        is_near = (columns - x0 - along * dx) ** 2 + (rows - y0 - along * dy) ** 2 <= reach**2
+        along = ((columns - x0) * dx + (rows - y0) * dy) / (dx * dx + dy * dy or 1.0)
+        along = np.clip(along, 0.0, 1.0)
+        is_near = np.hypot(columns - x0 - along * dx, rows - y0 - along * dy) <= reach
         self._pixels[top:bottom, left:right][is_near] = color
-        before = self._changed or (left, top, right, bottom)
-        self._changed = (
-            min(left, before[0]), min(top, before[1]), max(right, before[2]), max(bottom, before[3])
-        )  # fmt: skip
+        self._changed.append((left, top, right, bottom))
 
     def take_changes(self) -> tuple[int, int, bytes] | None:
         """Return (column, row, a PPM image) of what changed since the last call; None if nothing."""
         if not self._changed:
             return None
-        (left, top, right, bottom), self._changed = self._changed, ()
+        sides = list(zip(*self._changed))
+        (left, top), (right, bottom) = map(min, sides[:2]), map(max, sides[2:])
+        self._changed.clear()
         block: Any = self._pixels[top:bottom, left:right]
         return left, top, b"P6 %d %d 255\n" % (right - left, bottom - top) + block.tobytes()

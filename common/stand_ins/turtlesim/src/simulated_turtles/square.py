@@ -1,48 +1,35 @@
-"""The rules of draw_square: four sides of 2 m, again and again (pure)."""
+"""The rules of draw_square: sides of 2 m and turns to the left, again and again (pure)."""
 
 from __future__ import annotations
 
 import math
+from typing import Tuple
 
 from simulated_turtles.turtle import normalized
 
 SIDE_M, SPEED, TURN_RATE = 2.0, 1.0, 0.4  # [m, m/s, rad/s]
 NEAR_M, NEAR_RAD, STILL = 0.1, 0.01, 0.0001  # upstream's tolerances
 
-Pose = tuple  # (x, y, theta, linear velocity, angular velocity), as turtlesim/Pose
+Pose = Tuple[float, float, float, float, float]  # as in turtlesim/Pose
 
 
 class Square:
-    """Drives a side, waits until the turtle stands, turns left, waits, and begins anew."""
+    """Drives a side, waits until the turtle stands, turns, waits, and so on."""
 
-    def __init__(self) -> None:
-        """Begin with a side, once a pose is known."""
-        self._goal: tuple[float, float, float] | None = None
-        self._is_side, self._is_done = False, True
-        self.news: list[str] = []  # lines for the log; the caller empties it
+    goal: tuple[float, float, float] | None = None
+    _is_side, _is_done = False, True
 
     def step(self, pose: Pose) -> tuple[float, float]:
         """Return the velocities (ahead [m/s], turn [rad/s]) after a pose."""
-        if self._goal and not self._is_done:
-            self._is_done = self._is_at(pose)
-        elif not self._goal or (abs(pose[3]) < STILL and abs(pose[4]) < STILL):
-            self._next(pose)
+        x, y, theta, linear, angular = pose
+        if self.goal and not self._is_done:
+            is_there = abs(x - self.goal[0]) < NEAR_M and abs(y - self.goal[1]) < NEAR_M
+            self._is_done = is_there and abs(normalized(theta - self.goal[2])) < NEAR_RAD
+        elif max(abs(linear), abs(angular)) < STILL:
+            self._is_side, self._is_done = not self._is_side, False
+            ahead, turn = (SIDE_M, 0.0) if self._is_side else (0.0, math.pi / 2)
+            x, y = x + ahead * math.cos(theta), y + ahead * math.sin(theta)
+            self.goal = (x, y, normalized(theta + turn))
         if self._is_done:
             return 0.0, 0.0
         return (SPEED, 0.0) if self._is_side else (0.0, TURN_RATE)
-
-    def _is_at(self, pose: Pose) -> bool:
-        x, y, theta = self._goal or pose[:3]
-        is_there = abs(pose[0] - x) < NEAR_M and abs(pose[1] - y) < NEAR_M
-        return is_there and abs(normalized(pose[2] - theta)) < NEAR_RAD
-
-    def _next(self, pose: Pose) -> None:
-        if self._goal:
-            self.news.append("Reached goal")
-        self._is_side, self._is_done = not self._is_side, False
-        x, y, theta = pose[:3]
-        if self._is_side:
-            self._goal = (x + SIDE_M * math.cos(theta), y + SIDE_M * math.sin(theta), theta)
-        else:
-            self._goal = (x, y, normalized(theta + math.pi / 2))
-        self.news.append("New goal [{:f} {:f}, {:f}]".format(*self._goal))

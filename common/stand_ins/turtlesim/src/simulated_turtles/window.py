@@ -17,16 +17,13 @@ class Window:
         self._root = tkinter.Tk(className="turtlesim")
         self._root.title("TurtleSim")
         self._root.resizable(False, False)
-        self._root.protocol("WM_DELETE_WINDOW", self._close)
+        self._root.protocol("WM_DELETE_WINDOW", lambda: setattr(self, "is_open", False))
         self._image = tkinter.PhotoImage(width=SIZE, height=SIZE)
         self._canvas = tkinter.Canvas(self._root, width=SIZE, height=SIZE, highlightthickness=0)
         self._canvas.create_image(0, 0, image=self._image, anchor="nw")
         self._canvas.pack()
         self._shown: list[list[float]] = []
         self.is_open = True
-
-    def _close(self) -> None:
-        self.is_open = False
 
     def show(self, change: tuple[int, int, bytes] | None, outlines: list[list[float]]) -> None:
         """Show the pixels that changed, from a column and row on, and the turtles' polygons."""
@@ -40,7 +37,3 @@ class Window:
                 self._canvas.create_polygon(outline, fill=color, outline="#222", tags="turtle")
             self._shown = outlines
         self._root.update()
-
-    def destroy(self) -> None:
-        """Close it."""
-        self._root.destroy()
