@@ -4,4 +4,5 @@ import sys
 from pathlib import Path
 
 REPOSITORY = Path(__file__).resolve().parents[1]
-sys.path[:0] = map(str, [*REPOSITORY.glob("*/src"), *REPOSITORY.glob("common/*/src")])
+FOLDERS = ("*/src", "common/*/src", "common/stand_ins/*/src")
+sys.path[:0] = [str(folder) for pattern in FOLDERS for folder in REPOSITORY.glob(pattern)]

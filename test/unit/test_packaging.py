@@ -36,7 +36,8 @@ def test_every_launch_argument_is_explained(package):
             assert is_fixed or is_explained, f"{launch.name}: {arg.get('name')}"
 
 
-SOURCES = [*REPOSITORY.glob("*/src/**/*.py"), *REPOSITORY.glob("common/*/src/**/*.py")]
+ROOTS = ("*", "common/*", "common/stand_ins/*")
+SOURCES = [path for root in ROOTS for path in REPOSITORY.glob(f"{root}/src/**/*.py")]
 SCRIPTS = [*REPOSITORY.glob("*/scripts/*"), *REPOSITORY.glob("common/*/scripts/*")]
 SCRIPTS = [path for path in SCRIPTS if path.is_file()]
 # Import name -> the name in package.xml, where they differ.

@@ -63,7 +63,7 @@ openni* freenect* astra* depthimage_to_laserscan *_cam: with a world:= there is 
 teleop_twist_joy joystick_drivers: joy2twist and joy_node of the package joy are here
 teleop_twist_keyboard: copy its one file into your package
 turtlebot_* kobuki_*: common/doc/OTHER_PROGRAMS.md lists what is here
-turtlesim* turtle_*: drive the robot on cmd_vel in place of the turtle
+turtle_tf* turtle_actionlib: turtlesim is here; write its followers as the tutorials show
 rosbridge* web_video_server: `./tutorial cockpit` shows the robot in a browser
 roslint: take it out of CMakeLists.txt and package.xml: it only checks style
 rosserial* smach* moveit* sound_play ar_track_alvar* *_controllers ecl_*: nothing replaces it here

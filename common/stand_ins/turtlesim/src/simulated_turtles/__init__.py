@@ -1,0 +1,1 @@
+"""Turtles that drive and draw: turtlesim, in Python and with exact arcs."""

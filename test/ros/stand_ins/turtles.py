@@ -1,0 +1,128 @@
+#!/usr/bin/python3
+"""turtlesim: each service, the wall, a mimic, keys, and a program that was written for the real one."""
+
+import math
+
+import rospy
+from geometry_msgs.msg import Twist, Vector3
+from rosgraph_msgs.msg import Log
+from std_srvs.srv import Empty
+from turtlesim import srv
+from turtlesim.msg import Color, Pose
+
+from tutorial_testing.keys import Tmux
+from tutorial_testing.rostests import RosTest, run
+from tutorial_testing.waiting import wait_for
+
+FIRST, MIDDLE, FIELD_M = "/turtlesim1/", 5.5444446, 499 / 45
+
+
+def call(name, kind, *values):
+    """Call a service once it is there."""
+    rospy.wait_for_service(name)
+    return rospy.ServiceProxy(name, kind)(*values)
+
+
+class TurtlesimTest(RosTest):
+    def setUp(self):
+        call(f"{FIRST}reset", Empty)
+        self.poses, self.logs = self.record(f"{FIRST}turtle1/pose", Pose), self.record("/rosout", Log)
+        self.colors = self.record(f"{FIRST}turtle1/color_sensor", Color)
+        self.commands = self.publisher(f"{FIRST}turtle1/cmd_vel", Twist)
+        wait_for(self.commands.get_num_connections, "turtle")
+        wait_for(lambda: self.poses and self.colors, "pose and color")
+
+    def wait_for_pose(self, *wanted, poses=None):
+        """Wait for x, y, theta to within what a float32 holds of them."""
+        poses = self.poses if poses is None else poses
+
+        def is_there():
+            now = poses and (poses[-1].x, poses[-1].y, poses[-1].theta)
+            return now and all(abs(a - b) < 2e-6 for a, b in zip(now, wanted))
+
+        wait_for(is_there, f"pose {wanted}", 30)
+
+    def wait_for_log(self, words):
+        wait_for(lambda: any(words in one.msg for one in list(self.logs)), f"log {words}", 30)
+
+    def test_one_command_is_an_arc_of_a_second_and_the_mimic_drives_too(self):
+        call("/turtlesim2/reset", Empty)  # it has mimicked what other tests did
+        followers = self.record("/turtlesim2/turtle1/pose", Pose)
+        self.commands.publish(Twist(linear=Vector3(x=2.0), angular=Vector3(z=1.8)))
+        radius = 2.0 / 1.8
+        x, y = MIDDLE + radius * math.sin(1.8), MIDDLE + radius * (1 - math.cos(1.8))
+        self.wait_for_pose(x, y, 1.8)
+        wait_for(lambda: followers and followers[-1].theta > 1.7, "mimic", 30)
+        self.assertIn((2.0, 1.8), {(p.linear_velocity, round(p.angular_velocity, 6)) for p in followers})
+
+    def test_services_of_the_field(self):
+        name = call(f"{FIRST}spawn", srv.Spawn, 2.0, 3.0, 0.2, "").name
+        self.assertEqual(name, "turtle2")
+        self.wait_for_log("Spawning turtle [turtle2] at x=[2.000000], y=[3.000000], theta=[0.200000]")
+        self.wait_for_pose(2.0, 3.0, 0.2, poses=self.record(f"{FIRST}turtle2/pose", Pose))
+        with self.assertRaisesRegex(rospy.ServiceException, r"turtled named \[turtle2\] already"):
+            call(f"{FIRST}spawn", srv.Spawn, 2.0, 2.0, 0.2, "turtle2")
+        call(f"{FIRST}kill", srv.Kill, "turtle2")
+        gone = lambda: f"{FIRST}turtle2/pose" not in dict(rospy.get_published_topics())  # noqa: E731
+        wait_for(gone, "end of its topics")
+        with self.assertRaisesRegex(rospy.ServiceException, r"kill turtle \[turtle2\], which does"):
+            call(f"{FIRST}kill", srv.Kill, "turtle2")
+
+    def test_the_background_is_read_by_clear(self):
+        self.assertEqual(rospy.get_param(f"{FIRST}sim/background_b"), 255)
+        self.assertEqual(rospy.get_param(f"{FIRST}sim/background_g"), 7)  # of the launch file
+        for red in (150, 69):
+            rospy.set_param(f"{FIRST}sim/background_r", red)
+            call(f"{FIRST}clear", Empty)
+            wait_for(lambda red=red: self.colors[-1] == Color(red, 7, 255), "background", 30)
+        self.wait_for_log("Clearing turtlesim.")
+
+    def test_teleports_draw_with_the_pen(self):
+        call(f"{FIRST}turtle1/set_pen", srv.SetPen, 255, 0, 0, 5, 0)
+        call(f"{FIRST}turtle1/teleport_absolute", srv.TeleportAbsolute, 2.0, 3.0, math.pi / 2)
+        call(f"{FIRST}turtle1/teleport_relative", srv.TeleportRelative, 1.0, -math.pi / 2)
+        self.wait_for_pose(3.0, 3.0, 0.0)
+        wait_for(lambda: self.colors[-1] == Color(255, 0, 0), "line", 30)
+        call(f"{FIRST}turtle1/set_pen", srv.SetPen, 0, 0, 0, 0, 1)
+        call(f"{FIRST}turtle1/teleport_absolute", srv.TeleportAbsolute, 9.0, 1.0, 0.0)
+        wait_for(lambda: self.colors[-1] == Color(69, 7, 255), "paper without a line", 30)
+
+    def test_the_wall_holds_with_a_warning_and_nan_moves_nothing(self):
+        self.commands.publish(Twist(linear=Vector3(x=math.nan)))
+        self.wait_for_log("turtle1/cmd_vel is ignored: nan")
+        self.commands.publish(Twist(linear=Vector3(x=8.0)))
+        self.wait_for_pose(FIELD_M, MIDDLE, 0.0)
+        self.wait_for_log("Oh no! I hit the wall! (Clamping from [x=11.")
+
+    def test_a_program_drives_to_a_goal(self):
+        goal_x, goal_y, rate = 2.0, 8.0, rospy.Rate(10)
+        for _ in range(300):
+            pose = self.poses[-1]
+            dx, dy = goal_x - pose.x, goal_y - pose.y
+            if math.hypot(dx, dy) < 0.1:
+                break
+            error = math.atan2(dy, dx) - pose.theta
+            twist = Twist()
+            twist.linear.x = 1.5 * math.hypot(dx, dy) * (abs(error) < 1.0)
+            twist.angular.z = 4.0 * math.atan2(math.sin(error), math.cos(error))
+            self.commands.publish(twist)
+            rate.sleep()
+        self.assertLess(math.hypot(dx, dy), 0.1)
+
+    def test_a_square_is_drawn(self):
+        poses = self.record("/turtlesim3/turtle1/pose", Pose)
+        for sign in (1, -1):  # to the right side of the square, and the left one
+            wait_for(lambda s=sign: poses and s * (poses[-1].x - MIDDLE - 1) > 0.85, "side", 60)
+
+    def test_an_arrow_key_drives_and_q_ends(self):
+        terminal = Tmux(f"rosrun turtlesim turtle_teleop_key __ns:={FIRST.strip('/')}")
+        self.addCleanup(terminal.close)
+        wait_for(lambda: "arrow keys" in terminal.screen, "help")
+        wait_for(lambda: self.commands.get_num_connections(), "turtle")
+        terminal.hold("Up", lambda: self.poses[-1].linear_velocity == 2.0, "drive")
+        terminal.press("q")
+        wait_for(lambda: terminal.ended, "end")
+
+
+if __name__ == "__main__":
+    run()

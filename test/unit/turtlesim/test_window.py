@@ -1,0 +1,18 @@
+"""A node without tkinter, or without its screen, goes on after one line."""
+
+import sys
+from unittest import mock
+
+import pytest
+import rospy
+from simulated_turtles import node
+
+
+@pytest.mark.parametrize(("display", "lines"), [("", 0), (":no", 1)])
+@pytest.mark.parametrize("hidden", [{}, {"tkinter": None}])
+def test_no_screen_no_window(monkeypatch, display, lines, hidden):
+    monkeypatch.setenv("DISPLAY", display)
+    monkeypatch.delitem(sys.modules, "simulated_turtles.window", raising=False)
+    with mock.patch.dict(sys.modules, hidden), mock.patch.object(rospy, "logwarn") as warned:
+        assert node.open_window() is None
+    assert warned.call_count == lines
