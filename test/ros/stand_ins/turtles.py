@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""turtlesim: each service, the wall, a mimic, keys, and a program that was written for the real one."""
+"""turtlesim: each service, the wall, mimic, keys, and a program written for the real one."""
 
 import math
 
@@ -26,7 +26,10 @@ def call(name, kind, *values):
 class TurtlesimTest(RosTest):
     def setUp(self):
         call(f"{FIRST}reset", Empty)
-        self.poses, self.logs = self.record(f"{FIRST}turtle1/pose", Pose), self.record("/rosout", Log)
+        self.poses, self.logs = (
+            self.record(f"{FIRST}turtle1/pose", Pose),
+            self.record("/rosout", Log),
+        )
         self.colors = self.record(f"{FIRST}turtle1/color_sensor", Color)
         self.commands = self.publisher(f"{FIRST}turtle1/cmd_vel", Twist)
         wait_for(self.commands.get_num_connections, "turtle")
@@ -53,12 +56,16 @@ class TurtlesimTest(RosTest):
         x, y = MIDDLE + radius * math.sin(1.8), MIDDLE + radius * (1 - math.cos(1.8))
         self.wait_for_pose(x, y, 1.8)
         wait_for(lambda: followers and followers[-1].theta > 1.7, "mimic", 30)
-        self.assertIn((2.0, 1.8), {(p.linear_velocity, round(p.angular_velocity, 6)) for p in followers})
+        self.assertIn(
+            (2.0, 1.8), {(p.linear_velocity, round(p.angular_velocity, 6)) for p in followers}
+        )
 
     def test_services_of_the_field(self):
         name = call(f"{FIRST}spawn", srv.Spawn, 2.0, 3.0, 0.2, "").name
         self.assertEqual(name, "turtle2")
-        self.wait_for_log("Spawning turtle [turtle2] at x=[2.000000], y=[3.000000], theta=[0.200000]")
+        self.wait_for_log(
+            "Spawning turtle [turtle2] at x=[2.000000], y=[3.000000], theta=[0.200000]"
+        )
         self.wait_for_pose(2.0, 3.0, 0.2, poses=self.record(f"{FIRST}turtle2/pose", Pose))
         with self.assertRaisesRegex(rospy.ServiceException, r"turtled named \[turtle2\] already"):
             call(f"{FIRST}spawn", srv.Spawn, 2.0, 2.0, 0.2, "turtle2")
@@ -118,7 +125,6 @@ class TurtlesimTest(RosTest):
         terminal = Tmux(f"rosrun turtlesim turtle_teleop_key __ns:={FIRST.strip('/')}")
         self.addCleanup(terminal.close)
         wait_for(lambda: "arrow keys" in terminal.screen, "help")
-        wait_for(lambda: self.commands.get_num_connections(), "turtle")
         terminal.hold("Up", lambda: self.poses[-1].linear_velocity == 2.0, "drive")
         terminal.press("q")
         wait_for(lambda: terminal.ended, "end")

@@ -1,6 +1,7 @@
 """Names, pens, teleports and colors of the field, as upstream's."""
 
 import pytest
+
 from simulated_turtles.field import PERIOD_S, START, Field, background, wait_s
 from simulated_turtles.turtle import FIELD_M, Pen
 

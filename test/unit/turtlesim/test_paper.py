@@ -3,6 +3,7 @@
 import math
 
 import pytest
+
 from simulated_turtles.paper import SIZE, Paper, outline
 from simulated_turtles.turtle import FIELD_M
 

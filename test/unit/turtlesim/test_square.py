@@ -1,6 +1,7 @@
 """draw_square: the corners of a square, driven by the rules of the field."""
 
 import pytest
+
 from simulated_turtles.field import PERIOD_S, START, Field
 from simulated_turtles.square import NEAR_M, SIDE_M, Square
 

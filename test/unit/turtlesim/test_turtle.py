@@ -3,6 +3,7 @@
 import math
 
 import pytest
+
 from simulated_turtles.turtle import FIELD_M, Turtle, normalized
 
 MIDDLE = FIELD_M / 2

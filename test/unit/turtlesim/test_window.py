@@ -5,6 +5,7 @@ from unittest import mock
 
 import pytest
 import rospy
+
 from simulated_turtles import node
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 import re
-from typing import Any, Callable, NamedTuple, Tuple
+from typing import Any, Callable, NamedTuple
 
 from simulated_turtles.paper import Paper
 from simulated_turtles.turtle import Color, Pen, Point, Turtle
@@ -20,7 +20,7 @@ class State(NamedTuple):
     """What a turtle publishes; `outside` is where it hit the wall, with y from the top."""
 
     name: str
-    pose: Tuple[float, float, float, float, float]  # in the order of turtlesim/Pose
+    pose: tuple[float, float, float, float, float]  # in the order of turtlesim/Pose
     color: Color
     outside: Point | None
 
