@@ -23,9 +23,9 @@ from simulated_turtles.turtle import Turtle
 class Turtlesim:
     """Turtles that drive and draw.
 
-    Subscribers: NAME/cmd_vel (geometry_msgs/Twist) of each turtle. Publishers, at 62.5 Hz:
+    Subscribers, of each turtle: NAME/cmd_vel (geometry_msgs/Twist). Publishers, at 62.5 Hz:
     NAME/pose (turtlesim/Pose), NAME/color_sensor (turtlesim/Color). Services: clear, reset
-    (std_srvs/Empty), spawn, kill, NAME/set_pen, NAME/teleport_absolute, NAME/teleport_relative (turtlesim).
+    (std_srvs/Empty), spawn, kill, NAME/set_pen, NAME/teleport_absolute, NAME/teleport_relative.
     Parameters, read at the start and by clear and reset: ~background_r (69), ~background_g (86),
     ~background_b (255). Time is the monotonic clock's, whatever /use_sim_time says, as upstream.
     """
@@ -36,9 +36,7 @@ class Turtlesim:
             rospy.set_param(f"~{name}", given.get(name, default))
         self._lock = threading.RLock()
         self._field = Field(self._background())
-        self._ends: dict[
-            str, list[Any]
-        ] = {}  # what each turtle publishes, subscribes to and serves
+        self._ends: dict[str, list[Any]] = {}  # what each turtle publishes, hears and serves
         rospy.loginfo(f"Starting turtlesim with node name {rospy.get_name()}")
         self._spawn("", *START)
         self._serve("clear", Empty, self._clear)

@@ -12,8 +12,8 @@ from simulated_turtles.turtle import FIELD_M, Color, Point
 SIZE = 500  # [pixels]
 PIXELS_PER_M = 45
 # A turtle as a polygon: (ahead, left) [pixels].
-HALF = ((22, 0), (15, 5), (13, 14), (7, 11), (-9, 11), (-16, 14), (-20, 0))
-SHAPE = (*HALF, *((ahead, -left) for ahead, left in HALF[:0:-1]))
+LEFT = ((22, 0), (15, 5), (13, 14), (7, 11), (-9, 11), (-16, 14), (-20, 0))
+SHAPE = (*LEFT, *((ahead, -left) for ahead, left in LEFT[:0:-1]))
 
 
 def pixel(x: float, y: float) -> tuple[float, float]:
@@ -64,7 +64,7 @@ class Paper:
         self._changed.append((left, top, right, bottom))
 
     def take_changes(self) -> tuple[int, int, bytes] | None:
-        """Return (column, row, PPM image) of what changed since the last call; None if nothing."""
+        """Return (column, row, a PPM image) of what changed since the last call, or None."""
         if not self._changed:
             return None
         sides = list(zip(*self._changed))
