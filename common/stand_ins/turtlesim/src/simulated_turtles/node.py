@@ -36,7 +36,7 @@ class Turtlesim:
             rospy.set_param(f"~{name}", given.get(name, default))
         self._lock = threading.RLock()
         self._field = Field(self._background())
-        self._ends: dict[str, list[Any]] = {}  # what each turtle publishes, subscribes to and serves
+        self._ends: dict[str, list[Any]] = {}  # each turtle's ends of topics and services
         rospy.loginfo(f"Starting turtlesim with node name {rospy.get_name()}")
         self._spawn("", *START)
         self._serve("clear", Empty, self._clear)
