@@ -14,9 +14,7 @@ from tutorial_check.launcher import HANDED_IN, judge, order_of
 
 FOLDER = Path(__file__).resolve().parent / "recordings"
 REPOSITORY = FOLDER.parents[2]
-BEFORE_A_STATEMENT = (
-    tokenize.ENCODING, tokenize.NEWLINE, tokenize.NL, tokenize.INDENT, tokenize.DEDENT,
-)  # fmt: skip
+BEFORE_A_STATEMENT = (tokenize.ENCODING, tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT)
 # What every recorder works with.
 SHARED = [f"tutorial_check.record.{name}" for name in ("stage", "driver", "builder")]
 
@@ -103,5 +101,6 @@ def code_of_file(path):
             lines[row:last] = [
                 rest if number == last else "\n" for number in range(row + 1, last + 1)
             ]
-        begins = token.type in BEFORE_A_STATEMENT or (begins and token.type == tokenize.COMMENT)
+        goes_on = token.type in (tokenize.COMMENT, tokenize.NL)
+        begins = token.type in BEFORE_A_STATEMENT or (begins and goes_on)
     return "".join(lines)
