@@ -40,7 +40,8 @@ def write_state(file: Path, state: dict[str, Any]) -> None:
     """Write a file in one step, if it can be written."""
     with contextlib.suppress(OSError):
         file.parent.mkdir(parents=True, exist_ok=True)
-        descriptor, name = tempfile.mkstemp(file.suffix, dir=file.parent)
+        # Hidden: one that is killed now leaves it behind, beside the reports of a class.
+        descriptor, name = tempfile.mkstemp(file.suffix, f".{file.stem}.", file.parent)
         with open(descriptor, "w", encoding="utf-8") as written:
             json.dump(state, written)
         os.replace(name, file)
