@@ -1,4 +1,4 @@
-"""Recordings of the rows, stored: what their programs did can be judged without running them again."""
+"""Recordings of the rows, stored: what their programs did is judged without running them again."""
 
 import functools
 import hashlib
@@ -15,8 +15,10 @@ from tutorial_check.launcher import HANDED_IN, judge, order_of
 FOLDER = Path(__file__).resolve().parent / "recordings"
 REPOSITORY = FOLDER.parents[2]
 BEFORE_A_STATEMENT = (tokenize.ENCODING, tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT)
-# What every recorder works with.
-SHARED = [f"tutorial_check.record.{name}" for name in ("stage", "driver", "builder")]
+IMPORT = re.compile(
+    r"^ *from (tutorial_check\.(?:record|handout)[\w.]*) import (\([^)]+\)|.+)", re.M
+)
+RULES = "tutorial_check.handout.s4_3.rules"  # A judge's, which only decides how much is tried.
 
 
 def path_of(test):
@@ -81,9 +83,22 @@ def code_hash(module):
 
     Of its words, and not of its syntax tree, which each Python writes in another way.
     """
-    files = (importlib.util.find_spec(name).origin for name in (module, *SHARED))
+    files = (importlib.util.find_spec(name).origin for name in sorted(imported_by(module, set())))
     words = (word for file in files for word in code_of_file(Path(file)).split())
     return hashlib.sha256(" ".join(words).encode()).hexdigest()[:12]
+
+
+def imported_by(module, found):
+    """Add a module of recorders to those found, with all that it works with; return them."""
+    spec = importlib.util.find_spec(module)
+    if spec.submodule_search_locations is None and module not in (*found, RULES):
+        found.add(module)
+        for base, names in IMPORT.findall(Path(spec.origin).read_text()):
+            is_package = importlib.util.find_spec(base).submodule_search_locations
+            inner = (f"{base}.{name}" for name in re.findall(r"\w+", names)) if is_package else ()
+            for name in (base, *filter(importlib.util.find_spec, inner)):
+                imported_by(name, found)
+    return found
 
 
 def code_of_file(path):

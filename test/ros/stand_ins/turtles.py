@@ -77,7 +77,7 @@ class TurtlesimTest(RosTest):
 
     def test_the_background_is_read_by_clear(self):
         self.assertEqual(rospy.get_param(f"{FIRST}sim/background_b"), 255)
-        self.assertEqual(rospy.get_param(f"{FIRST}sim/background_g"), 7)  # of the launch file
+        self.assertEqual(rospy.get_param(f"{FIRST}sim/background_g"), 7)  # The launch file sets it.
         for red in (150, 69):
             rospy.set_param(f"{FIRST}sim/background_r", red)
             call(f"{FIRST}clear", Empty)

@@ -23,7 +23,7 @@ SECTIONS["browser"] = [*SECTIONS["test"], "browser"]
         ("doctor", "doctor", "doctor.py", ""),
         ("test", "test", "run.py", ""),
         ("test exercises --every 5 --lf", "test", "run.py", "exercises --every 5 --lf"),
-        ("test browser --picture", "browser", "run.py", "browser --picture"),
+        ("test browser --trials 20", "browser", "run.py", "browser --trials 20"),
         ("bench joy2twist --hours 1", "test", "run.py", "bench joy2twist --hours 1"),
         ("lint --fix", "test", "lint", "--fix"),
     ],

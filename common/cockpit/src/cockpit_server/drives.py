@@ -135,7 +135,7 @@ class Drives(Source):
     def prepare(self, clients: Sequence[Client], now: float) -> None:
         seat, driven = self._hub.seat, self._hub.driven
         if self._driven not in (None, driven):
-            self._teleop.outdate(self._driven)  # that robot's driver has left since this message
+            self._teleop.outdate(self._driven)  # Its driver has left since.
         self._driven = driven
         self._abouts = {robot: self._about(robot, now) for robot in self._graphs.graph.robots()}
         for robot, about in self._abouts.items():

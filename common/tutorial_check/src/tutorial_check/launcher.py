@@ -226,12 +226,13 @@ def judge(
 
 def _make_checks(run: Run, case: Case, outcome: Outcome, only_first: bool, report: Report) -> None:
     began_s, already = time.monotonic(), len(case.asked)
-    for found in run.exercise(outcome.id, only_first):
-        result = case.as_sent(found)
-        outcome.results.append(result)
-        report(outcome, result)
+    try:
+        for found in run.exercise(outcome.id, only_first):
+            result = case.as_sent(found)
+            outcome.results.append(result)
+            report(outcome, result)
+    finally:  # what was recorded before the worker ended is of most interest
+        asked = json.dumps(case.asked[already:])
+        outcome.recordings = json.loads(asked.replace(f"{case.folder}/", f"{HANDED_IN}/"))
     outcome.seconds = round(time.monotonic() - began_s, 2)
-    outcome.recordings = json.loads(
-        json.dumps(case.asked[already:]).replace(f"{case.folder}/", f"{HANDED_IN}/")
-    )
     outcome.done, outcome.trouble = True, run.trouble(outcome.id)

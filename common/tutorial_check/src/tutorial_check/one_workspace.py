@@ -33,10 +33,11 @@ def check_one(options: argparse.Namespace) -> int:
         return 0
     outcomes = _look(options)
     print(f"{summary(outcomes)} in {os.path.abspath(options.workspace)}")
+    handed_out = without_hints(outcomes) if options.hints == 0 else outcomes
     if options.keep:
         name = os.path.basename(os.path.abspath(options.workspace))
-        keep(options.keep, name, outcomes)
-    _write_files(files, without_hints(outcomes) if options.hints == 0 else outcomes)
+        keep(options.keep, name, handed_out)
+    _write_files(files, handed_out)
     if any(outcome.trouble for outcome in outcomes):
         return 2
     return int(not all(outcome.passed for outcome in outcomes))

@@ -42,7 +42,7 @@ class Turtle:
         self.x, self.y, self.theta, self.pen = x, y, theta, Pen()
         self.velocity = (0.0, 0.0, 0.0)  # ahead, to the left [m/s], turn [rad/s]
         self.drawn: Point = (x, y)  # the end of its line
-        self._time_s, self._until_s = now_s, now_s  # of this pose; the end of the command
+        self._time_s = self._until_s = now_s  # when it was there, and when its command ends
 
     def command(self, ahead: float, left: float, turn: float, now_s: float) -> None:
         """Obey velocities [m/s, m/s, rad/s] from now on, for COMMAND_S."""
@@ -55,7 +55,7 @@ class Turtle:
         ahead, left, turn = self.velocity
         dt_s = max(0.0, min(now_s, self._until_s) - self._time_s)
         half = turn * dt_s / 2
-        chord = dt_s * (math.sin(half) / half if half else 1.0)  # of a velocity of 1 m/s
+        chord = dt_s * (math.sin(half) / half if half else 1.0)  # [m] at 1 m/s
         cos, sin = math.cos(self.theta + half), math.sin(self.theta + half)
         self.x += chord * (ahead * cos - left * sin)
         self.y += chord * (ahead * sin + left * cos)

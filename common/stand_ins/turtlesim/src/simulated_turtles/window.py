@@ -6,7 +6,7 @@ import tkinter
 
 from simulated_turtles.paper import SIZE
 
-COLORS = ("#4a7c3a", "#8a6a3a", "#3a6a8a", "#7a4a7a")  # of the turtles in turn
+COLORS = ("#4a7c3a", "#8a6a3a", "#3a6a8a", "#7a4a7a")  # The turtles have them in turn.
 
 
 class Window:
