@@ -91,6 +91,12 @@ def test_without_a_verdict_classroom_50_gets_no_file(main, tmp_path, capsys):
     assert "mkdir src" not in (tmp_path / "json").read_text()
 
 
+def test_what_is_kept_has_no_hints_if_there_are_none(main, tmp_path):
+    main(lambda *_, **__: [BAD], "--keep", tmp_path, "--no-hints")
+    (kept,) = tmp_path.glob("*.json")
+    assert '"recordings"' in kept.read_text() and "mkdir src" not in kept.read_text()
+
+
 @pytest.mark.parametrize("name", FORMATS)
 def test_a_bug_of_the_checker_is_no_fault_of_the_students(main, tmp_path, capsys, name):
     (tmp_path / "file").write_text("last week's")

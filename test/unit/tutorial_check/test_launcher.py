@@ -55,6 +55,14 @@ def test_what_was_found_before_the_worker_ended(examine):
     assert [one.passed for one in outcomes] == [True, False, False]
 
 
+def test_what_was_recorded_before_the_worker_ended(examine):
+    def end(outcome, _):
+        raise worker_process.Ended("no room")
+
+    (asked,) = examine([READY, SEEN], "", end)[0].recordings
+    assert asked["recording"] == {"number": 1}
+
+
 def test_what_was_found_before_the_time_was_over(examine, monkeypatch):
     clock = SimpleNamespace(monotonic=lambda: 0.0)
     monkeypatch.setattr(worker_process, "time", clock)
