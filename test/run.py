@@ -83,7 +83,7 @@ def faults(arguments):
     if BRIDGE not in arguments:
         return run("/usr/bin/python3", "-m", "tutorial_faults", *arguments)
     rest = [argument for argument in arguments if argument != BRIDGE]
-    return tests("ros2", ["-q", "-s", "test/ros2/test_faults.py", "-k", "random", *rest])
+    return tests("ros2", ["-q", "-s", "test/ros2/test_faults.py", "-m", "night", *rest])
 
 
 KINDS = {
