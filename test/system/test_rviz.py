@@ -28,7 +28,10 @@ def test_rviz_opens_by_itself_and_shows_the_trail(tutorial, screen, tmp_path):
             pixels = np.asarray(ImageGrab.grab(xdisplay=screen).convert("RGB")).astype(int)
             return np.count_nonzero((abs(pixels - TRAIL) < 60).all(axis=2)) > TRAIL_PIXELS
 
-        wait_for(trail_is_drawn, "odometry trail on the screen")
+        try:
+            wait_for(trail_is_drawn, "odometry trail on the screen")
+        except AssertionError as error:
+            raise AssertionError(f"{error}; it printed:\n{demo.output}") from None
         path = os.environ.get("TUTORIAL_PICTURE", tmp_path / "rviz.png")
         ImageGrab.grab(xdisplay=screen).save(path)
         assert not re.search(r"\[ERROR\]|\[FATAL\]|Traceback", demo.output)

@@ -1,17 +1,20 @@
 #!/usr/bin/python3
 """A start never harms what runs: a table of what runs, what is started, and what is left."""
 
+import re
 from xmlrpc.client import ServerProxy
 
 import rosgraph
 import rospy
 from rospy import AnyMsg
 
+from node_kit.questions import known_nodes
 from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import wait_for
 
+MASTER = rosgraph.get_master_uri()
 SIMULATOR = (node_path("fake_turtlebot_sim", "fake_turtlebot.py"),)
 ROBOT = "rosrun fake_turtlebot_sim fake_turtlebot.py"
 TURTLEBOT = "roslaunch fake_turtlebot_sim minimal.launch"
@@ -69,6 +72,8 @@ class StartsTest(RosTest):
         for (runs, *topics), (refused, both) in TABLE.items():
             with Program(*runs.split()) as running:
                 watches = [self.watch(topic) for topic in topics]
+                nodes = re.findall(r"process\[(\S+)-\d+\]: started", running.output)
+                wait_for(lambda n=nodes: {f"/{one}" for one in n} <= known_nodes(MASTER), "nodes")
                 for command, words in refused:
                     with started_by(command) as started:
                         self.assertEqual(started.wait(), 1, f"{command}: {started.output}")

@@ -30,7 +30,7 @@ import threading
 from collections.abc import Iterable
 from pathlib import Path
 
-from node_kit.questions import holder
+from node_kit.questions import holder, known_nodes
 
 DEFAULT_MASTER = "http://localhost:11311"
 # With these roslaunch only prints what is in the file.
@@ -84,9 +84,14 @@ def _parent() -> list[str]:
     return words.rstrip("\0").split("\0")
 
 
-def check_names(names: list[str], nodes: list[str], master_uri: str) -> None:
+def named(names: Iterable[str], nodes: Iterable[str]) -> list[str]:
+    """Return the nodes that have one of these names, in any namespace."""
+    return [node for node in nodes if node.split("/")[-1] in names]
+
+
+def check_names(names: list[str], started: list[str], master_uri: str) -> None:
     """Exit with one line if a node of such a name runs already, in the namespace of one of ours."""
-    for name in [node for node in nodes if node.split("/")[-1] in names]:
+    for name in named(names, started):
         held = holder(master_uri, name)
         if held:
             sys.exit(
@@ -98,11 +103,14 @@ def check_names(names: list[str], nodes: list[str], master_uri: str) -> None:
 
 def names_free() -> None:
     """Check the names of the command line; the output becomes the value of the parameter."""
-    command = _parent()
-    if will_start(command):
-        nodes, ignored = read_launch(command)
-        check_names(sys.argv[1:], nodes, os.environ.get("ROS_MASTER_URI") or DEFAULT_MASTER)
-        for line in ignored if "--arguments" in sys.argv else ():
+    command, names = _parent(), sys.argv[1:]
+    master_uri = os.environ.get("ROS_MASTER_URI") or DEFAULT_MASTER
+    arguments = "--arguments" in names and any(":=" in word for word in command)
+    # To read the files takes longer than all else here.
+    if will_start(command) and (arguments or named(names, known_nodes(master_uri))):
+        started, ignored = read_launch(command)
+        check_names(names, started, master_uri)
+        for line in ignored if arguments else ():
             print(f"roslaunch: {line}", file=sys.stderr)
     print("true")
 

@@ -77,6 +77,13 @@ def call(
     return answer[0]
 
 
+def known_nodes(master_uri: str) -> set[str]:
+    """Return the names of the nodes that a master knows, dead ones too; none without a master."""
+    answer, state = call(master_uri, "getSystemState")
+    columns = state if answer is Answer.WELL else ()
+    return {node for column in columns for _, users in column for node in users}
+
+
 def holder(master_uri: str, name: str) -> tuple[str, str] | None:
     """Return where the node of a name runs, as (uri, words), or None if the name is free.
 
