@@ -41,14 +41,6 @@ def test_hands_on_glass_and_on_a_gamepad_of_the_kernel_give_the_same_message(pag
             assert tuple(shown["buttons"]) == buttons
 
 
-def test_gamepad_of_the_standard_mapping_is_an_f710(page):
-    pressed = [number in (0, 4, 12) for number in range(17)]  # A, LB, and the D-pad up
-    pad = {"mapping": "standard", "axes": [-1, 1, 0.02, 0], "buttons": [button(b) for b in pressed]}
-    assert call(page, "handsOfGamepad", pad, NAMES) == {
-        "left": [1, -1], "right": [0, 0], "dpad": [0, 1], "triggers": [0, 0], "held": ["A", "LB"],
-    }  # fmt: skip
-
-
 def test_gamepad_that_is_held_when_it_is_plugged_in_moves_nothing(page):
     script = """const done = arguments[0];
     const held = {id: "fake", index: 0, connected: true, mapping: "standard", timestamp: 1,

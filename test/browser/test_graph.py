@@ -1,9 +1,8 @@
-"""The picture of nodes and topics: Fit, zoom and Find; arrows."""
+"""The picture of nodes and topics: Fit, zoom and Find."""
 
 import pytest
 from selenium.webdriver.common.keys import Keys
 
-from tutorial_testing.cockpit.pixels import LEAST_CONTRAST, SCHEMES, colour, contrast, dress, seen
 from tutorial_testing.waiting import wait_for
 
 # A Graph of its own, with a server that is this script: given topics, and hear() as in main.js.
@@ -60,28 +59,3 @@ def test_large_graph_fits_and_is_zoomed_and_what_is_found_is_in_sight(page):
     assert around["left"] <= box["left"] and box["right"] <= around["right"]
     assert around["top"] <= box["top"] and box["bottom"] <= around["bottom"]
     assert box["height"] > 20  # it is large enough to be read
-
-
-@pytest.mark.parametrize("scheme", SCHEMES)
-def test_arrows_stand_out_and_their_heads_are_chosen_with_them(page, scheme):
-    def drawn(css, back):
-        """The colour of an arrow so many units before its end: of its head, or of its line."""
-        x, y = page.ask(f"""(() => {{
-          const arrow = document.querySelector('{css}');
-          const {{x, y}} = arrow.getPointAtLength(arrow.getTotalLength() - {back});
-          const at = new DOMPoint(x, y).matrixTransform(arrow.getScreenCTM());
-          return [at.x, at.y];
-        }})()""")
-        pixels, _ = seen(page)
-        around = [pixels[int(x) + dx, int(y) + dy] for dx in (-1, 0, 1) for dy in (-1, 0, 1)]
-        return max(around, key=lambda one: contrast(one, colour(page, "--floor")))
-
-    dress(page, scheme)
-    page.driver.execute_async_script(GRAPH, *graph(3))
-    for back in (4, 20):
-        assert contrast(drawn("#graph .arrow", back), colour(page, "--floor")) >= LEAST_CONTRAST
-    page.one("#graph [data-item='node /node_0']").click()
-    for back in (4, 20):
-        chosen = zip(drawn("#graph .arrow.chosen", back), colour(page, "--accent"))
-        assert max(abs(a - b) for a, b in chosen) < 60, back
-    dress(page)

@@ -68,6 +68,11 @@ def mouse(kind):
     return lambda it: it.browser.mouse(kind, "#teleop", button="right", shift=True)
 
 
+def close_list(it):
+    it.browser.mouse("mouseReleased", "#connection", "left")
+    it.browser.tab("Robot")
+
+
 def gamepad(**values):
     return lambda it: it.hands.set(**values)
 
@@ -122,6 +127,8 @@ WAYS = {
     ),
     # Its menu takes the keys, so that their release is not reported.
     "right button of the mouse": Way(mouse("mousePressed"), mouse("mouseReleased")),
+    # So does an open list, which a driver may open on any tab.
+    "a list": Way(lambda it: it.browser.mouse("mousePressed", "#mode", "left"), close_list),
     "gamepad unplugged": Way(gamepad(plugged=False), gamepad(plugged=True), Gamepad),
     "gamepad frozen": Way(freeze_gamepad, gamepad(frozen=False), Gamepad),
     "server killed with -9": Way(lambda it: it.world.cockpit.kill(), start_server),
