@@ -18,7 +18,7 @@ class Classroom(RosTest):
     def test_one_robot_of_three_is_driven_and_put_back(self):
         with CockpitRig(robot=OURS) as rig, rig.page() as page:
             self.assertEqual(page.wait_for("hello")["robots"], sorted([OURS, *OTHERS]))
-            page.watch(robots=True, look=OURS)
+            page.say("watch", robots=True, look=OURS)
 
             def seen():
                 return page.of("robots")[-1]["robots"]

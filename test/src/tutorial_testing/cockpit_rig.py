@@ -1,15 +1,11 @@
-"""The cockpit as a program, and the robot that it drives as seen by /odom and /joy."""
+"""The cockpit as a program, and the robot that it drives as seen by /odom."""
 
-import rospy
-from sensor_msgs.msg import Joy
-
-from cockpit_server.seat import is_neutral
 from tutorial_testing.nodes import node_path
 from tutorial_testing.ports import free_port
 from tutorial_testing.processes import Program
 from tutorial_testing.robot import Robot
 from tutorial_testing.rostests import RosTest
-from tutorial_testing.socket_page import DRIVE, REST, SocketPage
+from tutorial_testing.socket_page import DRIVE, SocketPage
 from tutorial_testing.waiting import wait_for
 
 
@@ -21,12 +17,9 @@ class CockpitRig(Robot):
         self.port = free_port()
         self._options = options
         self.robot = robot
-        self.joys = []  # each message
 
     def begin(self):
         self.listen()
-        joy = rospy.Subscriber(f"{self.namespace}joy", Joy, self.joys.append, queue_size=1000)
-        self._stack.callback(joy.unregister)
         self._stack.callback(self._end)
         self.start()
 
@@ -68,17 +61,6 @@ class CockpitRig(Robot):
             page.hand = DRIVE
 
         self.drive_by(hold)
-
-    def drives_only_once_released(self, page):
-        """Whether a held stick is not obeyed, and one that was released before is."""
-        page.hand = DRIVE
-        if not self.stays_at_rest():
-            return False
-        page.hand = REST
-        released = lambda joy: is_neutral(joy.axes, joy.buttons)  # noqa: E731
-        wait_for(lambda: self.joys and released(self.joys[-1]), "released joystick")
-        self.drive(page)
-        return True
 
 
 class WithCockpit(RosTest):

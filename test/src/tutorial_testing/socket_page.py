@@ -15,6 +15,27 @@ from tutorial_testing.waiting import wait_for
 PERIOD_S = 0.05
 REST = ([0.0] * 6, [0] * 12)
 DRIVE = ([0.0, 1.0, 0.0, 0.0, 0.0, 0.0], [0, 0, 0, 0, 1] + [0] * 7)
+# A message of each kind as the schema allows it, without its kind.
+GOOD = {
+    "watch": {
+        "robots": True, "look": None, "graph": False, "topic": "/odom", "node": None,
+        "fields": ["/odom/pose/pose/position/x"], "field_list": False, "log": True, "bag": False,
+    },
+    "drive": {"robot": "", "mode": "D"},
+    "stop": {},
+    "hand_over": {"to": 3},
+    "input": {
+        "n": 1, "t": 12.5, "beat": 0, "axes": [0, 1, -1.0, 0, 0, 0], "buttons": [0] * 12,
+        "pad": None, "source": "keys",
+    },
+    "release": {"why": "hidden"},
+    "reset": {"robot": "robot_1"},
+    "bag_open": {"name": "joy.bag"},
+    "bag_play": {"topic": "/joy", "rate": 1, "loop": False, "robot": ""},
+    "bag_pause": {},
+    "bag_seek": {"position": 3.5},
+    "doctor": {},
+}  # fmt: skip
 
 
 def request(port, token=None, **headers):
@@ -34,8 +55,6 @@ class SocketPage(Started):
         self.messages = []  # all that came but beats
         self.refusal = None  # HTTP status, where the WebSocket was refused
         self.hand = None
-        self.sees_beats = True
-        self.delay_s = 0.0  # by which what is said is older
         self._beat, self._n = 0, 0
         self._robots = {}
         self._socket = None
@@ -71,10 +90,10 @@ class SocketPage(Started):
             if message["kind"] == "robots":  # which has those that changed
                 before = {} if message["all"] else self._robots
                 self._robots = message["robots"] = {**before, **message["robots"]}
-            if message["kind"] != "beat":
-                self.messages.append(message)
-            elif self.sees_beats:
+            if message["kind"] == "beat":
                 self._beat = message["n"]
+            else:
+                self.messages.append(message)
 
     async def _send(self):
         while True:
@@ -93,7 +112,7 @@ class SocketPage(Started):
     def input(self, axes, buttons):
         self._n += 1
         return {
-            "kind": "input", "n": self._n, "t": 1000 * (time.monotonic() - self.delay_s),
+            "kind": "input", "n": self._n, "t": 1000 * time.monotonic(),
             "beat": self._beat, "axes": axes, "buttons": buttons,
             "pad": None, "source": "keys",
         }  # fmt: skip
@@ -103,9 +122,6 @@ class SocketPage(Started):
 
     def say_raw(self, data):
         self._loop.call_soon_threadsafe(self._write_text, data)
-
-    def watch(self, **fields):
-        self.say("watch", **fields)
 
     def close(self):
         if self._socket:
