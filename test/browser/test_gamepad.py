@@ -1,5 +1,7 @@
 """The page's F710 gives the same axes and buttons as gamepad.virtual.controls."""
 
+import itertools
+
 import pytest
 
 from gamepad.gamepads import F710
@@ -25,9 +27,8 @@ def button(pressed):
     return {"pressed": bool(pressed), "value": float(pressed)}
 
 
-@pytest.mark.parametrize("mode", F710)
-def test_hands_on_glass_and_on_a_gamepad_of_the_kernel_give_the_same_message(page, mode):
-    for controls in CASES:
+def test_hands_on_glass_and_on_a_gamepad_of_the_kernel_give_the_same_message(page):
+    for mode, controls in itertools.product(F710, CASES):
         axes, buttons = positions(F710[mode], controls)
         glass = {
             "left": controls.left_stick, "right": controls.right_stick, "dpad": controls.dpad,

@@ -24,6 +24,8 @@ def test_robot_shows_odometry_joy2twist_and_a_kobuki(world, page, ros):
     assert shown(page, "[data-value=v]") == 0
     reports = ros("rostopic", "echo", "-n6", "/diagnostics")
     page.wait_for_text("#teleop", re.findall(r'joystick"\s+message: "(.*)"', reports)[-1])
+    page.click("Reset robot")
+    wait_for(lambda: world.now.x == 0, "robot at its start")
     commands = "/mobile_base/commands"
     ros("rostopic", "pub", "-1", f"{commands}/led2", "kobuki_msgs/Led", "value: 2")
     page.wait_for_text("#kobuki [data-value=led2]", "orange")
@@ -39,6 +41,8 @@ def test_graph_shows_the_nodes_and_their_topics(page, ros):
     page.one('[data-item="topic /cmd_vel"]').click()
     page.wait_for_text("[data-value=type]", ros("rostopic", "type", "/cmd_vel").strip())
     page.wait_for_text("[data-value=subscribers]", "/fake_turtlebot")
+    page.one('[data-item="node /fake_turtlebot"]').click()
+    page.wait_for_text("[data-value=services]", "/fake_turtlebot/reset")
 
 
 def test_bag_shows_the_values_at_its_slider_and_publishes_until_it_is_paused(

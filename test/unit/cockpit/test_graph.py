@@ -25,13 +25,6 @@ GRAPH = Graph(
 )  # fmt: skip
 
 
-def test_node_has_its_topics_services_and_neighbours():
-    about = GRAPH.about_node("/sim")
-    assert about["speaks_to"] == ["/rviz"]
-    assert (about["publishes"], about["services"]) == (["/odom"], ["/sim/reset"])
-    assert {"from": "topic /odom", "to": "node /rviz"} in GRAPH.parts()["edges"]
-
-
 def test_reset_is_of_one_robot():
     assert reset_service(GRAPH, "") == "/sim/reset"
     assert reset_service(GRAPH, "robot_2") == "/robot_2/reset"

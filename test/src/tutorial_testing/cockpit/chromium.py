@@ -30,30 +30,27 @@ SHIFT = 8  # as the protocol has modifiers
 class Chromium(WebDriver):
     """One browser with one page. A context manager that leaves nothing behind."""
 
-    def __init__(self, width=1280, height=800, touch=False):
+    def __init__(self):
         self._folder = tempfile.mkdtemp()
         self._modifiers = 0
         options = Options()
         options.binary_location = shutil.which("chromium")
-        for argument in (*ARGUMENTS, f"--window-size={width},{height}"):
+        for argument in (*ARGUMENTS, "--window-size=1280,800"):
             options.add_argument(argument)
         options.add_argument(f"--user-data-dir={self._folder}")
         options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
         service = Service(shutil.which("chromedriver"))
         super().__init__(webdriver.Chrome(service=service, options=options))
-        self._emulate(width, height, touch)
-
-    def _emulate(self, width, height, touch):
-        self.resize(width, height, touch)
-        if touch:
-            self.send("Emulation.setTouchEmulationEnabled", enabled=True, maxTouchPoints=5)
+        self.resize()
 
     @contextlib.contextmanager
     def tab_of(self, width, height, touch=False):
         """Have another tab of a size, which starts in far less time than another browser."""
         first = self.driver.current_window_handle
         self.driver.switch_to.new_window("tab")
-        self._emulate(width, height, touch)
+        self.resize(width, height, touch)
+        if touch:
+            self.send("Emulation.setTouchEmulationEnabled", enabled=True, maxTouchPoints=5)
         try:
             yield self
         finally:
@@ -87,18 +84,13 @@ class Chromium(WebDriver):
     def all(self, css):
         return self.driver.find_elements(By.CSS_SELECTOR, css)
 
-    def by_role(self, role, name):
-        """The button or tab of a name, as a screen reader finds it."""
-        wanted = "button" if role == "button" else f"[role={role}]"
-        found = [one for one in self.all(wanted) if one.accessible_name == name]
-        assert len(found) == 1, f"{len(found)} {role}s are named {name!r}"
-        return found[0]
-
-    def click(self, name):
-        self.by_role("button", name).click()
+    def click(self, name, css="button"):
+        """Click on the button of a name, as a screen reader has it."""
+        [found] = [one for one in self.all(css) if one.accessible_name == name]
+        found.click()
 
     def tab(self, name):
-        self.by_role("tab", name).click()
+        self.click(name, "[role=tab]")
 
     def errors(self):
         return [e["message"] for e in self.driver.get_log("browser") if e["level"] != "INFO"]
