@@ -12,7 +12,7 @@ from selenium.webdriver.webkitgtk.options import Options
 
 from tutorial_testing.cockpit.chromium import Chromium
 from tutorial_testing.cockpit.engines import Firefox, WebDriver
-from tutorial_testing.cockpit.world import HERE, World
+from tutorial_testing.cockpit.world import World
 from tutorial_testing.screen import virtual_screen
 
 
@@ -81,13 +81,6 @@ def page(world, shared_browser):
     errors = shared_browser.errors()
     shared_browser.driver.get("about:blank")  # it drives no more
     assert errors == []
-
-
-@pytest.fixture(scope="session")
-def room():
-    """A robot between walls, with a cockpit, for tests that only look or drive."""
-    with World(str(HERE / "world.launch"), "world:=room") as world:
-        yield world
 
 
 @pytest.fixture

@@ -1,5 +1,7 @@
 """The page's F710 gives the same axes and buttons as gamepad.virtual.controls."""
 
+import itertools
+
 import pytest
 
 from gamepad.gamepads import F710
@@ -25,9 +27,8 @@ def button(pressed):
     return {"pressed": bool(pressed), "value": float(pressed)}
 
 
-@pytest.mark.parametrize("mode", F710)
-def test_hands_on_glass_and_on_a_gamepad_of_the_kernel_give_the_same_message(page, mode):
-    for controls in CASES:
+def test_hands_on_glass_and_on_a_gamepad_of_the_kernel_give_the_same_message(page):
+    for mode, controls in itertools.product(F710, CASES):
         axes, buttons = positions(F710[mode], controls)
         glass = {
             "left": controls.left_stick, "right": controls.right_stick, "dpad": controls.dpad,
@@ -39,14 +40,6 @@ def test_hands_on_glass_and_on_a_gamepad_of_the_kernel_give_the_same_message(pag
             shown = call(page, "positions", mode, NAMES[mode], hands)
             assert shown["axes"] == pytest.approx(axes, abs=0.05)  # the dead zone is rescaled
             assert tuple(shown["buttons"]) == buttons
-
-
-def test_gamepad_of_the_standard_mapping_is_an_f710(page):
-    pressed = [number in (0, 4, 12) for number in range(17)]  # A, LB, and the D-pad up
-    pad = {"mapping": "standard", "axes": [-1, 1, 0.02, 0], "buttons": [button(b) for b in pressed]}
-    assert call(page, "handsOfGamepad", pad, NAMES) == {
-        "left": [1, -1], "right": [0, 0], "dpad": [0, 1], "triggers": [0, 0], "held": ["A", "LB"],
-    }  # fmt: skip
 
 
 def test_gamepad_that_is_held_when_it_is_plugged_in_moves_nothing(page):

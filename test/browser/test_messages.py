@@ -1,7 +1,5 @@
 """What the tabs make of rare messages: the test is their server."""
 
-from tutorial_testing.waiting import wait_for
-
 # A tab of its own beside that of the page. hear() is a message of the server; `sent` is what the
 # tab asks for.
 TAB = """const [given, done] = arguments, sent = [], handlers = {};
@@ -67,15 +65,6 @@ def test_log_keeps_1000_lines_on_a_change_of_tab_and_none_on_a_new_connection(pa
     assert run(page, "log_tab.js", script) == [900, 1000, 1000, 1000, 0]
 
 
-def test_log_shows_lines_of_levels_that_it_does_not_know(page):
-    script = """const tab = new tabs.LogTab(link, watch);
-    byId("log-level").value = "FATAL";
-    const line = (level) => ({time: 0, level, node: "/x", text: "a"});
-    hear("log", {entries: ["WARN", "3", "0"].map(line)});
-    done([...byId("log-lines").rows].map((one) => one.dataset.level));"""
-    assert run(page, "log_tab.js", script) == ["3", "0"]
-
-
 def test_a_driver_who_is_handed_a_robot_looks_at_no_other(page):
     script = """hello(given);
     const seat = {driver: 1, name: "x", robot: "robot_2", how: "page", armed: false, why: ""};
@@ -94,34 +83,3 @@ def test_a_driver_who_is_handed_a_robot_looks_at_no_other(page):
         ["robot_2"] * 3,
         "robot_1",
     ]
-
-
-def test_the_plot_forgets_samples_of_another_time(page):
-    script = """import('/page/chart.js').then(({Chart}) => {
-      Chart.prototype.show = ({a}) => a && done([...a.values]);
-      const tab = new tabs.PlotTab(link, watch);
-      hear("fields", {fields: ["a"]});
-      document.querySelector("#plot-fields input").click();
-      hear("plot", {samples: {a: [[100, 1], [101, 1], [50, 2]]}});
-      tab.show(true);
-    });"""
-    assert run(page, "plot_tab.js", script) == [2]
-
-
-PLOT = """const tab = new tabs.PlotTab(link, watch);
-hear("fields", {fields: ["a"]});
-document.querySelector("#plot-fields input").click();
-document.querySelector("[role=tab][aria-controls=plot]").click();
-tab.show(true);
-hear("plot", {samples: {a: [[0, 1], [1, 2], [2, 0]]}});
-setTimeout(() => done(true), 300);"""
-
-
-def test_plot_is_drawn_after_a_failed_import_of_the_library_of_charts(page):
-    page.driver.set_network_conditions(offline=True, latency=0, throughput=0)
-    page.tab("Plot")
-    run(page, "plot_tab.js", PLOT)
-    wait_for(page.errors, "failed import", 30)
-    page.driver.delete_network_conditions()
-    wait_for(lambda: page.all("#plot-chart canvas"), "chart", 60)
-    page.errors()  # attempts meanwhile may fail

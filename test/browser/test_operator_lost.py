@@ -68,6 +68,11 @@ def mouse(kind):
     return lambda it: it.browser.mouse(kind, "#teleop", button="right", shift=True)
 
 
+def close_list(it):
+    it.browser.mouse("mouseReleased", "#connection", "left")
+    it.browser.tab("Robot")
+
+
 def gamepad(**values):
     return lambda it: it.hands.set(**values)
 
@@ -122,6 +127,8 @@ WAYS = {
     ),
     # Its menu takes the keys, so that their release is not reported.
     "right button of the mouse": Way(mouse("mousePressed"), mouse("mouseReleased")),
+    # So does an open list, which a driver may open on any tab.
+    "a list": Way(lambda it: it.browser.mouse("mousePressed", "#mode", "left"), close_list),
     "gamepad unplugged": Way(gamepad(plugged=False), gamepad(plugged=True), Gamepad),
     "gamepad frozen": Way(freeze_gamepad, gamepad(frozen=False), Gamepad),
     "server killed with -9": Way(lambda it: it.world.cockpit.kill(), start_server),
@@ -163,9 +170,8 @@ def come_back(way, it):
 def lose_and_come_back(request, name, world, browser_of=Chromium):
     """As often as --trials says."""
     way, count = WAYS[name], 0
-    size = (360, 640) if way.hands.touch else (1280, 800)
     while count < request.config.getoption("--trials"):
-        with browser_of(*size, touch=way.hands.touch) as browser:
+        with browser_of() as browser:
             it = SimpleNamespace(browser=browser, hands=way.hands(browser), world=world)
             it.hands.prepare()
             browser.open(world.address)
@@ -178,8 +184,9 @@ def lose_and_come_back(request, name, world, browser_of=Chromium):
 
 @pytest.mark.parametrize("name", [name for name in WAYS if name != CUT])
 def test_the_robot_comes_to_rest_and_stays(world, name, request, shared_browser):
-    browser_of = shared_browser.tab_of if WAYS[name].back else Chromium
-    lose_and_come_back(request, name, world, browser_of)
+    size = (360, 640, True) if WAYS[name].hands.touch else (1280, 800)
+    tab = lambda: shared_browser.tab_of(*size)  # noqa: E731
+    lose_and_come_back(request, name, world, tab if WAYS[name].back else Chromium)
 
 
 def test_a_cut_network_and_its_return(request):

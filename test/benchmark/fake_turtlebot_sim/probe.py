@@ -63,7 +63,7 @@ def of_page(port, token):
         if not (seats and seats[-1]["yours"] and seats[-1]["armed"]):
             page.sit_down()  # at first, and where a busy machine has lost the operator
             page.hand = None
-        page.say_raw(json.dumps(page.input(*hand(number, held))))
+        page.say(**page.input(*hand(number, held)))
 
     return send
 

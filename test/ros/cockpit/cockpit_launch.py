@@ -26,10 +26,6 @@ class Launched(CockpitRig):
         wait_for(self.listens, "page of the cockpit")
 
 
-def cockpit(port, *options):
-    return Program(node_path("cockpit", "cockpit.py"), "--port", str(port), *options)
-
-
 class BrowserJoystick(RosTest):
     def setUp(self):
         self.rig = self.enter(Launched())
@@ -50,7 +46,8 @@ class BrowserJoystick(RosTest):
                  f"end[^\n]* or take --port {ours + 1}"),
                 (other, (), 1, f"port {other} is taken[^\n]*"),
             ):  # fmt: skip
-                with cockpit(port, *options, "__name:=another") as second:
+                command = node_path("cockpit", "cockpit.py"), "--port", str(port), *options
+                with Program(*command, "__name:=another") as second:
                     self.assertEqual(second.wait(), code)
                     self.assertRegex(second.output, f"^cockpit: {line}\n$")
 

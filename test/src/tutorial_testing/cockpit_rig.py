@@ -1,32 +1,24 @@
-"""The cockpit as a program, and the robot that it drives as seen by /odom and /joy."""
+"""The cockpit as a program, and the robot that it drives as seen by /odom."""
 
-import rospy
-from sensor_msgs.msg import Joy
-
-from cockpit_server.seat import is_neutral
 from tutorial_testing.nodes import node_path
 from tutorial_testing.ports import free_port
 from tutorial_testing.processes import Program
 from tutorial_testing.robot import Robot
 from tutorial_testing.rostests import RosTest
-from tutorial_testing.socket_page import DRIVE, REST, SocketPage
+from tutorial_testing.socket_page import DRIVE, SocketPage
 from tutorial_testing.waiting import wait_for
 
 
 class CockpitRig(Robot):
     """A context manager that ends all that it started. The robot and joy2twist run already."""
 
-    def __init__(self, *options, robot=""):
-        super().__init__(f"/{robot}/" if robot else "/")
+    def __init__(self, *options):
+        super().__init__("/")
         self.port = free_port()
         self._options = options
-        self.robot = robot
-        self.joys = []  # each message
 
     def begin(self):
         self.listen()
-        joy = rospy.Subscriber(f"{self.namespace}joy", Joy, self.joys.append, queue_size=1000)
-        self._stack.callback(joy.unregister)
         self._stack.callback(self._end)
         self.start()
 
@@ -46,7 +38,7 @@ class CockpitRig(Robot):
             raise AssertionError(f"the cockpit ended: {self.program.output}")
         try:
             with SocketPage(self.port, token=self.token("drive")) as page:
-                return not page.refusal and self.robot in page.wait_for("hello")["robots"]
+                return not page.refusal and "" in page.wait_for("hello")["robots"]
         except OSError:
             return False
 
@@ -64,21 +56,10 @@ class CockpitRig(Robot):
         """Sit down, release, hold LB and the stick until the robot moves."""
 
         def hold():
-            page.sit_down(self.robot)
+            page.sit_down()
             page.hand = DRIVE
 
         self.drive_by(hold)
-
-    def drives_only_once_released(self, page):
-        """Whether a held stick is not obeyed, and one that was released before is."""
-        page.hand = DRIVE
-        if not self.stays_at_rest():
-            return False
-        page.hand = REST
-        released = lambda joy: is_neutral(joy.axes, joy.buttons)  # noqa: E731
-        wait_for(lambda: self.joys and released(self.joys[-1]), "released joystick")
-        self.drive(page)
-        return True
 
 
 class WithCockpit(RosTest):

@@ -13,11 +13,10 @@ import time
 
 from tornado.websocket import WebSocketClosedError, websocket_connect
 
-from tutorial_testing.socket_page import request
+from tutorial_testing.socket_page import GOOD, request
 
-FIELDS = [f"/odom/pose/covariance[{i}]" for i in range(10)] + ["/odom/x", "/nothing/y"]
-WATCH = {"kind": "watch", "robots": True, "graph": True, "node": "/fake_turtlebot",
-         "fields": FIELDS, "field_list": True, "log": True, "bag": True}  # fmt: skip
+WATCH = {"kind": "watch", **GOOD["watch"], "graph": True, "node": "/fake_turtlebot",
+         "fields": [f"/odom/pose/covariance[{i}]" for i in range(10)], "bag": True}  # fmt: skip
 # What costs most, each as often as all others together.
 WORST = [
     {"kind": "bag_open", "name": "joy.bag"},
@@ -25,19 +24,7 @@ WORST = [
     {"kind": "doctor"},
     *({**WATCH, "topic": topic, "look": "x" * 200} for topic in ("/tf", "/no/such/topic")),
 ]
-OTHERS = [
-    {"kind": "drive", "robot": "", "mode": "D"},
-    {"kind": "stop"},
-    {"kind": "hand_over", "to": 7},
-    {"kind": "input", "n": 2**52, "t": 1e9, "beat": 1, "axes": [1.0] * 6,
-     "buttons": [1] * 12, "pad": None, "source": "pad"},
-    {"kind": "release", "why": "x" * 200},
-    {"kind": "reset", "robot": ""},
-    {"kind": "bag_play", "topic": "/joy", "rate": 10, "loop": True, "robot": ""},
-    {"kind": "bag_pause"},
-    {"kind": "bag_seek", "position": 0.5},
-    {**WATCH, "robots": False, "topic": "/joy", "look": None},
-]  # fmt: skip
+OTHERS = [{"kind": kind, **fields} for kind, fields in GOOD.items()]
 READERS = 5  # a sixth viewer reads nothing
 
 

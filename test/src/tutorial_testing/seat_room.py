@@ -82,14 +82,11 @@ class Topics:
     """In the place of Feeds: topics that are wanted, and whose messages a test makes up."""
 
     def __init__(self):
-        self._wants = {}
+        self.handlers, self.every = {}, set()  # by topic; of which every message is wanted
 
     def want(self, owner, handlers, every):
-        self._wants[owner] = handlers
-
-    @property
-    def handlers(self):
-        return {topic: hear for one in self._wants.values() for topic, hear in one.items()}
+        self.handlers.update(handlers)
+        self.every.update(handlers if every else ())
 
     def hear(self, topic, message):
         """message: of ROS, or bytes."""

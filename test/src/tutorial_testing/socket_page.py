@@ -15,6 +15,27 @@ from tutorial_testing.waiting import wait_for
 PERIOD_S = 0.05
 REST = ([0.0] * 6, [0] * 12)
 DRIVE = ([0.0, 1.0, 0.0, 0.0, 0.0, 0.0], [0, 0, 0, 0, 1] + [0] * 7)
+# A message of each kind as the schema allows it, without its kind.
+GOOD = {
+    "watch": {
+        "robots": True, "look": None, "graph": False, "topic": "/odom", "node": None,
+        "fields": ["/odom/pose/pose/position/x"], "field_list": False, "log": True, "bag": False,
+    },
+    "drive": {"robot": "", "mode": "D"},
+    "stop": {},
+    "hand_over": {"to": 3},
+    "input": {
+        "n": 1, "t": 12.5, "beat": 0, "axes": [0, 1, -1.0, 0, 0, 0], "buttons": [0] * 12,
+        "pad": None, "source": "keys",
+    },
+    "release": {"why": "hidden"},
+    "reset": {"robot": "robot_1"},
+    "bag_open": {"name": "joy.bag"},
+    "bag_play": {"topic": "/joy", "rate": 1, "loop": False, "robot": ""},
+    "bag_pause": {},
+    "bag_seek": {"position": 3.5},
+    "doctor": {},
+}  # fmt: skip
 
 
 def request(port, token=None, **headers):
@@ -34,10 +55,7 @@ class SocketPage(Started):
         self.messages = []  # all that came but beats
         self.refusal = None  # HTTP status, where the WebSocket was refused
         self.hand = None
-        self.sees_beats = True
-        self.delay_s = 0.0  # by which what is said is older
         self._beat, self._n = 0, 0
-        self._robots = {}
         self._socket = None
         self._loop = asyncio.new_event_loop()
         self._thread = threading.Thread(target=self._loop.run_forever, daemon=True)
@@ -68,13 +86,10 @@ class SocketPage(Started):
                 self.messages.append({"kind": "closed"})
                 return
             message = json.loads(text)
-            if message["kind"] == "robots":  # which has those that changed
-                before = {} if message["all"] else self._robots
-                self._robots = message["robots"] = {**before, **message["robots"]}
-            if message["kind"] != "beat":
-                self.messages.append(message)
-            elif self.sees_beats:
+            if message["kind"] == "beat":
                 self._beat = message["n"]
+            else:
+                self.messages.append(message)
 
     async def _send(self):
         while True:
@@ -83,29 +98,17 @@ class SocketPage(Started):
             await asyncio.sleep(PERIOD_S)
 
     def _write(self, fields):
-        self._write_text(json.dumps(fields))
-
-    def _write_text(self, text):
         with contextlib.suppress(WebSocketClosedError):
-            sent = self._socket.write_message(text)
+            sent = self._socket.write_message(json.dumps(fields))
             sent.add_done_callback(lambda done: done.exception())  # it may be closed meanwhile
 
     def input(self, axes, buttons):
         self._n += 1
-        return {
-            "kind": "input", "n": self._n, "t": 1000 * (time.monotonic() - self.delay_s),
-            "beat": self._beat, "axes": axes, "buttons": buttons,
-            "pad": None, "source": "keys",
-        }  # fmt: skip
+        return {"kind": "input", "n": self._n, "t": 1000 * time.monotonic(), "beat": self._beat,
+                "axes": axes, "buttons": buttons, "pad": None, "source": "keys"}  # fmt: skip
 
     def say(self, kind, **fields):
         self._loop.call_soon_threadsafe(self._write, {"kind": kind, **fields})
-
-    def say_raw(self, data):
-        self._loop.call_soon_threadsafe(self._write_text, data)
-
-    def watch(self, **fields):
-        self.say("watch", **fields)
 
     def close(self):
         if self._socket:
@@ -117,9 +120,9 @@ class SocketPage(Started):
     def wait_for(self, kind, fits=lambda message: True):
         return wait_for(lambda: next(filter(fits, self.of(kind)), None), f"message {kind}")
 
-    def sit_down(self, robot=""):
+    def sit_down(self):
         count = len(self.of("seat"))
-        self.say("drive", robot=robot, mode="D")
+        self.say("drive", robot="", mode="D")
         self.hand = REST
 
         def is_armed():
@@ -127,10 +130,7 @@ class SocketPage(Started):
             seats = self.of("seat")[count:]
             if seats and seats[-1]["driver"] is None:  # the page before this one has left only now
                 count += len(seats)
-                self.say("drive", robot=robot, mode="D")
+                self.say("drive", robot="", mode="D")
             return any(seat["yours"] and seat["armed"] for seat in seats)
 
-        try:
-            wait_for(is_armed, "seat that is armed")
-        except AssertionError as error:
-            raise AssertionError(f"{error}: {self.messages[-10:]}") from None
+        wait_for(is_armed, "seat that is armed")

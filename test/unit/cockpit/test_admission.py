@@ -3,7 +3,7 @@
 import pytest
 
 from cockpit_server.access import DRIVER, VIEWER
-from cockpit_server.admission import IDLE_S, connection_to_close, page_to_close
+from cockpit_server.admission import IDLE_S, page_to_close
 from cockpit_server.budget import Budget
 from cockpit_server.clients import LONGEST_FLOOD, Client
 from tutorial_testing.seat_room import page
@@ -11,14 +11,6 @@ from tutorial_testing.seat_room import page
 ADA, BOB, CY = "10.0.0.1", "10.0.0.2", "10.0.0.3"
 LONG = IDLE_S + 1
 RATE = 0.25  # s/s
-
-
-@pytest.mark.parametrize(
-    ("unused", "closed"),
-    [([], None), ([("a", ADA), ("b", BOB), ("c", BOB)], "b"), ([("a", ADA), ("b", ADA)], "a")],
-)
-def test_the_oldest_connection_of_the_fullest_address_is_closed(unused, closed):
-    assert connection_to_close(unused) == closed
 
 
 HERE = (DRIVER, ADA, LONG)

@@ -7,13 +7,6 @@ from tutorial_testing.seat_room import look, page
 from tutorial_testing.waiting import wait_for
 
 
-def test_line_of_the_doctor_has_level_subject_and_text():
-    line = {"level": "note", "subject": "joystick", "text": "no joystick"}
-    assert doctor.shown("unknown  joystick  no joystick\n") == line
-    summary = {"level": "note", "subject": "", "text": "doctor: 1 ok"}
-    assert doctor.shown("doctor: 1 ok\n") == summary
-
-
 def test_doctor_that_cannot_run_is_reported_and_runs_again_but_for_viewers_not_at_once(monkeypatch):
     runs = []
     monkeypatch.setattr(doctor.rospkg, "RosPack", lambda: runs.append(1) or [].pop())

@@ -59,8 +59,6 @@ READY = {  # -> why it stands and what to do now; how it is driven, without "Esc
         "Stopped: hidden. Release LB and the stick, then hold LB again.", BY_LB),
     "no button": (SEAT._replace(said=FREE),
         "Move the stick: this robot needs no button held.", FREELY),
-    "no button, was stopped": (SEAT._replace(said=FREE, armed=False, why="hidden"),
-        "Stopped: hidden. Release the stick, then move it again.", FREELY),
     "a button without a name": (SEAT._replace(said={"state": "armed", "deadman": "77"}),
         "Hold button 77, then move the stick.", BY_77),
     "plays": (SEAT._replace(how=BAG), "", ""),

@@ -1,22 +1,10 @@
 """Subscriptions to what is looked at."""
 
-import pytest
-
 from cockpit_server import feeds
 
 
-@pytest.fixture
-def waiting(monkeypatch):
-    """What waits for the master's thread."""
-    actions = []
-    monkeypatch.setattr(feeds, "later", actions.append)
-    return actions
-
-
-@pytest.fixture
-def subscribed(monkeypatch):
-    """What there are subscriptions for, as (topic, whether every message is wanted)."""
-    there = set()
+def test_refused_topic_does_not_hold_up_the_others_and_many_changes_are_one(monkeypatch):
+    waiting, subscribed = [], set()  # for the master's thread; (topic, if every message is wanted)
 
     class Subscriber:
         """In rospy's place, which refuses "" and topics that it does not know how to name."""
@@ -25,17 +13,14 @@ def subscribed(monkeypatch):
             if not topic.startswith("/"):
                 raise ValueError("no topic")
             self.key = topic, queue_size is None
-            there.add(self.key)
+            subscribed.add(self.key)
 
         def unregister(self):
-            there.remove(self.key)
+            subscribed.remove(self.key)
             raise OSError("the master")
 
+    monkeypatch.setattr(feeds, "later", waiting.append)
     monkeypatch.setattr(feeds.rospy, "Subscriber", Subscriber)
-    return there
-
-
-def test_refused_topic_does_not_hold_up_the_others_and_many_changes_are_one(waiting, subscribed):
     told = []
     all_feeds = feeds.Feeds(told.append)
     topics = ["", *(f"/t{i}" for i in range(20)), "x"]  # in a set, so that some come after ""

@@ -9,10 +9,10 @@ from std_msgs.msg import String
 from cockpit_server import graph_watch
 from cockpit_server.graph import JOY, ODOMETRY, Graph
 from cockpit_server.seat import RefusedError
-from cockpit_server.sources.graph_view import LONGEST_MESSAGE, GraphView, Topic
+from cockpit_server.sources.graph_view import LONGEST_MESSAGE, Topic
 from cockpit_server.sources.resets import reset_service
 from node_kit.questions import Answer
-from tutorial_testing.seat_room import page, serialised
+from tutorial_testing.seat_room import serialised
 
 GRAPH = Graph(
     publishers={"/odom": {"/sim"}, "/robot_1/odom": {"/room"}, "/robot_2/odom": {"/room"}},
@@ -23,21 +23,6 @@ GRAPH = Graph(
         "/real/joy": JOY,
     },
 )  # fmt: skip
-
-
-def test_node_has_its_topics_services_and_neighbours():
-    about = GRAPH.about_node("/sim")
-    assert about["speaks_to"] == ["/rviz"]
-    assert (about["publishes"], about["services"]) == (["/odom"], ["/sim/reset"])
-    assert {"from": "topic /odom", "to": "node /rviz"} in GRAPH.parts()["edges"]
-
-
-def test_page_that_looks_back_at_a_node_is_sent_it_again():
-    view = GraphView(SimpleNamespace(graph=GRAPH, version=1))
-    client, sent = page(graph=False)
-    for client.watch.node in ("/sim", "/sim", None, "/sim"):
-        view.give(client, 0.0)
-    assert [message["name"] for message in sent] == ["/sim", "/sim"]
 
 
 def test_reset_is_of_one_robot():

@@ -8,7 +8,6 @@ import pytest
 from cockpit_server import hub as hub_module
 from cockpit_server.access import DRIVER, VIEWER
 from cockpit_server.clients import LOOKS_ONLY, Source
-from cockpit_server.drives import NO_ROBOT
 from cockpit_server.graph import JOY, Graph
 from cockpit_server.hub import CONNECT_S, Hub
 from cockpit_server.seat import PAGE
@@ -192,9 +191,3 @@ def test_page_is_told_beforehand_what_drive_would_be_refused_for(
     assert said.startswith(refusal) and bool(said) == bool(refusal)
     hub.say(client, "drive", **{**ROBOT, "robot": robot})
     assert [one["why"] for one in sent if one["kind"] == "refused"] == [said] * bool(refusal)
-
-
-def test_refusal_without_a_robot_says_how_to_start_one():
-    hub = Made()
-    hub.graphs.graph = Graph()
-    assert hub.refusal(hub.opened()[0], "", 0.0) == NO_ROBOT

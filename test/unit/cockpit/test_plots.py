@@ -38,6 +38,7 @@ def test_sample_has_its_stamp_or_now_where_that_is_missing_or_of_another_clock(
     source = plots.Plots(topics, SimpleNamespace(graph=graph))
     [[fields]] = look(source, one)
     assert f"/x/{field}" in fields["fields"]
+    assert topics.every == {"/x"}
     topics.hear("/x", message)
     topics.hear("/x", b"short")
     assert look(source, one) == [[{"kind": "plot", "samples": {f"/x/{field}": [[t, 2.5]]}}]]

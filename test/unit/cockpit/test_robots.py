@@ -4,7 +4,6 @@ from math import inf, nan
 from types import SimpleNamespace
 
 import pytest
-from kobuki_msgs.msg import Led, Sound
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Joy
 
@@ -15,34 +14,17 @@ from cockpit_server.sources.robots import LONGEST_JOY, Pads, Robots, joy_shown, 
 from tutorial_testing.seat_room import Topics, look, page, serialised
 
 
-def graph(*robots, **types):
+def graph(*robots):
     """These robots with an odometry, and robot_9, which only receives a joystick."""
     return Graph(
         publishers={topic_of(robot, "odom"): {"/sim"} for robot in robots},
         subscribers={"/robot_9/joy": {"/joy2twist"}},
-        types={"/robot_9/joy": JOY, **{topic_of(r, "odom"): ODOMETRY for r in robots}, **types},
+        types={"/robot_9/joy": JOY, **{topic_of(robot, "odom"): ODOMETRY for robot in robots}},
     )
 
 
 def of(kind, sent):
     return next((message for message in sent if message["kind"] == kind), None)
-
-
-def test_pages_get_what_a_kobuki_was_last_asked_for():
-    here, there = "/ada/mobile_base/commands/led1", "/mobile_base/commands/sound"
-    kinds = {here: "kobuki_msgs/Led", there: "kobuki_msgs/Sound"}
-    topics, one = Topics(), page(robots=True)
-    robots = Robots(topics, SimpleNamespace(graph=graph("ada", "", **kinds)))
-    look(robots, one)
-    for topic in ("/ada/odom", "/odom"):
-        topics.hear(topic, Odometry())
-    for topic, message in ((here, Led(Led.ORANGE)), (there, Sound(6)), (here, Led(9))):
-        topics.hear(topic, message)
-    sent, nothing = look(robots, one, page())
-    assert nothing == []  # that page shows no robots
-    seen = of("robots", sent)["robots"]
-    assert (seen["ada"]["led1"], seen[""]["sound"]) == ("orange", "cleaningend")
-    assert "sound" not in seen["ada"] and "led1" not in seen[""]
 
 
 PLACE = {"x", "y", "yaw"}

@@ -8,29 +8,10 @@ import cockpit_server.node  # noqa: F401  which imports every source
 from cockpit_server.clients import Source
 from cockpit_server.hub import Hub
 from cockpit_server.schema import Schema, check_lengths
+from tutorial_testing.socket_page import GOOD
 
 SOURCES = [one for one in Source.__subclasses__() if one.__module__.startswith("cockpit_server.")]
 SCHEMA = Schema([Hub, *SOURCES])
-GOOD = {
-    "watch": {
-        "robots": True, "look": None, "graph": False, "topic": "/odom", "node": None,
-        "fields": ["/odom/pose/pose/position/x"], "field_list": False, "log": True, "bag": False,
-    },
-    "drive": {"robot": "", "mode": "D"},
-    "stop": {},
-    "hand_over": {"to": 3},
-    "input": {
-        "n": 1, "t": 12.5, "beat": 0, "axes": [0, 1, -1.0, 0, 0, 0], "buttons": [0] * 12,
-        "pad": None, "source": "keys",
-    },
-    "release": {"why": "hidden"},
-    "reset": {"robot": "robot_1"},
-    "bag_open": {"name": "joy.bag"},
-    "bag_play": {"topic": "/joy", "rate": 1, "loop": False, "robot": ""},
-    "bag_pause": {},
-    "bag_seek": {"position": 3.5},
-    "doctor": {},
-}  # fmt: skip
 
 
 def say(kind, **fields):

@@ -14,7 +14,6 @@ from tf2_msgs.msg import TFMessage
 from cockpit_server.graph import ODOMETRY, Graph
 from cockpit_server.sources.surroundings import (
     MOST_CELLS,
-    MOST_FRAMES,
     MOST_POINTS,
     Surroundings,
     map_shown,
@@ -100,23 +99,6 @@ def test_a_scan_is_sent_again_only_if_it_or_a_place_is_another():
     assert kinds(1.0, 2.0) == []
     assert kinds(1.0, 3.0) == ["scan"]
     assert kinds(2.0, 3.0) == ["around", "scan"]  # along a wall
-
-
-def test_frames_that_are_kept_are_bounded_and_the_newest():
-    seen = Seen()
-    seen.hear("/map", grid(1, 1, [0]))
-    names = ["link", *(f"link_{number}" for number in range(MOST_FRAMES)), "x" * 300, "ada/camera"]
-    mounts = [TransformStamped(child_frame_id=name) for name in names]
-    for mount in mounts:
-        mount.transform.translation.x = -0.1
-    seen.hear("/tf_static", TFMessage(mounts))
-    for distance, (frame, x) in enumerate(
-        {"ada/camera": -0.1, "link": 0.0, "x" * 300: 0.0}.items(), 2
-    ):
-        message = scan([distance], angle_min=0.0)
-        message.header.frame_id = frame
-        seen.hear("/ada/scan", message)
-        assert seen.look()["scan"]["points"] == [[distance + x, 0.0]], frame
 
 
 @pytest.mark.parametrize(

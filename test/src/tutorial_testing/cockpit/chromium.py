@@ -1,7 +1,6 @@
 """A Chromium that a test uses as a person does: looks, presses keys, touches glass."""
 
 import contextlib
-import json
 import shutil
 import signal
 import tempfile
@@ -22,42 +21,36 @@ ARGUMENTS = [
 ]  # fmt: skip
 # Key code -> name of the key and the number that Windows has for it.
 KEYS = {
-    "ShiftLeft": ("Shift", 16), "ShiftRight": ("Shift", 16), "MetaLeft": ("Meta", 91),
-    "ArrowUp": ("ArrowUp", 38), "ArrowLeft": ("ArrowLeft", 37),
-    "ArrowRight": ("ArrowRight", 39), "Tab": ("Tab", 9), "Enter": ("Enter", 13),
-    "Escape": ("Escape", 27),
+    "ShiftLeft": ("Shift", 16), "ArrowUp": ("ArrowUp", 38), "ArrowRight": ("ArrowRight", 39),
+    "Tab": ("Tab", 9), "Escape": ("Escape", 27),
 }  # fmt: skip
-META, SHIFT = 4, 8  # as the protocol has modifiers
+SHIFT = 8  # as the protocol has modifiers
 
 
 class Chromium(WebDriver):
     """One browser with one page. A context manager that leaves nothing behind."""
 
-    def __init__(self, width=1280, height=800, touch=False, notes_requests=False):
+    def __init__(self):
         self._folder = tempfile.mkdtemp()
-        self._shifts = set()  # that are held
+        self._modifiers = 0
         options = Options()
         options.binary_location = shutil.which("chromium")
-        for argument in (*ARGUMENTS, f"--window-size={width},{height}"):
+        for argument in (*ARGUMENTS, "--window-size=1280,800"):
             options.add_argument(argument)
         options.add_argument(f"--user-data-dir={self._folder}")
-        logs = {"browser": "ALL", **({"performance": "ALL"} if notes_requests else {})}
-        options.set_capability("goog:loggingPrefs", logs)
+        options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
         service = Service(shutil.which("chromedriver"))
         super().__init__(webdriver.Chrome(service=service, options=options))
-        self._emulate(width, height, touch)
-
-    def _emulate(self, width, height, touch):
-        self.resize(width, height, touch)
-        if touch:
-            self.send("Emulation.setTouchEmulationEnabled", enabled=True, maxTouchPoints=5)
+        self.resize()
 
     @contextlib.contextmanager
     def tab_of(self, width, height, touch=False):
         """Have another tab of a size, which starts in far less time than another browser."""
         first = self.driver.current_window_handle
         self.driver.switch_to.new_window("tab")
-        self._emulate(width, height, touch)
+        self.resize(width, height, touch)
+        if touch:
+            self.send("Emulation.setTouchEmulationEnabled", enabled=True, maxTouchPoints=5)
         try:
             yield self
         finally:
@@ -75,13 +68,13 @@ class Chromium(WebDriver):
         shutil.rmtree(self._folder, ignore_errors=True)
 
     def go(self, address):
-        self._shifts.clear()
+        self._modifiers = 0
         self.driver.get(address)
 
     def send(self, method, **parameters):
         return self.driver.execute_cdp_cmd(method, parameters)
 
-    def resize(self, width, height, touch=False):
+    def resize(self, width=1280, height=800, touch=False):
         metrics = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": touch}
         self.send("Emulation.setDeviceMetricsOverride", **metrics)
 
@@ -91,37 +84,24 @@ class Chromium(WebDriver):
     def all(self, css):
         return self.driver.find_elements(By.CSS_SELECTOR, css)
 
-    def by_role(self, role, name):
-        """The button or tab of a name, as a screen reader finds it."""
-        wanted = "button" if role == "button" else f"[role={role}]"
-        found = [one for one in self.all(wanted) if one.accessible_name == name]
-        assert len(found) == 1, f"{len(found)} {role}s are named {name!r}"
-        return found[0]
-
-    def click(self, name):
-        self.by_role("button", name).click()
+    def click(self, name, css="button"):
+        """Click on the button of a name, as a screen reader has it."""
+        [found] = [one for one in self.all(css) if one.accessible_name == name]
+        found.click()
 
     def tab(self, name):
-        self.by_role("tab", name).click()
+        self.click(name, "[role=tab]")
 
     def errors(self):
         return [e["message"] for e in self.driver.get_log("browser") if e["level"] != "INFO"]
-
-    def requests(self):
-        """The addresses of all requests and WebSockets since the last call: notes_requests."""
-        entries = [json.loads(e["message"])["message"] for e in self.driver.get_log("performance")]
-        sent = [e["params"] for e in entries if e["method"] == "Network.requestWillBeSent"]
-        sockets = [e["params"] for e in entries if e["method"] == "Network.webSocketCreated"]
-        return [one["request"]["url"] for one in sent] + [one["url"] for one in sockets]
 
     def key(self, kind, code, repeats=False):
         """kind: "rawKeyDown" or "keyUp". repeats: as a key does that is held."""
         name, number = KEYS[code]
         if name == "Shift":
-            (self._shifts.discard if kind == "keyUp" else self._shifts.add)(code)
-        held = (META if name == "Meta" else 0) | (SHIFT if self._shifts else 0)
-        self.send("Input.dispatchKeyEvent", type=kind, code=code, key=name, modifiers=held,
-                  windowsVirtualKeyCode=number, autoRepeat=repeats)  # fmt: skip
+            self._modifiers = 0 if kind == "keyUp" else SHIFT
+        self.send("Input.dispatchKeyEvent", type=kind, code=code, key=name, autoRepeat=repeats,
+                  windowsVirtualKeyCode=number, modifiers=self._modifiers)  # fmt: skip
 
     def mouse(self, kind, css, button="none", shift=False):
         """kind: "mouseMoved", "mousePressed" or "mouseReleased", in the middle of an element."""

@@ -47,12 +47,6 @@ class WebDriver(Browser):
     def go(self, address):
         self.driver.get(address)
 
-    def resize(self, width, height):
-        """Give the page a size [pixel]; the window is larger."""
-        self.driver.set_window_size(width, height)
-        rest = self.ask("[outerWidth - innerWidth, outerHeight - innerHeight]")
-        self.driver.set_window_size(width + rest[0], height + rest[1])
-
     def ask(self, expression):
         return self.driver.execute_script(f"return {expression}")
 

@@ -9,19 +9,19 @@ from tutorial_testing.processes import Program
 from tutorial_testing.robot import OBSERVER, Robot
 from tutorial_testing.waiting import wait_for
 
-HERE = Path(__file__).resolve().parent
+LAUNCH = str(Path(__file__).resolve().with_name("world.launch"))
 
 
 class World(Robot):
     """Everything but the browser. A context manager that leaves nothing behind.
 
-    launch: what to launch beside the cockpit. host: a two_hosts.network.Host on which all of it
-    runs, and its address, from which the page is then opened with a token; else this machine.
+    arguments: of world.launch. host: a two_hosts.network.Host on which all of it runs, and its
+    address, from which the page is then opened with a token; else this machine.
     """
 
-    def __init__(self, *launch, host=None, address="127.0.0.1"):
+    def __init__(self, *arguments, host=None, address="127.0.0.1"):
         super().__init__()
-        self._launch = launch or (str(HERE / "world.launch"),)
+        self._arguments = arguments
         self._host, self._address = host, address
         self._port = free_port()
         self.environment = {
@@ -30,7 +30,7 @@ class World(Robot):
         }  # fmt: skip
 
     def begin(self):
-        launched = self.run("roslaunch", *self._launch)
+        launched = self.run("roslaunch", LAUNCH, *self._arguments)
         wait_for(lambda: "core service" in launched.output, "master")
         self.observe(self._host.command(*OBSERVER) if self._host else OBSERVER, **self.environment)
         self.start_cockpit()
