@@ -43,10 +43,6 @@ class RunningTest(RosTest):
         for line in ("/NewJoy2Twist: Get from Joy [0.00, 0.50, -0.25]\n", "Stopping the node"):
             self.assertIn(line, self.node.output)
 
-    def test_ctrl_c_stops_the_robot(self):
-        self.node.interrupt()
-        self.check_stop()
-
     def test_rosnode_kill_stops_the_robot(self):
         kill = self.start("rosnode", "kill", "/NewJoy2Twist")
         wait_for(lambda: self.forward() or self.speeds[-1] == 0.0, "zero")

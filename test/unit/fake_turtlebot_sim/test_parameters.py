@@ -65,3 +65,9 @@ def test_the_yaml_file_holds_all_parameters_with_their_defaults():
     given = yaml.safe_load((PACKAGE / "config" / "fake_turtlebot.yaml").read_text())
     assert list(given) == list(asdict(Parameters()))
     assert parse_parameters(given) == Parameters()
+
+
+def test_rbx1s_robot_drives_on_without_limit_as_the_original():
+    given = yaml.safe_load((PACKAGE / "config" / "rbx1.yaml").read_text())
+    robot = parse_parameters(given)
+    assert robot.cmd_vel_timeout == robot.max_linear_speed == robot.max_angular_speed == 0

@@ -80,21 +80,6 @@ def test_a_stick_held_for_eight_seconds_is_stopped_unless_it_trembles(step):
     assert ("has not changed for 3 s" in machine.summary(8.0)[1]) is (step == 0)
 
 
-def test_a_suspension_stops_once_and_is_reported():
-    machine, warnings = teleoperation()
-    assert machine.joy(*HELD, 0.1)[0] == 1.0
-    stops = [machine.suspended(number, 0.12) for number in (0, 1, 1)]
-    assert stops == [None, (0,) * 6, None]
-    assert len(warnings) == 1 and "suspended" in warnings[0]
-
-
-def test_a_joystick_that_sends_changes_only_is_still_too():
-    machine, _ = teleoperation(arm_on_neutral=True, enable_button=0, vigilance_timeout=3.0)
-    machine.joy(*RELEASED, 0.0)
-    machine.joy(*HELD, 1.0)
-    assert over_time(machine.safety, 1.0, 10.0)[0] == (4.0, (0,) * 6)
-
-
 def test_a_robot_that_stands_may_do_so_without_end():
     machine, warnings = teleoperation(arm_on_neutral=True, enable_button=0, vigilance_timeout=3.0)
     machine.joy(*RELEASED, 0.0)

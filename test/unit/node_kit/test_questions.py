@@ -20,7 +20,7 @@ def serve():
         servers.append(server)
         for name, method in methods.items():
             server.register_function(method, name)
-        threading.Thread(target=server.serve_forever, daemon=True).start()
+        threading.Thread(target=server.serve_forever, args=(0.01,), daemon=True).start()
         return f"http://127.0.0.1:{server.server_address[1]}"
 
     yield start
