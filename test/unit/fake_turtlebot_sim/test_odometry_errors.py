@@ -61,9 +61,9 @@ def test_umbmark(way, ratio, track):
         assert hypot(*truth[:2]) > 0.05
 
 
-def noisy_drive(seed, rate_hz=10, noise=0.01):
+def noisy_drive(seed, rate_hz):
     """Drive an S of 6 s and return (robot at its end, odometry minus truth)."""
-    robot = SimulatedRobot(Parameters(wheel_noise=noise, seed=seed))
+    robot = SimulatedRobot(Parameters(wheel_noise=0.01, seed=seed))
     for k in range(6 * rate_hz):
         robot.command((0.5, 1.0 if k < 3 * rate_hz else -1.0), k * SECOND // rate_hz)
     robot.advance(6 * SECOND)
@@ -71,7 +71,7 @@ def noisy_drive(seed, rate_hz=10, noise=0.01):
     return robot, np.subtract(odometry[:3], truth[:3])
 
 
-@pytest.mark.parametrize("rate_hz", [10, 50])
+@pytest.mark.parametrize("rate_hz", [4, 20])
 def test_the_covariance_is_that_of_the_errors_whatever_the_rate(rate_hz):
     drives = [noisy_drive(seed, rate_hz) for seed in range(300)]
     sampled = np.cov(np.array([error for _, error in drives]).T)
