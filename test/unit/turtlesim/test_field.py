@@ -16,12 +16,6 @@ def field():
     return made
 
 
-def test_the_start_is_the_middle(field):
-    ((name, pose, color, outside),) = field.step(0.016)
-    assert (name, color, outside) == ("turtle1", BLUE, None)
-    assert pose == pytest.approx((FIELD_M / 2, FIELD_M / 2, 0, 0, 0), abs=1e-6)
-
-
 def test_names_are_chosen_or_given_once(field):
     assert field.spawn("turtle2", 1.0, 1.0, 0.0, 0.0) == "turtle2"
     assert field.spawn("", 1.0, 1.0, 0.0, 0.0) == "turtle3"
