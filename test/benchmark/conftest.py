@@ -10,11 +10,6 @@ _rows = defaultdict(list)  # package -> rows
 _load = os.getloadavg()[0]  # when the run begins: other work on the machine spoils the figures
 
 
-def pytest_addoption(parser):
-    """How long a benchmark looks for what grows; an hour shows what two minutes do not."""
-    parser.addoption("--hours", type=float, default=0.035)
-
-
 @pytest.fixture
 def figure(request):
     """Take (what, measured, demanded) for the table of the package that is measured."""

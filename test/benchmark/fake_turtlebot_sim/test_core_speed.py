@@ -3,7 +3,6 @@
 import numpy as np
 
 from fake_turtlebot_sim.replay.bag_replay import replay
-from fake_turtlebot_sim.simulator.differential_drive import arc
 from fake_turtlebot_sim.simulator.parameters import Parameters
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
 
@@ -16,18 +15,6 @@ def check(benchmark, figure, what, simulated_s, least):
     speed = simulated_s / benchmark.stats.stats.min
     figure(what, f"{speed:,.0f} times real time", f"≥ {least:,}")
     assert speed >= least
-
-
-def test_arc(benchmark, figure):
-    steps = 10_000
-
-    def drive():
-        pose, velocity = (0.0, 0.0, 0.0), (0.7, 1.0)
-        for _ in range(steps):
-            pose = arc(pose, velocity, PERIOD_S)
-
-    benchmark(drive)
-    check(benchmark, figure, "exact arc", steps * PERIOD_S, 50_000)
 
 
 def test_simulated_robot(benchmark, figure):

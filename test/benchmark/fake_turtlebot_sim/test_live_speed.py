@@ -59,14 +59,6 @@ def test_processor_time_beside_a_bare_node(figure):
     assert ratio <= 1.15
 
 
-def test_thirty_robots_with_every_topic_on_one_core(figure):
-    robots = ["taskset", "-c", "0", *FAKE_TURTLEBOT, "_robots:=30"]
-    heard, (load,) = observe([robots], topics_of(30, "odom", "joint_states"), 20)
-    lost = lost_periods(heard)
-    figure("30 robots, every topic subscribed, one core", f"{load:.0%}, {lost} periods lost", "0")
-    assert lost == 0
-
-
 def test_growth_with_the_number_of_robots(figure):
     loads = {}
     for count in (10, 100):

@@ -24,23 +24,21 @@ KOBUKI = {  # below /mobile_base: the type in kobuki_msgs
     "commands/led1": "Led", "commands/led2": "Led", "commands/motor_power": "MotorPower",
     "commands/sound": "Sound",
 }  # fmt: skip
-# Topic: (type, node that publishes it, node that subscribes to it).
+# Topic: (type, node that publishes or subscribes to it).
 TOPICS = {
-    f"{MUX}/active": ("std_msgs/String", MUX, None),
-    f"{BASE}/commands/velocity": ("geometry_msgs/Twist", MUX, BASE),
-    f"{BASE}/commands/reset_odometry": ("std_msgs/Empty", None, BASE),
-    f"{BASE}/sensors/imu_data": ("sensor_msgs/Imu", BASE, None),
-    f"{BASE}/sensors/imu_data_raw": ("sensor_msgs/Imu", BASE, None),
-    "/odom": ("nav_msgs/Odometry", BASE, None),
-    "/joint_states": ("sensor_msgs/JointState", BASE, None),
-    "/tf": ("tf2_msgs/TFMessage", BASE, None),
+    f"{MUX}/active": ("std_msgs/String", MUX),
+    f"{BASE}/commands/reset_odometry": ("std_msgs/Empty", BASE),
+    f"{BASE}/sensors/imu_data": ("sensor_msgs/Imu", BASE),
+    f"{BASE}/sensors/imu_data_raw": ("sensor_msgs/Imu", BASE),
+    "/odom": ("nav_msgs/Odometry", BASE),
+    "/joint_states": ("sensor_msgs/JointState", BASE),
+    "/tf": ("tf2_msgs/TFMessage", BASE),
+    **{f"{BASE}/{name}": (f"kobuki_msgs/{kind}", BASE) for name, kind in KOBUKI.items()},
+    **{
+        f"{MUX}/input/{name}": ("geometry_msgs/Twist", MUX)
+        for name in ("safety_controller", "teleop", "switch", "navi")
+    },
 }
-for name in ("safety_controller", "teleop", "switch", "navi"):
-    TOPICS[f"{MUX}/input/{name}"] = ("geometry_msgs/Twist", None, MUX)
-for name, kind in KOBUKI.items():
-    ends = (None, BASE) if name.startswith("commands") else (BASE, None)
-    TOPICS[f"{BASE}/{name}"] = (f"kobuki_msgs/{kind}", *ends)
-
 TURN = Twist(Vector3(0.2, 0.0, 0.0), Vector3(0.0, 0.0, 0.5))
 
 
@@ -56,14 +54,12 @@ class MinimalTest(RosTest):
         master = rosgraph.Master(rospy.get_name())
 
         def missing():
-            publishers, subscribers, _ = map(dict, master.getSystemState())
-            kinds = dict(master.getTopicTypes())
+            state, kinds = [*map(dict, master.getSystemState())], dict(master.getTopicTypes())
             return [
                 topic
-                for topic, (kind, publisher, subscriber) in TOPICS.items()
+                for topic, (kind, node) in TOPICS.items()
                 if kinds.get(topic) != kind
-                or publisher not in [None, *publishers.get(topic, [])]
-                or subscriber not in [None, *subscribers.get(topic, [])]
+                or node not in state["/commands/" in topic or "/input/" in topic].get(topic, [])
             ]
 
         wait_for(lambda: not missing(), "topics of a TurtleBot 2")

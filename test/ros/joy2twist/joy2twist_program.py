@@ -18,50 +18,26 @@ FORWARD = "{axes: [0.0, 0.5]}"
 JOY2TWIST = node_path("joy2twist", "joy2twist.py")
 
 
-class RunningTest(RosTest):
-    """The node runs; this process is its joystick and its robot."""
-
-    def setUp(self):
-        self.speeds = []
-        self.joystick = self.publisher("joy", Joy)
-        self.robot = self.hear("cmd_vel", Twist, lambda t: self.speeds.append(t.linear.x))
-        self.node = self.start(JOY2TWIST)
-        wait_for(lambda: self.forward() or self.speeds, "velocity")
-
-    def forward(self):
-        self.joystick.publish(Joy(axes=[0.0, 0.5, -0.25]))
-
-    def check_stop(self):
-        """The stick stays forward, but the last velocity is zero, and the end comes in time."""
-        watch = Stopwatch()
-        wait_for(lambda: self.forward() or self.node.ended, "end")
-        self.assertLess(watch.took_s, LONGEST_EXIT_S)
-        self.check_end(self.node)
-        wait_for(lambda: self.robot.get_num_connections() == 0, "end of the connection")
-        self.assertEqual(self.speeds[-1], 0.0)
-        self.assertEqual(set(self.speeds[:-1]), {0.5})
-        for line in ("/NewJoy2Twist: Get from Joy [0.00, 0.50, -0.25]\n", "Stopping the node"):
-            self.assertIn(line, self.node.output)
-
-    def test_ctrl_c_stops_the_robot(self):
-        self.node.interrupt()
-        self.check_stop()
-
-    def test_rosnode_kill_stops_the_robot(self):
+class ProgramTest(RosTest):
+    def test_rosnode_kill_stops_the_robot_in_time(self):
+        """The stick stays forward, but the last velocity is zero."""
+        joystick, speeds = self.publisher("joy", Joy), []
+        robot = self.hear("cmd_vel", Twist, lambda twist: speeds.append(twist.linear.x))
+        node = self.start(JOY2TWIST)
+        forward = lambda: joystick.publish(Joy(axes=[0.0, 0.5, -0.25]))  # noqa: E731
+        wait_for(lambda: forward() or speeds, "velocity")
         kill = self.start("rosnode", "kill", "/NewJoy2Twist")
-        wait_for(lambda: self.forward() or self.speeds[-1] == 0.0, "zero")
-        self.check_stop()
+        wait_for(lambda: forward() or speeds[-1] == 0.0, "zero")
+        watch = Stopwatch()
+        wait_for(lambda: forward() or node.ended, "end")
+        self.assertLess(watch.took_s, LONGEST_EXIT_S)
+        self.check_end(node)
+        wait_for(lambda: robot.get_num_connections() == 0, "end of the connection")
+        self.assertEqual((speeds[-1], {*speeds[:-1]}), (0.0, {0.5}))
+        for line in ("/NewJoy2Twist: Get from Joy [0.00, 0.50, -0.25]\n", "Stopping the node"):
+            self.assertIn(line, node.output)
         kill.wait()
 
-    def test_a_newer_node_of_the_same_name_takes_over(self):
-        self.start(JOY2TWIST)
-        wait_for(lambda: self.forward() or 0.0 in self.speeds, "zero of the older node")
-        zeros = len(self.speeds)
-        self.check_end(self.node, deadline_s=LONGEST_EXIT_S)
-        wait_for(lambda: self.forward() or 0.5 in self.speeds[zeros:], "newer node")
-
-
-class StartTest(RosTest):
     def test_under_simulated_time_that_stands_still_silence_stops_the_robot(self):
         rospy.set_param("/use_sim_time", True)
         self.addCleanup(rospy.delete_param, "/use_sim_time")

@@ -3,14 +3,12 @@
 
 import os
 
-import rosbag
 import rosgraph
 import rosnode
 import rospkg
-import rospy
 from geometry_msgs.msg import Twist
-from sensor_msgs.msg import Joy
 
+from tutorial_testing.hands import record
 from tutorial_testing.nodes import node_path
 from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import wait_for
@@ -29,12 +27,7 @@ PACKAGE = """
 class WorkstationTest(RosTest):
     def test_a_recording_drives_once_and_ends_the_launch(self):
         speeds = self.record(TELEOP, Twist)
-        path = str(self.folder() / "short.bag")
-        with rosbag.Bag(path, "w") as bag:
-            for k in range(300):  # at rest until all are connected: who comes later is held
-                held = int(200 <= k < 280)
-                joy = Joy(axes=[0.0, held, 0.0, 0.0, 0.0, 0.0], buttons=[0] * 4 + [held] + [0] * 7)
-                bag.write("/joy", joy, rospy.Time(1 + k / 50))
+        path = record(str(self.folder() / "short.bag"))
         launch = self.start("roslaunch", "joy2twist", FILE, f"bag:={path}", "rviz:=false")
         wait_for(lambda: speeds and speeds[-1].linear.x, "velocities")
         self.assertIn("/myjoystick2twist", rosnode.get_node_names())

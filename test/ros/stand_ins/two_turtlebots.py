@@ -10,7 +10,8 @@ from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import wait_for
 
 FORWARDS = Twist(linear=Vector3(0.3, 0.0, 0.0))
-LINKS = {"odom": "base_footprint", "base_link": "wheel_left_link"}
+STATIC = {"base_footprint": "base_link", "base_link": "gyro_link"}
+DRIVEN = {"odom": "base_footprint", "base_link": "wheel_left_link"}
 
 
 class TwoTurtlebotsTest(RosTest):
@@ -31,14 +32,17 @@ class TwoTurtlebotsTest(RosTest):
             self.assertFalse(any(moment.moves for moment in other.odometry[before:]))
 
     def test_frames_and_the_scan_of_3dsensor_have_the_prefix_of_their_group(self):
-        transforms, scans = self.record("/tf", TFMessage), self.record("/tb2/laser", LaserScan)
+        both = [self.record(name, TFMessage) for name in ("/tf", "/tf_static")]
+        scans = self.record("/tb2/laser", LaserScan)
 
         def links():
-            found = [one for message in list(transforms) for one in message.transforms]
+            found = [one for of in both for message in list(of) for one in message.transforms]
             return {(one.header.frame_id, one.child_frame_id) for one in found}
 
         wanted = {
-            (f"{p}{parent}", p + child) for p in ("", "tb2/") for parent, child in LINKS.items()
+            (prefix + parent, prefix + child)
+            for prefix, of in (("", DRIVEN), ("tb2/", DRIVEN), ("tb2/", STATIC), ("bob/", STATIC))
+            for parent, child in of.items()
         }
         wait_for(lambda: links() >= wanted and scans, "transforms of both, and scans")
         self.assertEqual(scans[0].header.frame_id, "tb2/camera_depth_frame")

@@ -3,6 +3,10 @@
 import threading
 import time
 
+import rosbag
+import rospy
+from sensor_msgs.msg import Joy
+
 from gamepad.gamepads import F710_D
 from gamepad.virtual.controls import Controls, positions
 from gamepad.virtual.pads import StreamPad
@@ -17,6 +21,16 @@ SHOWN = {  # turn and forward of the left stick, buttons that are held
 }
 PERIOD_S = 0.05  # how often they move
 NUDGE = 0.1  # the stick never rests, so that stillness never stops the robot
+
+
+def record(path):
+    """Write a bag of 6 s in which they hold LB and the stick for 1.6 s, at full deflection."""
+    with rosbag.Bag(path, "w") as bag:
+        for k in range(300):  # at rest until all are connected: who comes later is held
+            held = int(200 <= k < 280)
+            joy = Joy(axes=[0.0, held, 0.0, 0.0, 0.0, 0.0], buttons=[0] * 4 + [held] + [0] * 7)
+            bag.write("/joy", joy, rospy.Time(1 + k / 50))
+    return path
 
 
 class Hands:

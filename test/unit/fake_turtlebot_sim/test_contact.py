@@ -1,12 +1,12 @@
 """Where and when a round robot touches walls, posts and other robots."""
 
-from math import acos, asin, cos, inf, pi, sqrt
+from math import cos, pi
 
 import pytest
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
-from fake_turtlebot_sim.simulator.contact import Piece, drive_among, first_contact, gap
+from fake_turtlebot_sim.simulator.contact import Piece, drive_among, gap
 from fake_turtlebot_sim.simulator.differential_drive import drive
 
 R = 0.178
@@ -18,29 +18,6 @@ def post(x, y, radius):
     return x, y, x, y, radius
 
 
-# Pose, velocity, obstacle, and when they touch [s], worked out by hand.
-CASES = {
-    "a wall met straight": ((0, 0, 0), (0.5, 0), WALL, (1 - R) / 0.5),
-    # x = 0.5 / 0.4 sin(0.4 t) = 1 - R
-    "on an arc": ((0, 0, 0), (0.5, 0.4), WALL, asin((1 - R) * 0.4 / 0.5) / 0.4),
-    # The circle around (0, 2) of radius 2 comes no nearer to x = 3 than 1.
-    "past a wall": ((0, 0, 0), (2, 1), (3.0, -5.0, 3.0, 5.0, 0.0), inf),
-    # y = 2 (1 - cos t) = 3 - R, on the way around that circle.
-    "a wall across": ((0, 0, 0), (2, 1), (-9.0, 3.0, 9.0, 3.0, 0.0), acos(1 - (3 - R) / 2)),
-    "a corner by its end": ((0, 0, 0), (1, 0), (1.0, 0.1, 1.0, 3.0, 0.0), 1 - sqrt(R**2 - 0.1**2)),
-    # On the circle around (0, 1), a chord of R + 0.1 before (1, 1).
-    "a post on an arc": ((0, 0, 0), (1, 1), post(1.0, 1.0, 0.1), pi / 2 - 2 * asin((R + 0.1) / 2)),
-    "nothing": ((0, 0, 0), (1, 0), (5.0, 1.0, 5.0, 2.0, 0.0), inf),
-}
-
-
-@pytest.mark.parametrize("name", CASES)
-def test_the_time_of_contact_is_the_closed_forms(name):
-    pose, velocity, obstacle, after_s = CASES[name]
-    met = first_contact(pose, Piece(velocity, velocity, 60.0), R, [obstacle])
-    assert (met[0] if met else inf) == pytest.approx(after_s, abs=EXACT)
-
-
 places = st.floats(-2, 2)
 walls = st.tuples(places, places, places, places, st.just(0.0))
 posts = st.builds(post, places, places, st.floats(0.0, 0.4))
@@ -50,7 +27,7 @@ velocities = st.tuples(
 )
 
 
-@settings(max_examples=500, deadline=None)
+@settings(max_examples=100, deadline=None)
 @example(  # a circle of 0.1 um beside the end of a wall, whose gap is a rounding
     [post(0.0, 0.0, 0.0), (0.0, 0.0, 0.0, -1.0, 0.0)], (-1.0, 0.0, 0.0),
     [((1.0, 0.0), (1.0, 0.0), 1.0), ((-1.4901161193847696e-07, pi),) * 2 + (2.0,)],
@@ -72,8 +49,8 @@ def test_a_robot_is_never_inside_and_stops_only_where_it_touches(obstacles, pose
     for velocity, end_velocity, dt in commands:
         pieces, contact = drive_among(pose, Piece(velocity, end_velocity, dt), R, obstacles)
         for piece in pieces:
-            for part in range(1, 20):
-                before = piece.until(piece.dt * part / 20)
+            for part in range(1, 10):
+                before = piece.until(piece.dt * part / 10)
                 x, y, _ = drive(pose, *before[:2], before.dt)
                 assert clear(x, y) > -EXACT
             pose = drive(pose, *piece[:2], piece.dt)

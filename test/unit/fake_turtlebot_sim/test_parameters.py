@@ -24,32 +24,20 @@ def test_nothing_given_is_a_turtlebot_2():
     [
         ({"rate": 4.9}, ["~rate: 4.9", "must be a number from 5 to 1000 Hz"]),
         ({"odom_frame": "/odom"}, ["~odom_frame: '/odom'", "leading slash"]),
-        ({"base_frame": ""}, ["~base_frame: ''", "name"]),
         ({"base_frame": "odom"}, ["~base_frame: 'odom'", "differ from ~odom_frame"]),
         ({"left_wheel_joint": "a", "right_wheel_joint": "a"}, ["~right_wheel_joint: 'a'"]),
-        ({"cmd_vel_timeuot": 1.0}, ["did you mean ~cmd_vel_timeout?"]),
         ({"world": 3}, ["~world: 3: must be a file"]),
         ({"world": "moon"}, ["~world: 'moon': no world of this package", "take maze, "]),
-        ({"world": "./none.yaml"}, ["'./none.yaml': cannot be read: No such file"]),
         ({"world": "maze", "robots": 500}, ["~world: 'maze': the world has room for"]),
-        (
-            {"world": "maze", "robots": {"ada": [1.0, 1.0, 0.0]}},
-            ["start: in the world's file or x:= y:="],
-        ),
+        ({"world": "maze", "robots": {"ada": [1, 1, 0]}}, ["start: in the world's file or x:="]),
         ({"scan_no_return": "0"}, ["~scan_no_return: '0': must be inf or nan"]),
         ({"scan_range_min": 11.0}, ["~scan_range_min: must be less than ~scan_range_max"]),
         ({"robots": 0}, ["~robots: 0", "1 to 1000", "[ada, bob]", "{ada: [0, 0, 0]"]),
         ({"robots": ["ada"] * 1001}, ["~robots: ['ada'", "1 to 1000"]),
-        (
-            {"robots": ["ada", "bob", "ada"]},
-            ["~robots: [", "'ada': is listed twice"],
-        ),
+        ({"robots": ["ada", "bob", "ada"]}, ["~robots: [", "'ada': is listed twice"]),
         ({"robots": {"ada": [1e7, 0, 0]}}, ["~robots: {", "ada: [10000000.0", "up to 1e6"]),
         ({"robots": {"2nd": [0, 0, 0]}}, ["~robots: {", "'2nd'", "letter"]),
-        (
-            {"robots": {"bob": [0, 0]}},
-            ["~robots: {", "bob: [0, 0]: must be [x in m, y in m, yaw in rad]"],
-        ),
+        ({"robots": {"bob": [0, 0]}}, ["bob: [0, 0]: must be [x in m, y in m, yaw in rad]"]),
     ],
 )
 def test_a_mistake_is_named_with_its_value_and_what_is_allowed(given, parts):
@@ -66,10 +54,7 @@ def test_robots_by_name_and_by_number():
     numbered = parse_parameters({"robots": 30}).start_poses()
     assert list(numbered) == [f"robot_{k}" for k in range(1, 31)]
     listed = parse_parameters({"robots": ["ada", "bob"]}).start_poses()
-    assert list(listed) == ["ada", "bob"]
-    assert list(listed.values()) == list(numbered.values())[:2]
-    assert parse_parameters({"robots": ["ada"]}).start_poses() == {"ada": (0.0, 0.0, 0.0)}
-    assert list(parse_parameters({"robots": 2.0}).start_poses()) == ["robot_1", "robot_2"]
+    assert listed == {"ada": numbered["robot_1"], "bob": numbered["robot_2"]}
 
 
 def test_robots_are_lined_up_a_metre_apart_ten_in_a_row():
@@ -80,3 +65,9 @@ def test_the_yaml_file_holds_all_parameters_with_their_defaults():
     given = yaml.safe_load((PACKAGE / "config" / "fake_turtlebot.yaml").read_text())
     assert list(given) == list(asdict(Parameters()))
     assert parse_parameters(given) == Parameters()
+
+
+def test_rbx1s_robot_drives_on_without_limit_as_the_original():
+    given = yaml.safe_load((PACKAGE / "config" / "rbx1.yaml").read_text())
+    robot = parse_parameters(given)
+    assert robot.cmd_vel_timeout == robot.max_linear_speed == robot.max_angular_speed == 0

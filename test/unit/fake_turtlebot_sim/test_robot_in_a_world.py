@@ -12,7 +12,6 @@ from fake_turtlebot_sim.simulator.ros_messages import between_frames
 from fake_turtlebot_sim.simulator.sensors import bumpers
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot, meet
 from fake_turtlebot_sim.simulator.world import World
-from fake_turtlebot_sim.simulator.world_files import read_world, shipped_worlds
 from fake_turtlebot_sim.simulator.world_messages import world_map
 
 R = 0.178
@@ -187,10 +186,3 @@ def test_robots_are_lined_up_where_they_can_drive_to():
     assert min(apart) == pytest.approx(0.5)
     with pytest.raises(ValueError, match=r"room for .. robots"):
         inside.places(1000)
-
-
-@pytest.mark.parametrize("name", ["room", "maze", "table"])
-def test_each_world_of_the_package_has_room_for_a_class(name):
-    world = read_world(shipped_worlds()[name])
-    assert len(world.places(10)) == 10
-    assert world.obstacles and any(world_map(world, "map", None).data)

@@ -41,6 +41,10 @@ def test_one_stamp_the_right_frames_the_executed_twist_and_the_wheels():
     assert odometry.header.stamp == transform.header.stamp == joints.header.stamp == STAMP
     assert odometry.header.frame_id == transform.header.frame_id == "ada/odom"
     assert odometry.child_frame_id == transform.child_frame_id == "ada/base_footprint"
+    place, moved = odometry.pose.pose, transform.transform
+    assert (place.position.x, place.position.y) == (moved.translation.x, moved.translation.y)
+    assert 2 * np.arctan2(moved.rotation.z, moved.rotation.w) == pytest.approx(0.5, abs=1e-12)
+    assert (place.position.x, place.position.y, place.orientation) == (1.0, 2.0, moved.rotation)
     assert (odometry.twist.twist.linear.x, odometry.twist.twist.angular.z) == (0.3, -0.4)
     assert joints.name == ["left", "right"]
     assert joints.velocity == pytest.approx((0.346 / 0.035, 0.254 / 0.035))
@@ -62,18 +66,6 @@ def test_with_noise_the_covariance_takes_their_place_and_the_truth_is_told():
     assert truth.header.stamp == STAMP
     assert truth.pose.pose.position.x == robot.true_state().x != robot.state().x
     assert not any(truth.pose.covariance)
-
-
-@given(x=st.floats(-1e3, 1e3), y=st.floats(-1e3, 1e3), yaw=st.floats(-3.14, pi))
-def test_the_transform_is_the_odometry_to_the_last_bit(x, y, yaw):
-    messages, _ = told(Parameters(), pose=(x, y, yaw))
-    pose, transform = messages.odometry.pose.pose, messages.transform.transform
-    assert (pose.position.x, pose.position.y, pose.position.z) == (x, y, 0.0)
-    assert (transform.translation.x, transform.translation.y, transform.translation.z) == (x, y, 0)
-    assert transform.rotation == pose.orientation
-    q = pose.orientation
-    assert q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w == pytest.approx(1, abs=1e-12)
-    assert 2 * np.arctan2(q.z, q.w) == pytest.approx(yaw, abs=1e-12)
 
 
 @given(yaw=st.floats(-3.14, 3.14), length=st.floats(0.01, 100))

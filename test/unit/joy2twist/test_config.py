@@ -46,3 +46,8 @@ def test_preset(name):
     # Beyond any stick: no faster than the fastest of the preset.
     assert joy([dead_man], -465.0) == pytest.approx((-0.7, 0, 0, 0, 0, -2.0))
     assert warnings == []  # the number of axes is as expected
+
+
+def test_a_step_is_read_at_a_glance():
+    for step in CONFIG.with_name("scripts").glob("steps/*.py"):
+        assert step.read_text().count("\n") <= 45, step

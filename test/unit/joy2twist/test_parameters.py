@@ -1,12 +1,8 @@
 """Names, defaults and checks of the private parameters."""
 
-import re
-
 import pytest
-import yaml
 
-from joy_to_twist.parameters import Axis, Parameters, load
-from node_kit.parameters import declared
+from joy_to_twist.parameters import Axis, load
 
 LINEAR_X, LINEAR_Y, LINEAR_Z, ROLL, PITCH, YAW = range(6)
 
@@ -86,21 +82,3 @@ def test_an_error_names_parameter_value_and_what_is_allowed(name, values, words,
         with pytest.raises(ValueError) as error:
             load({name: value, **others})
         assert str(error.value) == f"~{name}: {value!r}: {words}"
-
-
-BOUNDS = {  # as the declarations, and so the README, state them
-    name: [yaml.safe_load(bound) for bound in found.groups()]
-    for name, one in declared(Parameters).items()
-    if (found := re.search(r"from (-?[\d.]+) to ([\d.]+)", one.metadata["check"].allowed))
-}
-
-
-@pytest.mark.parametrize("name", BOUNDS)
-def test_the_least_and_the_most_are_allowed_and_no_more(name):
-    least, most = BOUNDS[name]
-    others = ARMED if name == "vigilance_timeout" else {}
-    for value in (least, most):
-        assert getattr(load({name: value, **others}), name) == value
-    for value in (least - 0.5, most + 0.5, None, "1", False):
-        with pytest.raises(ValueError, match=rf"^~{name}: {value!r}: must be a .*number"):
-            load({name: value, **others})

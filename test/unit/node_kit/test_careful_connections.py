@@ -1,9 +1,6 @@
 """Unreadable messages are reported once a second, and leave nothing in the buffer."""
 
 import io
-import threading
-from collections import Counter
-from concurrent.futures import ThreadPoolExecutor
 from types import SimpleNamespace
 
 import pytest
@@ -55,26 +52,6 @@ def test_a_message_that_does_not_end_is_reported(read):
     lines, messages = read(b".", 0.6, buffer)
     assert messages is None
     assert "65536 bytes" in lines[0]
-
-
-def test_one_thread_at_a_time_connects_to_a_publisher(monkeypatch):
-    """Other threads may connect to other publishers and other topics meanwhile."""
-    now, most, waited, others = Counter(), Counter(), [], threading.Barrier(3)
-
-    def connect(_self, *way):
-        now[way] += 1
-        most[way] = max(most[way], now[way])
-        if way not in waited:
-            waited.append(way)
-            others.wait(30)  # the first one of each way, for those of the other ways
-        now[way] -= 1
-
-    monkeypatch.setattr(careful_connections, "_connect", connect)
-    ways = [("/joy", "a")] * 20 + [("/joy", "b"), ("/odom", "a")]
-    with ThreadPoolExecutor(len(ways)) as pool:
-        list(pool.map(lambda way: careful_connections._connect_in_turn(None, *way), ways))
-    assert most == dict.fromkeys(ways, 1)
-    assert not careful_connections._turns  # no lock is kept
 
 
 def passed(throttle, times):

@@ -42,11 +42,9 @@ SILENT = (Answer.SILENT, None)
         ("the name came back, a topic did not", {"getSystemState": TOPIC_LOST}, "/robot", REASON,
          True),
         ("no answer", {"lookupNode": SILENT}, "/robot", REASON, True),
-        ("no second answer", {"getSystemState": SILENT}, "/robot", REASON, True),
         ("taken for another: nothing is asked", {"lookupNode": SILENT, "getSystemState": SILENT},
          "/died", REASON, False),
         ("another reason", {}, "", "user request", True),
-        ("no reason", {}, "", "", True),
     ],
 )  # fmt: skip
 def test_a_node_ends_only_if_it_is_meant(answers, about, changed, name, reason, ends):

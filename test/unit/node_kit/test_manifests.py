@@ -18,7 +18,6 @@ def package(folder, text):
     ("text", "word"),
     [
         ("<package>\n<name>x</nam>\n</package>", "mismatched tag: line 2"),
-        ("", "no element found"),
         ("<package></package>", "no <name>"),
     ],
 )
@@ -38,7 +37,5 @@ def test_a_file_that_rospkg_does_not_read_may_be_broken(tmp_path):
     package(tmp_path / "good", GOOD)
     package(tmp_path / "good" / "inside", "")
     (tmp_path / "loop").symlink_to(tmp_path)
-    (tmp_path / "itself").symlink_to("itself")
     assert rospkg.RosPack([str(tmp_path / "ignored"), str(tmp_path / "good")]).list() == ["good"]
     assert broken_manifests(tmp_path) == []
-    assert broken_manifests(tmp_path / "nothing") == []

@@ -11,7 +11,6 @@ from node_kit.parameters import (
     number,
     parameter,
     switch,
-    table,
     text,
     unknown,
     whole_number,
@@ -81,15 +80,3 @@ def test_a_missing_one_and_where_it_is():
     assert message_of({"topci": 1}, Entry, where="entry 2: ") == line
     assert unknown("topci", 1, ["topic"], where="~entry 2: ") == f"~{line}"
     assert checked(Entry, {"topic": "/odom"}) == {"topic": "/odom"}
-
-
-def test_the_table_of_a_readme():
-    @dataclass(frozen=True)
-    class Two:
-        works: bool = parameter(True, switch, "whether it works")
-        scale: float = parameter(None, number(0, 2, "m"), "its size", "as `~other`")
-
-    assert table(Two).splitlines()[2:] == [
-        "| `~works` | true | true or false | whether it works |",
-        "| `~scale` | as `~other` | a number from 0 to 2 m | its size |",
-    ]

@@ -1,7 +1,6 @@
 """A suspension is noticed however short, and what was sent meanwhile is not obeyed."""
 
 import signal
-import time
 
 import pytest
 
@@ -53,15 +52,3 @@ def test_suspensions_are_counted_once(clock, steps):
         if is_continued:
             signal.raise_signal(signal.SIGCONT)
         assert suspensions.number() == number
-
-
-def test_the_thread_keeps_looking():
-    before = signal.getsignal(signal.SIGCONT)
-    suspensions = Suspensions()
-    try:
-        first = suspensions._looked
-        deadline = time.monotonic() + 20.0
-        while suspensions._looked == first:
-            assert time.monotonic() < deadline
-    finally:
-        signal.signal(signal.SIGCONT, before)

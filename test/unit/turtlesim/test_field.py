@@ -2,7 +2,7 @@
 
 import pytest
 
-from simulated_turtles.field import PERIOD_S, START, Field, background, wait_s
+from simulated_turtles.field import PERIOD_S, START, Field, wait_s
 from simulated_turtles.turtle import FIELD_M, Pen
 
 BLUE, RED = (69, 86, 255), (255, 0, 0)
@@ -14,12 +14,6 @@ def field():
     made = Field(BLUE)
     made.spawn("", *START, 0.0)
     return made
-
-
-def test_the_start_is_the_middle(field):
-    ((name, pose, color, outside),) = field.step(0.016)
-    assert (name, color, outside) == ("turtle1", BLUE, None)
-    assert pose == pytest.approx((FIELD_M / 2, FIELD_M / 2, 0, 0, 0), abs=1e-6)
 
 
 def test_names_are_chosen_or_given_once(field):
@@ -65,11 +59,6 @@ def test_a_lifted_pen_draws_nothing_and_keeps_its_color(field):
     assert field.paper.color_at(2.5, 2.0) == RED
 
 
-def test_a_turtle_sees_the_color_before_it_draws_there(field):
-    field.turtles["turtle1"].command(5.0, 0.0, 0.0, 0.0)
-    assert [field.step(k)[0].color for k in (0.5, 1.0, 1.1)] == [BLUE, BLUE, PEN]
-
-
 def test_a_turtle_at_the_wall_says_so_in_each_step_and_slides(field):
     turtle = field.turtles["turtle1"]
     field.teleport(turtle, lambda: turtle.jump_to(FIELD_M, 1.0, 0.0), 0.0)
@@ -79,12 +68,6 @@ def test_a_turtle_at_the_wall_says_so_in_each_step_and_slides(field):
         [FIELD_M + step for step in (0.25, 0.25, 0.5)]
     )
     assert states[-1].pose[:2] == pytest.approx((FIELD_M, 2.0), abs=1e-6)
-
-
-def test_the_background_is_that_of_the_parameters_or_the_default():
-    assert background({}) == BLUE
-    given = {"background_r": 150, "background_g": "red", "background_b": 256 + 7}
-    assert background(given) == (150, 86, 7)
 
 
 def test_steps_keep_their_rate_and_a_late_one_is_not_made_up_for():

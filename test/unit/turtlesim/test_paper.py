@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from simulated_turtles.paper import SIZE, Paper, outline
+from simulated_turtles.paper import Paper
 from simulated_turtles.turtle import FIELD_M
 
 BLUE, RED = (69, 86, 255), (255, 0, 0)
@@ -50,9 +50,3 @@ def test_lines_from_and_to_far_away_are_cut_at_the_edge(paper):
     paper.line((5.0, 5.0), (1e38, 5.0), RED, 3)
     paper.line((-9.0, -9.0), (-8.0, -8.0), RED, 255)
     assert paper.color_at(FIELD_M, 5.0) == RED and paper.color_at(0.0, 0.0) == BLUE
-
-
-def test_a_turtle_looks_where_it_drives():
-    corners = outline(0.0, FIELD_M, math.pi / 2)
-    assert corners[:2] == pytest.approx([0.0, -22.0]) and len(corners) % 2 == 0
-    assert max(map(abs, corners)) < 25 < SIZE

@@ -43,10 +43,6 @@ def test_straight_and_sideways_go_by_the_turtle_s_own_axes():
     assert turtle.velocity == (2.0, -1.0, 0.0)
 
 
-def test_a_full_circle_sideways_and_ahead_returns():
-    assert pose(driven((1.0, 1.0, 2 * math.pi), 1.0)) == approx(MIDDLE, MIDDLE, 0.0)
-
-
 def test_a_new_command_replaces_the_old_one_where_the_turtle_is_then():
     turtle = driven((1.0, 0.0, 0.0), 0.1)
     turtle.command(0.0, 0.0, 1.0, 0.25)
@@ -59,12 +55,6 @@ def test_a_new_command_replaces_the_old_one_where_the_turtle_is_then():
 )
 def test_angles_are_those_from_minus_pi_to_pi(angle, same):
     assert normalized(angle) == pytest.approx(same, abs=1e-12)
-
-
-def test_a_relative_teleport_turns_first():
-    turtle = Turtle(1.0, 1.0, 0.0, 0.0)
-    turtle.jump_by(2.0, math.pi / 2)
-    assert pose(turtle) == approx(1.0, 3.0, math.pi / 2)
 
 
 def test_the_wall_holds_and_says_from_where_with_y_from_the_top():

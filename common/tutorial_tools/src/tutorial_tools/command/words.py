@@ -33,7 +33,7 @@ WORDS = {  # word: (arguments as the help shows them, what it does)
     "cockpit": ("[--port PORT] [--lan]", "see and drive the robots in a browser"),
     "join": ("HOST NAME [NAME:=VALUE ...]", "drive robot NAME of the classroom on HOST"),
     "doctor": ("[--in WORKSPACE]", "what to check when nothing moves"),
-    "bench": ("[PACKAGE] [--hours HOURS]", "run the benchmarks: all, or those of one package"),
+    "bench": ("[PACKAGE]", "run the benchmarks: all, or those of one package"),
     "lint": ("[--fix]", "check the sources: types, style, layers, packages, shell scripts"),
     "docs": ("[FOLDER]", "build the documentation site from the pages"),
     "setup": ("[system|workspace]", "install and build what is missing: all, or one part"),
