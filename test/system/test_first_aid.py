@@ -43,24 +43,8 @@ until_it_says() { # WORDS COMMAND ...
     cat said
 }
 python() { PYTHONPATH=$1:$PYTHONPATH /usr/bin/python3 "${@:2}"; }
-transforms() { # PARENT SECONDS: of a tree in pieces, in which one frame jumps back
-    /usr/bin/python3 - "$@" <<'END'
-import sys, rospy, tf2_ros
-from geometry_msgs.msg import TransformStamped
-buffer = tf2_ros.Buffer(debug=False)
-for sent in "odom base 100", "odom base 99", "odom base 80", "map x 99":
-    parent, child, stamp_s = sent.split()
-    one = TransformStamped(child_frame_id=child)
-    one.header.frame_id, one.header.stamp = parent, rospy.Time(int(stamp_s))
-    one.transform.rotation.w = 1
-    buffer.set_transform(one, "a")
-try: buffer.lookup_transform(sys.argv[1], "base", rospy.Time(int(sys.argv[2])))
-except Exception as error: print(error)
-END
-}
 """
-# Of each problem: the sentence of the page, how it is made, and behind > the doctor's words. Those
-# on transforms are in test/ros/tutorial_tools/doctor_findings.py.
+# Of each problem: the sentence of the page, how it is made, and behind > the doctor's words.
 MADE = r"""
 Unable to register with master node ...
     until_it_says Unable rosrun beginner_tutorials talker.py; doctor
@@ -99,12 +83,6 @@ ROS_DISTRO was set to '...' before. Please make sure that the environment does n
     export AMENT_PREFIX_PATH=$PWD/jazzy PYTHONPATH=$PWD/jazzy/lib:$PYTHONPATH
     mkdir -p jazzy/lib/std_msgs; echo 'raise ImportError' >jazzy/lib/std_msgs/__init__.py; doctor
   > ROS 2 is in this terminal, too
-TF_OLD_DATA ignoring data from the past
-    transforms odom 0
-Lookup would require extrapolation ... into the past
-    transforms odom 50
-Could not find a connection between '...' and '...' because they are not part of the same tree
-    transforms map 0
 setup.bash:.:8: no such file or directory: .../setup.sh
     zsh -c "source ${CMAKE_PREFIX_PATH%%:*}/setup.bash"
 qt.qpa.xcb: could not connect to display
@@ -114,9 +92,6 @@ qt.qpa.xcb: could not connect to display
     chmod +x ws/src/mine/scripts/a.py; LC_ALL=C.UTF-8 ws/src/mine/scripts/a.py
     TUTORIAL_IN=$PWD/ws doctor
   > a.py has the line ends of Windows: sed
-new node registered with same name
-    master; until_it_says hello rosrun beginner_tutorials talker.py __name:=one; first=$!
-    rosrun beginner_tutorials talker.py __name:=one >/dev/null 2>&1 & wait $first; cat said
 mismatched tag: line ...
     package; echo '<package></name>' >ws/src/mine/package.xml
     export ROS_PACKAGE_PATH=$PWD/ws/src:$ROS_PACKAGE_PATH; roslaunch joy2twist x.launch; doctor
@@ -127,10 +102,6 @@ No messages received and simulated time is active. Is /clock being published?
   > /use_sim_time is true, and no /clock arrives: rosparam delete
 Could not find a package configuration file provided by "..."
     package 'COMPONENTS nowhere'; cd ws && bare catkin_make
-SyntaxError: Missing parentheses in call to 'print'
-    echo 'print "hello"' >a.py; /usr/bin/python3 a.py
-IndentationError
-    printf 'if True:\nprint()\n' >a.py; /usr/bin/python3 a.py
 process has died [pid ..., exit code ...]
     package; printf '#!/bin/sh\nexit 3\n' >ws/src/mine/scripts/a.py
     chmod +x ws/src/mine/scripts/a.py
@@ -140,20 +111,19 @@ RLException: Invalid roslaunch XML syntax
     echo '<launch><node></launch>' >a.launch; roslaunch a.launch
 RLException: Invalid <param> tag: Cannot load command parameter
     roslaunch joy2twist launch_bag.launch rviz:=maybe
-datatype/md5sum [...], but our version has [...]
-    master; printf '%s\n' 'import sys, rospy' 'from std_msgs.msg import String' \
-        'rospy.init_node("mine", anonymous=True)' \
-        'if sys.argv[1:]: rospy.Publisher("x", String, queue_size=1)' \
-        'else: String._md5sum = 32 * "0"; rospy.Subscriber("x", String, print)' \
-        'rospy.spin()' >a.py
-    /usr/bin/python3 a.py 2>/dev/null &
-    until_it_says 'but our version' /usr/bin/python3 a.py publishes
 """  # noqa: RUF001
 MADE = re.findall(r"^(\S.*)\n((?: {4}.*\n)+)(?:  > (.*))?", MADE, re.M)
-# Which cannot be made here: the sentence, and what tests the answer in its place.
+# Which are not made here: the sentence, and why, or what tests the answer in its place.
 NOT_MADE = {
     "EXPKEYSIG F42ED6FBAB17C654 Open Robotics": "needs the archive of packages.ros.org: not tested",
     "No permission to read /dev/input/js0": "root may read all: test_doctor_judgement.py",
+    "SyntaxError: Missing parentheses in call to 'print'": "Python's own",
+    "IndentationError": "Python's own",
+    "but our version has": "rospy's own",
+    "new node registered with same name": "beginner_tutorials_names.py",
+    "TF_OLD_DATA ignoring data from the past": "doctor_findings.py",
+    "Lookup would require extrapolation": "doctor_findings.py",
+    "because they are not part of the same tree": "test_doctor_judgement.py",
     "networkingMode=mirrored": "needs Windows: test_doctor_judgement.py",
 }
 

@@ -1,6 +1,6 @@
-"""OTHER_PROGRAMS.md: each line, by a program of the same imports, topics and timing.
+"""OTHER_PROGRAMS.md: each line, by programs of the same imports, topics and timing.
 
-The programs are those of other_programs/, a package in a student's workspace, in our own words.
+They are those of other_programs/, a package in a student's workspace, in our own words.
 """
 
 import contextlib
@@ -61,20 +61,16 @@ ROWS = [
     Row("teleop_twist_joy", "rbx1", "teleop_joy", 0.3, beside=JOY),
     Row("red_light_green_light.py test_forwardbackward.py", "TurtleBot",
         f"sender cmd_vel 2 6,0.05,0 6,-0.05,0 {TO_MUX}", 0.53),
-    Row("goforward.py draw_a_square.py", "TurtleBot",
+    Row("goforward.py draw_a_square.py kobuki_battery.py kobuki_buttons.py", "TurtleBot",
         "sender cmd_vel_mux/input/navi 5 2,0.2,0 2,0,0.785", 0.3, 1.4, how="`expand`"),
     Row("motion_square.py", "TurtleBot", "square", 0.05, 0.7, beside=ARC),
-    Row("kobuki_battery.py kobuki_buttons.py", "TurtleBot", "battery",
-        prints=r"battery \d+.*\s.*not charging", how="`expand`"),
     Row("wander.py", "TurtleBot", f"wander {TO_MUX}", 0.5, 0.5),
-    Row("test_events.py test_led_array.py test_sounds.py", "TurtleBot", "events",
-        prints="(?s)(?=.*all shown).*bumper pressed", how="`2to3`", beside=PUSH),
+    Row("test_events.py test_led_array.py test_sounds.py key_publisher.py keys_to_twist.py",
+        "TurtleBot", "events", prints="(?s)(?=.*all shown)(?=.*not charging).*bumper pressed",
+        how="`2to3`", beside=PUSH),
 ]  # fmt: skip
 # In a terminal, with keys.
-KEYBOARDS = [
-    Row("teleop_twist_keyboard.py", "TurtleBot", f"teleop {TO_MUX}"),
-    Row("key_publisher.py keys_to_twist.py", "TurtleBot", f"keys_to_twist {TO_MUX}", how="`2to3`"),
-]  # fmt: skip
+KEYBOARD = Row("teleop_twist_keyboard.py", "TurtleBot", f"teleop {TO_MUX}")
 # What waits for ever.
 WAIT = {
     **dict.fromkeys(
@@ -154,19 +150,17 @@ def test_a_program_drives_or_prints_what_it_does_on_a_robot(row, places):
     place.robot.wait_for_rest()
 
 
-@pytest.mark.parametrize("row", KEYBOARDS, ids=lambda row: row.names)
-def test_a_key_that_x11_repeats_drives_without_a_break(row, places):
-    place = places[row.robot]
-    place.prepare(row)
-    command = place.command(f"rosrun others {row.command}")
+def test_a_key_that_x11_repeats_drives_without_a_break(places):
+    place = places[KEYBOARD.robot]
+    command = place.command(f"rosrun others {KEYBOARD.command}")
     terminal = Tmux(shlex.join(["env", *map("=".join, place.environment.items()), *command]))
     wait_for(lambda: "Moving around" in terminal.screen, "program")
-    key, begin, until = "iw"["keys" in row.command], len(place.robot.odometry), time.monotonic() + 3
+    begin, until = len(place.robot.odometry), time.monotonic() + 3
     lost = lost_s()
-    terminal.press(key)
+    terminal.press("i")
     time.sleep(0.66)  # X11's delay until a held key repeats
     while time.monotonic() < until:
-        terminal.press(key)
+        terminal.press("i")
         time.sleep(0.03)
     lost = (lost_s() - lost) / PERIOD_S
     terminal.hold("s", lambda: not place.robot.now.moves, "robot at rest")
@@ -174,11 +168,6 @@ def test_a_key_that_x11_repeats_drives_without_a_break(row, places):
     moving = "".join("-M"[moment.moves] for moment in place.robot.odometry[begin:]).strip("-")
     assert len(moving) + lost > 1.5 / PERIOD_S, moving
     assert moving.count("M") + lost > 0.8 * len(moving), moving
-
-
-def test_what_nobody_serves_here_is_missing(places):
-    topics = places["TurtleBot"].run("rostopic list")
-    assert "move_base" not in topics and "camera/rgb" not in topics
 
 
 def lines():
@@ -193,7 +182,7 @@ def packages(what):
 
 
 def test_each_line_of_the_page_is_run_here():
-    said = {name: (row.how, row.robot) for row in (*ROWS, *KEYBOARDS) for name in row.names.split()}
+    said = {name: (row.how, row.robot) for row in (*ROWS, KEYBOARD) for name in row.names.split()}
     said.update({name: (why, "") for name, why in WAIT.items()})
     assert set(lines()) == set(said) | packages("here already") | packages("not in Debian")
     for name, (how, robot) in said.items():
@@ -201,6 +190,8 @@ def test_each_line_of_the_page_is_run_here():
 
 
 def test_what_debian_lacks_and_what_takes_its_place(places):
+    topics = places["TurtleBot"].run("rostopic list")
+    assert "move_base" not in topics and "camera/rgb" not in topics
     missing, here = packages("not in Debian"), set(places["rbx1"].run("rospack list-names").split())
     assert not missing & here and packages("here already") <= here
     for name in missing:

@@ -4,7 +4,7 @@ import socket
 import subprocess
 
 from tutorial_testing.processes import Program, refuse
-from tutorial_testing.waiting import LONGEST_S, wait_for
+from tutorial_testing.waiting import LONGEST_S
 
 
 def test_completion_in_bash(tutorial, call):
@@ -28,16 +28,6 @@ def test_a_check_that_cannot_be_set_up_blames_no_student(call, tmp_path):
     assert "set TUTORIAL_WORKSPACE to a path without spaces" in why
     assert verdict == "check: nothing was checked; this says nothing about your exercises"
     assert code == 2
-
-
-def test_a_master_has_what_rospy_would_ask_for_with_every_line(tutorial, call, master_uri):
-    port = master_uri.rsplit(":", 1)[1]
-    with Program(tutorial, "run", "roscore", "-p", port) as master:
-        wait_for(lambda: "process[rosout-1]: started" in master.output, "rosout")
-        asked = call("run", "rosparam", "get", "/rosout_disable_topics_generation")
-        assert asked == (0, "false\n")
-        master.interrupt()
-        master.wait()
 
 
 def test_a_shell_sees_the_workspace_and_touches_no_file(tutorial, suite_workspace, tmp_path):

@@ -34,6 +34,7 @@ def test_the_readme_commands_drive_the_recording_across_and_the_tools_see_it(sce
         assert doctor.wait() == 0, doctor.output
         assert f"{scene.address(other)} is within 0.1 s" in doctor.output
         assert "-> /cmd_vel_mux/input/teleop -> /cmd_vel_mux\n" in doctor.output
+        assert "/cmd_vel_mux lets /cmd_vel_mux/input/teleop through" in doctor.output
     graph = scene.start(WORKSTATION, f"rosrun tutorial_tools draw_graph.py {tmp_path}/graph.dot")
     assert graph.wait() == 0, graph.output
     drawn = (tmp_path / "graph.dot").read_text()

@@ -46,14 +46,14 @@ class FindingsTest(RosTest):
                 self.assertIn(words, "\n".join(lines))
             seen = f"ROS_IP={NOBODYS} is no address of this machine"
             self.assertEqual(len(self.wrong(seen, ROS_IP=NOBODYS)), 1)
-            self.wrong("cannot be looked up", ROS_HOSTNAME="nobody.invalid")
             self.publisher("/cmd_vel", Twist)
-            self.wrong("/cmd_vel is sent by /doctor_findings, /myjoystick2twist at once")
             other = TransformStamped(child_frame_id="base_footprint")
             other.header.frame_id = "odom"
             self.publisher("/tf", TFMessage, latch=True).publish([other])
-            rivals = "/doctor_findings, /fake_turtlebot send base_footprint at once"
-            self.wrong(rivals, "doctor_findings sends stamps of the past")
+            rivals = "/cmd_vel is sent by /doctor_findings, /myjoystick2twist at once"
+            too = "/doctor_findings, /fake_turtlebot send base_footprint at once"
+            past, name = "doctor_findings sends stamps of the past", "cannot be looked up"
+            self.wrong(rivals, too, past, name, ROS_HOSTNAME="nobody.invalid")
             rospy.set_param("/use_sim_time", True)
             self.addCleanup(rospy.delete_param, "/use_sim_time")
             self.wrong("no /clock arrives")

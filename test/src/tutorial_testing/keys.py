@@ -8,11 +8,11 @@ import rospy
 from diagnostic_msgs.msg import DiagnosticArray
 
 from joy_to_twist.safety import ARMED
-from tutorial_testing.joystick_stream import LAUNCH
 from tutorial_testing.processes import lives
 from tutorial_testing.robot import Robot
 from tutorial_testing.waiting import wait_for
 
+LAUNCH = ("roslaunch", "joy2twist", "launch_joy_node.launch", "rviz:=false", "cockpit:=false")
 SPEED = 0.35  # [m/s] at full deflection, config/f710_d.yaml
 
 

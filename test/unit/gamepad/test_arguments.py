@@ -1,6 +1,5 @@
 """The arguments that roslaunch itself does not check."""
 
-import re
 from pathlib import Path
 
 import pytest
@@ -9,10 +8,6 @@ from gamepad.arguments import check
 from gamepad.dead_man import check_recording
 
 JOY_BAG = Path(__file__).parents[3] / "common" / "gamepad" / "bag" / "joy.bag"
-WHOLE = JOY_BAG.read_bytes()
-# As rosbag record leaves it when it is killed.
-UNINDEXED = re.sub(rb"(?s)index_pos=.{8}", b"index_pos=" + bytes(8), WHOLE, count=1)
-NO_BAG = "This does not appear to be a bag file"
 TRUE_OR_FALSE = "must be true or false"
 
 
@@ -41,10 +36,7 @@ def refused(name, value):
         ("joy_timeout", ["0", "0.5", "60"], ["-1", "61", "soon"],
          "must be a number up to 60 s, or 0 for off"),
         ("bag", ["none", str(JOY_BAG)], ["./joy.bag"], "must be a whole path, as $PWD is not set"),
-        ("bag", [], ["/no/joy.bag"], "cannot be read: No such file or directory"),
-        ("bag", [], ["/tmp"], "cannot be read: Is a directory"),
         ("bag", [], ["/dev/null"], "not a plain file"),
-        ("bag", [], [__file__], f"not a bag that can be read: {NO_BAG}"),
         ("name", ["robot_7", "ada", "R2D2"], [""],
          "is missing: which robot of the classroom, such as name:=robot_7"),
         ("name", [], ["-"], "must be a letter followed by letters, digits and underscores"),
@@ -65,24 +57,15 @@ def test_a_preset_that_does_not_exist_is_named_beside_those_that_do(tmp_path):
     assert refused("joy_config", str(tmp_path / "xbos.yaml")) == said
 
 
-@pytest.mark.parametrize("content", [WHOLE[:40_000], UNINDEXED], ids=["cut", "killed"])
-def test_a_recording_that_is_cut_short_can_be_mended(tmp_path, content):
-    bag = tmp_path / "joy.bag"
-    bag.write_bytes(content)
-    assert refused("bag", str(bag)) == f"cut short; fix it with: rosbag reindex {bag}"
-
-
 def test_a_recording_that_is_damaged_is_one_line_of_the_guard(tmp_path):
     bag, preset = tmp_path / "joy.bag", JOY_BAG.parents[3] / "joy2twist" / "config" / "f710_d.yaml"
-    bag.write_bytes(WHOLE[:20_000] + b"\xff" * 3000 + WHOLE[23_000:])
+    whole = JOY_BAG.read_bytes()
+    bag.write_bytes(whole[:20_000] + b"\xff" * 3000 + whole[23_000:])
     with pytest.raises(ValueError, match=r"joy\.bag: cannot be read: Invalid data[^\n]*\Z"):
         check_recording(str(bag), str(preset))
 
 
-@pytest.mark.parametrize(
-    ("name", "near"),
-    [("robot-7", "robot_7"), ("7", "robot_7"), ("/ada", "ada"), ("J\u00fcrgen", "J_rgen")],
-)  # fmt: skip
+@pytest.mark.parametrize(("name", "near"), [("7", "robot_7"), ("J\u00fcrgen", "J_rgen")])
 def test_a_robot_with_a_name_that_ros_does_not_know(name, near):
     assert refused("name", name).endswith(f"digits and underscores; did you mean {near}?")
     check("name", near)

@@ -11,15 +11,9 @@ import pytest
 from gamepad.driver.container import INITIAL, in_container
 from gamepad.driver.device import Finder
 from gamepad.driver.device_choice import DeviceError, choose_by_name, explain
-from gamepad.driver.parameters import load
 
 JS0 = "/dev/input/js0"
 NAMES = {JS0: "Pad F710", "/dev/input/js1": "Pad F310", "/dev/input/js2": "Pad"}
-
-
-def test_a_device_is_a_whole_path():
-    with pytest.raises(ValueError, match="~dev: 'js0': must be a whole path, such as /dev/input"):
-        load({"dev": "js0"})
 
 
 def test_the_exact_name_first_then_a_unique_part():
@@ -32,7 +26,6 @@ def test_the_exact_name_first_then_a_unique_part():
     [
         (NAMES, "ad F", "~dev_name 'ad F' fits several gamepads, write more of it: 'Pad F710'"),
         (NAMES, "PS4", "No gamepad is named 'PS4'; there are: 'Pad F710' (/dev/input/js0), "),
-        ({}, "PS4", "No gamepad is named 'PS4'; there are: none at all. Plug it in."),
     ],
 )
 def test_no_gamepad_is_opened_in_place_of_another(names, wanted, line):
@@ -48,7 +41,6 @@ def test_no_gamepad_is_opened_in_place_of_another(names, wanted, line):
         (JS0, errno.ENOENT, True, False, "start it with --device /dev/input/js0"),
         (JS0, errno.ENOENT, False, True, "usbipd attach --wsl"),
         (JS0, errno.EACCES, False, False, "usermod -aG input"),
-        (JS0, errno.EPERM, True, False, "start it with --device"),
         (JS0, errno.EIO, False, False, "Cannot open /dev/input/js0: Input/output error."),
         ("/tmp/pad", errno.ENOENT, True, True, "No joystick at /tmp/pad so far: it is waited for."),
     ],
@@ -59,10 +51,9 @@ def test_each_case_is_told_apart_and_says_what_to_do(path, number, container, ws
     assert ("virtual:=true" in line) is (number == errno.ENOENT and path == JS0)
 
 
-@pytest.mark.parametrize("path", ["/dev/null", "/tmp"])
-def test_what_is_no_joystick_is_refused(path):
+def test_what_is_no_joystick_is_refused():
     with pytest.raises(DeviceError, match="joystick"):
-        Finder(path, "").open()
+        Finder("/dev/null", "").open()
 
 
 @pytest.mark.parametrize(
@@ -104,7 +95,6 @@ def test_a_plain_file_is_read_once_until_it_changes(tmp_path):
     ("marked", "own", "container"),
     [
         (True, "pid", True),
-        (True, "uts", True),
         (True, "none", False),  # a virtual machine made from a container's image
         (True, "all", True),  # a kernel without namespaces
         (False, "pid", False),  # a sandbox, such as the checker's

@@ -29,7 +29,6 @@ PUSHED = ((AXIS, 5, 32767), (AXIS, 1, -32767), (BUTTON, 4, 1))
     ("how", "sent", "neutral"),
     [
         ({"triggers": (2, 5)}, PUSHED, ((0.0, 0.0, 1.0, 0.0, 0.0, 1.0), (0,) * 5)),
-        ({"triggers": (), "sticky_buttons": True}, PUSHED, ((0.0,) * 6, (0,) * 5)),
         # A gamepad of which only the number of axes is known.
         ({"triggers": None, "kernel_device": False}, ((AXIS, 7, 32767), *PUSHED),
          ((0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0), (0,) * 5)),
@@ -115,26 +114,11 @@ def test_a_report_has_the_rates_and_a_change_is_reported_at_once():
     report.opened("/dev/input/js1", "Pad")
     report.details(pad, 1, 10.0)
     pad.read(events((BUTTON, 0, 1), (BUTTON, 0, 0)), 10.5)
-    report.published += 40
     details = dict(report.details(pad, 1, 12.0))
-    assert (details["device"], details["device name"]) == ("/dev/input/js1", "Pad")
-    assert details["recent joystick event rate (Hz)"] == 1.0
-    assert details["recent publication rate (Hz)"] == 20.0
-    assert details[SILENT_FOR] == "1.5"
+    assert (details["recent joystick event rate (Hz)"], details[SILENT_FOR]) == (1.0, "1.5")
     assert report.due(12.0) and not report.due(12.9)
     report.lost()
     assert report.due(12.9) and report.summary() == (False, "Joystick not open.")
-    assert dict(report.details(pad, 1, 13.0))[SILENT_FOR] == "not open"
-
-
-def test_a_button_goes_out_at_once_and_takes_waiting_axes_along():
-    ours = driver(autorepeat_rate=0)
-    ours.read(events((AXIS, 0, -32767)), now=1.0)
-    assert ours.read(events((BUTTON, 0, 1), (BUTTON, 0, 0)), now=1.0) == [
-        ((1.0,), (1,)),
-        ((1.0,), (0,)),
-    ]
-    assert ours.due == float("inf")
 
 
 class Simulated:
@@ -156,6 +140,7 @@ class Simulated:
         self.untold.append(self.now)
         new = [(AXIS, 0, self.sent)] + [(BUTTON, 0, self.sent % 2)] * pressed
         self.published(self.driver.read(events(*new), self.now), self.now)
+        assert not (pressed and self.untold), "a button that waits"
 
     def published(self, messages, now):
         for axes, _ in messages:
@@ -164,7 +149,6 @@ class Simulated:
             self.untold = []
 
 
-@settings(max_examples=500)
 @given(
     st.lists(st.tuples(st.integers(0, 30), st.booleans()), max_size=60),
     st.integers(0, 20),
@@ -180,7 +164,7 @@ def test_every_message_tells_the_newest_state_and_none_is_older_than_the_interva
         assert simulated.driver.due <= min(simulated.untold, default=float("inf")) + interval
 
 
-@pytest.mark.parametrize(("rate", "due"), [(0.5, 3.0), (1, 2.0), (0, INF), (-1, INF)])
+@pytest.mark.parametrize(("rate", "due"), [(0.5, 3.0), (0, INF)])
 def test_the_repetition_may_be_slow_or_off(rate, due):
     schedule = Schedule(0.001, rate)
     schedule.published(1.0)

@@ -1,10 +1,8 @@
 """What moves a virtual gamepad, in time: hands, keys, a script of moves, or a recording."""
 
 import math
-from pathlib import Path
 
 import pytest
-import yaml
 
 from gamepad.gamepads import F710_D, F710_X
 from gamepad.virtual.controls import Controls, positions
@@ -61,7 +59,6 @@ def messages(*axes, buttons=12, times=(0.0,)):
     [
         (messages(*(0.0,) * 8, buttons=11),
          "a message has 8 axes and 11 buttons; this gamepad has 6 and 12"),
-        (messages(*(math.nan,) * 6), "a message has axes beyond"),
         (messages(*(0.0,) * 5, 1.01), "a message has axes beyond"),
         # The kernel's range is not quite even, so that some drivers go a little beyond 1.
         (messages(-1.001, *(1.001,) * 5), "there are fewer than two messages"),
@@ -94,12 +91,8 @@ RIGHT = {"right_stick": (0.25, -0.75), "triggers": (0.25, 0.75)}
 @pytest.mark.parametrize(
     ("pad", "moved", "axes", "held"),
     [
-        (F710_D, {}, (0, 0, 0, 0, 0, 0), []),
-        (F710_X, {}, (0, 0, 1, 0, 0, 1, 0, 0), []),
-        (F710_D, PUSHED, (0.6, -0.25, 0, 0, 0, 1), []),
         (F710_D, {**PUSHED, "mode_led": True}, (0, 1, 0, 0, 1, 0), []),
         (F710_D, RIGHT, (0, 0, 0.25, -0.75, 0, 0), ["RT"]),
-        (F710_D, {"triggers": (1.0, 0.5), "held": {"LB"}}, (0, 0, 0, 0, 0, 0), ["LB", "LT"]),
         (F710_X, {"triggers": (1.0, 0.0), "held": {"A"}}, (0, 0, -1, 0, 0, 1, 0, 0), ["A"]),
     ],
 )
@@ -107,9 +100,6 @@ def test_a_position_of_hands_gives_axes_and_buttons(pad, moved, axes, held):
     shown, buttons = positions(pad, Controls(**moved))
     assert shown == axes
     assert [name for name, down in zip(pad.buttons, buttons) if down] == held
-
-
-SCRIPTS = Path(__file__).parents[3] / "common" / "gamepad" / "config" / "virtual_joystick"
 
 
 def test_a_move_may_last_a_day_and_has_every_position():
@@ -128,10 +118,8 @@ def test_a_move_may_last_a_day_and_has_every_position():
     ("document", "line"),
     [
         (None, "it has no list of moves, such as "),
-        ({}, "moves: missing; such as moves: [{for"),
         ({"moves": []}, "moves: []: must be a list of moves"),
         ({"moves": [{"for": 1}], "speed": 2}, "speed: 2: no such parameter; allowed: mode, moves"),
-        ({"mode": ["D"], "moves": [{"for": 1}]}, "mode: ['D']: must be D or X"),
         ({"moves": [7]}, "move 1: 7 is not a map"),
     ],
 )
@@ -148,11 +136,10 @@ SECONDS, STICK, BUTTONS = "must be seconds", "must be two numbers from -1 to 1",
     ("wrong", "line"),
     [
         *[({"for": value}, f"for: {value!r}: {SECONDS}") for value in (
-            math.nan, 0, 86400.5, "1", True)],
+            math.nan, 0, 86400.5, True)],
         *[({part: value}, f"{part}: {value!r}: {STICK}") for value in (
-            1, [0, 0, 0], [0, -1.5], [math.nan, 0], ["x", 0]) for part in ("left_stick", "dpad")],
+            1, [0, 0, 0], [0, -1.5], [math.nan, 0]) for part in ("left_stick", "dpad")],
         ({"triggers": [-0.5, 0]}, "triggers: [-0.5, 0]: must be two numbers from 0 to 1"),
-        ({"held": "LB"}, f"held: 'LB': {BUTTONS}"),
         ({"held": [[]]}, f"held: [[]]: {BUTTONS}"),
         ({"held": ["LOGITECH", "A"]}, "'LOGITECH' is no button in D mode: X, A, B, Y, LB, RB, LT"),
         ({"plugged": 0}, "plugged: 0: must be true or false"),
@@ -163,8 +150,3 @@ def test_a_mistake_in_a_move_is_named(wrong, line):
     with pytest.raises(ValueError) as error:
         load_script({"moves": [{"for": 1}, {"for": 1, **wrong}]})
     assert str(error.value).startswith(f"move 2: {line}")
-
-
-@pytest.mark.parametrize("path", sorted(SCRIPTS.glob("*.yaml")), ids=lambda path: path.stem)
-def test_the_scripts_that_come_along_can_be_read(path):
-    assert load_script(yaml.safe_load(path.read_text(encoding="utf-8"))).moves

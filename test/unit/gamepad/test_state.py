@@ -1,7 +1,7 @@
 """Bytes to events, and what each event makes of axes and buttons."""
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from gamepad.js_event import Decoder
@@ -45,7 +45,6 @@ EVENTS = st.tuples(
 )
 
 
-@settings(max_examples=500)
 @given(
     st.lists(EVENTS, max_size=40),
     st.sampled_from((0.0, 0.05, 0.5, 1.0)),

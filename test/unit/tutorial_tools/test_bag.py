@@ -21,31 +21,22 @@ def test_only_what_moves_is_drawn_or_else_all_axes():
         ("buttons[1]", [(0.0, 0.0), (1.0, 1.0), (2.0, 0.0)]),
     ]
     assert [name for name, _ in curves(RECORDED[:1] * 2)] == ["axes[0]", "axes[1]", "axes[2]"]
-
-
-def test_the_picture_is_well_formed_and_has_a_line_for_each():
     root = ElementTree.fromstring(svg("a < b.bag", curves(RECORDED)))
-    tag = "{http://www.w3.org/2000/svg}"
-    assert len(root.findall(f"{tag}polyline")) == 2
-    assert "a < b.bag" in [text.text for text in root.findall(f"{tag}text")]
+    assert len(root.findall("{http://www.w3.org/2000/svg}polyline")) == 2
 
 
 @pytest.mark.parametrize(
     ("data", "words"),
     [
         (None, 'no such file. For ours: cp "$(rospack find gamepad)/bag/joy.bag" .'),
-        ("folder", "cannot be read: Is a directory"),
-        (b"", "not a bag that can be read"),
         (b"no bag", "not a bag that can be read"),
-        (b"#ROSBAG V2.0\n", "cut short; fix it with: rosbag reindex"),
-        *((WHOLE[:size], ": ") for size in (12, 4096, 20_000, -1)),
+        (WHOLE[:20_000], "cut short; fix it with: rosbag reindex"),
     ],
+    ids=["missing", "no bag", "cut"],
 )
 def test_a_file_that_is_no_whole_bag_is_one_line(tmp_path, monkeypatch, capfd, data, words):
     path = tmp_path / "joy.bag"
-    if data == "folder":
-        path.mkdir()
-    elif data is not None:
+    if data is not None:
         path.write_bytes(data)
     monkeypatch.setattr("sys.argv", ["rqt_bag", str(path)])
     with pytest.raises(SystemExit) as end:

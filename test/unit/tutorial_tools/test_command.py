@@ -1,12 +1,10 @@
 """The words of ./tutorial: what they set up and start, their mistakes, completion, the build."""
 
-import contextlib
 import os
-import sys
 
 import pytest
 
-from tutorial_tools.command import build, ros2
+from tutorial_tools.command import build
 from tutorial_tools.command.words import candidates, main, plan
 
 SECTIONS = {"demo": ["demo", "more"], "test": ["demo", "more", "test"], "doctor": ["doctor"]}
@@ -16,12 +14,10 @@ SECTIONS["browser"] = [*SECTIONS["test"], "browser"]
 @pytest.mark.parametrize(
     ("line", "sections", "program", "rest"),
     [
-        ("demo --for 20 rviz:=false", "demo", "demo.py", "--for 20 rviz:=false"),
         ("join teacher robot_7 virtual:=true", "demo", "join.py", "teacher robot_7 virtual:=true"),
         ("check --in ws 4.3 --watch", "demo", "python3", "-m tutorial_check --in ws 4.3 --watch"),
         ("run rosrun joy2twist x.py _a:=1 -v", "demo", "rosrun", "joy2twist x.py _a:=1 -v"),
         ("doctor", "doctor", "doctor.py", ""),
-        ("test", "test", "run.py", ""),
         ("test exercises --every 5 --lf", "test", "run.py", "exercises --every 5 --lf"),
         ("test browser --trials 20", "browser", "run.py", "browser --trials 20"),
         ("bench joy2twist --hours 1", "test", "run.py", "bench joy2twist --hours 1"),
@@ -49,16 +45,6 @@ def test_a_students_workspace_is_absolute_and_built_last(tmp_path, monkeypatch):
     assert plan("doctor", [])["student"] == ["/mine"]
 
 
-@pytest.mark.parametrize("version", [(3, 9), (3, 10), (3, 14), (3, 15)])
-def test_for_which_python_there_is_a_ros2(monkeypatch, tmp_path, version):
-    monkeypatch.setattr(ros2, "installed", str)
-    monkeypatch.setattr(ros2.platform, "machine", lambda: "x86_64")
-    monkeypatch.setattr(sys, "version_info", version)
-    why = pytest.raises(ValueError, match=r"only for x86_64 with Python 3\.10 to 3\.14")
-    with contextlib.nullcontext() if (3, 10) <= version <= (3, 14) else why:
-        ros2.must_be_possible(tmp_path, True)
-
-
 @pytest.mark.parametrize(
     ("line", "words"),
     [
@@ -67,9 +53,7 @@ def test_for_which_python_there_is_a_ros2(monkeypatch, tmp_path, version):
         ("demo --in /tmp", "demo: knows no --in; shell, run, doctor and check do"),
         ("join teacher", "join: the following arguments are required: NAME"),
         ("test everything", 'test: "everything": must be unit, launch, ros, system, again'),
-        ("setup moon", 'setup: "moon": must be system or workspace'),
         ("bench moon", 'bench: "moon" has no folder in test/benchmark'),
-        ("docs /etc/passwd", "docs: /etc/passwd: must be a folder"),
         ("shell moon", "shell: unrecognized arguments: moon"),
         ("doctor --in /no/such", "doctor: --in /no/such: no workspace, it has no folder src"),
         ("run", "run: a command is missing"),
@@ -93,7 +77,6 @@ def test_a_mistake_is_one_line(monkeypatch, capsys, line, words):
         (["te"], ["test"]),
         (["test", "unit", ""], []),  # bash's own: files
         (["demo", "--"], ["--help", "--for"]),
-        (["setup", ""], ["system", "workspace"]),
     ],
 )
 def test_completion_of_words_kinds_and_options(typed, found):

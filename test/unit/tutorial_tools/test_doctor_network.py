@@ -8,7 +8,7 @@ import time
 
 import pytest
 
-from node_kit.questions import Answer, way_out
+from node_kit.questions import Answer
 from tutorial_tools.doctor import network
 
 
@@ -56,7 +56,6 @@ def say(text):
 @pytest.mark.parametrize(
     ("answer", "expected"),
     [
-        (lambda connection: None, Answer.SILENT),
         (dribble, Answer.SILENT),
         *((say(text), Answer.STRANGE) for text in (b"", b"SSH-2.0\r\n", b"HTTP/1.0 200\r\n\r\nhi")),
     ],
@@ -68,13 +67,6 @@ def test_whatever_answers_the_doctor_goes_on(server, answer, expected):
 def test_a_look_up_without_an_end_has_one(monkeypatch):
     monkeypatch.setattr(socket, "getaddrinfo", lambda *_: threading.Event().wait())
     assert network.addresses("robot") == []
-
-
-def test_addresses_names_and_the_way_out():
-    assert list(map(network.addresses, ("a" * 300, "127.0.0.1"))) == [[], ["127.0.0.1"]]
-    here = list(map(network.is_here, ("127.0.0.1", "192.0.2.7", "no address")))
-    assert here == [True, False, False]
-    assert (way_out("127.0.0.1"), way_out("no address")) == ("127.0.0.1", "")
 
 
 def block(data):

