@@ -14,6 +14,7 @@ def bare(tmp_path, monkeypatch):
     monkeypatch.setenv("PATH", path_without_namespaces(tmp_path))
 
 
+@pytest.mark.night
 def test_right_is_right_or_not_judged_without_namespaces(literal, underlay):
     """Where the suite is below root's home folder, launch files of another user cannot name it."""
     others_may_enter = all(folder.stat().st_mode & 0o001 for folder in Path(underlay).parents)
@@ -23,6 +24,7 @@ def test_right_is_right_or_not_judged_without_namespaces(literal, underlay):
 
 
 @pytest.mark.skipif(os.geteuid() != 0, reason="only root can run programs as another user")
+@pytest.mark.night
 def test_nobody_is_blamed_where_programs_may_not_enter(literal, underlay, tmp_path):
     closed = tmp_path / "closed"
     closed.mkdir(mode=0o700)

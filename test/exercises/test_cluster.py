@@ -15,6 +15,7 @@ from test_endings import path_without_namespaces
 from test_mistakes import OF_HANDOUT
 
 from tutorial_check.launcher import examine
+from tutorial_testing.night import at_night
 from tutorial_testing.processes import Program, command_line, descendants
 from tutorial_testing.two_hosts.network import Network
 from tutorial_testing.waiting import wait_for
@@ -114,6 +115,7 @@ def verdicts(results):
     return [(one["id"], one["status"], one["title"]) for one in results]
 
 
+@pytest.mark.night
 @pytest.mark.parametrize("ended", ["worker", "scheduler", "client"])
 def test_whatever_ends_nothing_is_lost(literal, folder, scheduler, worker, client, request, ended):
     """A worker that joins takes over; otherwise the same call goes on where it was."""
@@ -149,6 +151,7 @@ def test_results_are_those_of_one_machine(literal, folder, underlay, scheduler, 
         assert verdicts(found) == verdicts(map(vars, outcome.results)), report.stem
 
 
+@pytest.mark.night
 def test_a_submission_that_ends_workers_is_abandoned(scheduler, worker, client):
     """Killed each time it has started to check it, as by the kernel when memory is short."""
     scheduler()
@@ -174,7 +177,7 @@ except BaseException as error:
 """
 
 
-@pytest.mark.parametrize("more", [(), ("--not-isolated",)])
+@pytest.mark.parametrize("more", [(), *at_night(("--not-isolated",))])
 def test_a_students_program_does_not_reach_the_scheduler(
     tmp_path, folder, scheduler, worker, client, key, monkeypatch, more
 ):
@@ -224,7 +227,7 @@ def test_who_has_no_key_is_not_let_in(scheduler, client, key):
     assert call.wait(60) == 2 and f"no Dask scheduler at {ADDRESS}: " in call.output
 
 
-@pytest.mark.parametrize("host", ["teacher", "one"])
+@pytest.mark.parametrize("host", ["teacher", *at_night("one")])
 def test_nothing_listens_elsewhere_and_pages_are_empty(scheduler, worker, start, host):
     scheduler()
     programs = [worker("one", "--jobs", 1), worker("two", "--jobs", 1)]
@@ -240,7 +243,7 @@ def test_nothing_listens_elsewhere_and_pages_are_empty(scheduler, worker, start,
             assert call.wait(60) == 0 and call.output == "404", url
 
 
-@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL])
+@pytest.mark.parametrize("number", [signal.SIGTERM, *at_night(signal.SIGKILL)])
 def test_a_worker_that_is_ended_while_it_checks_leaves_no_folder(
     tmp_path, scheduler, worker, client, monkeypatch, number
 ):

@@ -4,6 +4,8 @@ import shutil
 import subprocess
 from pathlib import Path
 
+import pytest
+
 REPOSITORY = Path(__file__).resolve().parents[2]
 SQUARE = REPOSITORY / "common/doc/square"
 
@@ -15,6 +17,7 @@ def check(*words):
     return done.returncode, done.stdout + done.stderr
 
 
+@pytest.mark.night
 def test_the_squares_solutions_come_to_what_they_should():
     code, output = check("--course", SQUARE, "--self-test")
     assert code == 0, output

@@ -15,6 +15,7 @@ from test_hostile import processes_like
 from tutorial_check.isolation import bubblewrap
 from tutorial_check.launcher import order_of
 from tutorial_check.worker_process import Worker
+from tutorial_testing.night import at_night
 from tutorial_testing.processes import Program, command_line, descendants, lives
 from tutorial_testing.waiting import wait_for
 
@@ -66,7 +67,7 @@ def environment(request, tmp_path, scratch):
 
 
 @pytest.mark.parametrize("work", WORKS)
-@pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGTERM, signal.SIGHUP])
+@pytest.mark.parametrize("how", [signal.SIGKILL, *at_night(signal.SIGTERM, signal.SIGHUP)])
 def test_nothing_is_left(literal, underlay, environment, how, work):
     exercise, file, text, seen = WORKS[work]
     write(file, text)(literal)

@@ -8,6 +8,7 @@ from edits import TALKER, J, put
 from tutorial_check.course import read_course
 from tutorial_check.report.text import lines_of
 from tutorial_check.variants import drawn
+from tutorial_testing.night import at_night
 
 COURSE = read_course()
 TOPICS = {"joy", "cmd_vel"}
@@ -82,12 +83,13 @@ def given_away(result, values, own):
     return found + [key for key in numbers if re.search(rf"\b{values.get(key)}\b", result.expected)]
 
 
-@pytest.mark.parametrize("values", [ADA, BOB, FEW], ids=str)
+@pytest.mark.parametrize("values", [ADA, *at_night(BOB, FEW)], ids=str)
 def test_a_right_solution_of_a_task_is_right(values, literal, wrong_of):
     turn(literal, values)
     assert not [lines_of(one) for one in wrong_of(COURSE.by_default, values)]
 
 
+@pytest.mark.night
 @pytest.mark.parametrize(
     "key", [*CHECKS, "enable_button", "scale_linear", "scale_angular", "axis_linear"]
 )
