@@ -128,7 +128,7 @@ WAYS = {
     # Its menu takes the keys, so that their release is not reported.
     "right button of the mouse": Way(mouse("mousePressed"), mouse("mouseReleased")),
     # So does an open list, which a driver may open on any tab.
-    "a list": Way(lambda it: it.browser.mouse("mousePressed", "#mode", "left"), close_list),
+    "a list": Way(lambda it: it.browser.mouse("mousePressed", "#mode", "left", True), close_list),
     "gamepad unplugged": Way(gamepad(plugged=False), gamepad(plugged=True), Gamepad),
     "gamepad frozen": Way(freeze_gamepad, gamepad(frozen=False), Gamepad),
     "server killed with -9": Way(lambda it: it.world.cockpit.kill(), start_server),
