@@ -90,8 +90,8 @@ def test_a_clone_below_a_path_with_spaces_beside_another_python_over_a_ros_in_a_
     command = (str(clone / "tutorial"), "run", "sh", "-c", script)
     with Program(*command, TUTORIAL_ROS=str(prefix)) as program:
         assert program.wait(300) == 0, program.output
-    assert "not the Python of ROS" not in program.output
-    assert re.search(f"^one {own_workspace}/devel:.*:{prefix}$", program.output, re.MULTILINE)
+        assert "not the Python of ROS" not in program.output
+        assert re.search(f"^one {own_workspace}/devel:.*:{prefix}$", program.output, re.MULTILINE)
     installed = (bare_system / "installed").read_text().split()
     assert "ros-one-ros-base" in installed and "python3-rospy" not in installed
 
