@@ -1,6 +1,8 @@
 """The bridge with the tutorial's class in ROS 2, on the simulated robot of ROS 1."""
 
 import os
+import re
+import shutil
 from pathlib import Path
 
 import pytest
@@ -12,6 +14,7 @@ from kobuki_msgs.msg import BumperEvent
 from sensor_msgs.msg import Image
 from std_msgs.msg import String
 
+from node_kit import ros2_python
 from node_kit.raw_messages import senders, subscribe
 from tutorial_testing.robot import Robot
 from tutorial_testing.waiting import wait_for
@@ -19,6 +22,7 @@ from tutorial_testing.waiting import wait_for
 SOURCES = REPOSITORY / "common/ros2_bridge/src/ros2_bridge"
 PROGRAMS = CLASS.parent
 PEER, DRIVER, QUALITIES = map(Path(__file__).with_name, ("peer.py", "driver.py", "qualities.py"))
+PAGE = REPOSITORY / "common/doc/ROS2.md"
 SECONDS = float(os.environ.get("TUTORIAL_ROS2_SECONDS", "8"))  # the bare machines have 60
 WITHOUT_SCREEN = ("rviz:=false", "cockpit:=false", "model:=false")
 HOSTILE = "\u00e4 { } %s \\ \n <script>"  # without \0, which ends a text of ROS 2
@@ -176,3 +180,15 @@ def test_a_failed_start_is_one_line(start, monkeypatch, tmp_path, python, text, 
     program = start("rosrun", "ros2_bridge", "bridge", f"_topics:={tmp_path}/topics.yaml")
     assert program.wait() == 1
     assert line in program.output and "Traceback" not in program.output
+
+
+@pytest.mark.skipif(not shutil.which("colcon"), reason="no colcon in this system's archive")
+def test_the_package_is_built_by_colcon_and_runs(start, tmp_path):
+    """The commands of the page on colcon."""
+    (commands,) = re.findall(r"^## With colcon.*?```bash\n(.*?)```", PAGE.read_text(), re.S | re.M)
+    talker = "install/ros2_tutorials/lib/ros2_tutorials/talker"
+    script = f'cd "{REPOSITORY}"\nset -e\n{commands}\nexec "$0" {talker}'
+    *environment, python = ros2_python.command([])
+    program = start(*environment, f"HOME={tmp_path}", "bash", "-c", script, python)
+    wait_for(lambda: "hello world" in program.output or program.ended, "talker")
+    assert not program.ended, program.output

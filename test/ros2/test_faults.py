@@ -53,6 +53,9 @@ class Way:
         if kind == "stop":
             time.sleep(lasts_s)
             self.send(part, signal.SIGCONT)
+        if kind == "kill" and part != PROGRAM:
+            line = f"bridge: the side of {part} has ended (signal 9): it is restarted"
+            wait_for(lambda: line in self.bridge.output, "the line about it")
         return kind != "stop" or lasts_s >= SEEN_S
 
 
@@ -68,18 +71,6 @@ def way(whole_way, stick):
     stick.begin()
     wait_for(whole_way.drives, "a robot that drives")
     return whole_way
-
-
-@pytest.mark.parametrize("side", ["ROS 1", "ROS 2"])
-def test_a_side_that_is_killed_stops_the_robot_and_comes_back(way, side):
-    pid, late_s = way.bridge.process(side), tolerance()
-    began_s = way.send(side, signal.SIGKILL)
-    assert way.robot.wait_for_rest(began_s) - began_s < REST_S + late_s()
-    line = f"bridge: the side of {side} has ended (signal 9): it is restarted"
-    wait_for(lambda: line in way.bridge.output, "the line about it")
-    assert way.bridge.process(side) != pid
-    wait_for(lambda: way.robot.moves, "a robot that drives again")
-    assert "Traceback" not in way.bridge.output
 
 
 @pytest.mark.parametrize("side", ["ROS 1", "ROS 2"])

@@ -89,17 +89,3 @@ def test_demo_drives_beside_a_dead_node_and_counts_no_messages_of_others(
                 check_demo(demo, 6)
                 assert not other.ended, other.output
             assert float(LINE.search(demo.output)["driven"]) < 6 * FASTEST_M_PER_S
-
-
-@pytest.mark.usefixtures("own_workspace")
-def test_a_clone_below_a_path_with_spaces_beside_another_python(clone, tmp_path, monkeypatch):
-    other = tmp_path / "bin"
-    other.mkdir()
-    (other / "python3").write_text("#!/bin/sh\necho 'not the Python of ROS' >&2\nexit 1\n")
-    (other / "python3").chmod(0o755)
-    monkeypatch.setenv("PATH", str(other), prepend=":")
-    monkeypatch.setenv("TUTORIAL_WORKSPACE", str(tmp_path / "new"))
-    with Program(str(clone / "tutorial"), "demo", "--for", "4", *BARE) as demo:
-        wait_for(lambda: "first /odom" in demo.output or demo.ended, "workspaces and robot", 300)
-        check_demo(demo, 4)
-        assert "not the Python of ROS" not in demo.output

@@ -53,7 +53,7 @@ ELSEWHERE = {
     "Exercises of your own": "test/exercises/test_course.py runs it",
     "From here to ROS 2": "test/ros2 runs it",
     "Both side by side": "test/ros2 runs it",
-    "With colcon": "test/ros2/test_colcon.py runs it",
+    "With colcon": "test/ros2 runs it",
 }
 STUDENTS_SHELL = "./tutorial shell --in ~/catkin_ws"
 

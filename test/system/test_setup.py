@@ -71,17 +71,27 @@ def test_what_the_archive_lacks_is_reported_once_and_done_without(call, bare_sys
     assert {"rviz", "graphviz"} <= set((bare_system / "installed").read_text().split())
 
 
-def test_a_ros_in_a_prefix_of_its_own_is_installed_and_built_over(call, bare_system):
+@pytest.mark.usefixtures("master_uri")
+def test_a_clone_below_a_path_with_spaces_beside_another_python_over_a_ros_in_a_prefix_of_its_own(
+    clone, own_workspace, bare_system
+):
     prefix = bare_system / "opt/ros/one"
     hooks = prefix / "etc/catkin/profile.d"
     hooks.mkdir(parents=True)
     (prefix / ".catkin").touch()
     (prefix / "setup.bash").write_text(f"export CMAKE_PREFIX_PATH='{prefix}'\n")
     (hooks / "99.made_up.sh").write_text("export ROS_MADE_UP=one\n")
-    where = {"TUTORIAL_ROS": str(prefix), "TUTORIAL_WORKSPACE": str(bare_system / "one_ws")}
-    code, output = call("run", "sh", "-c", "echo $ROS_MADE_UP $CMAKE_PREFIX_PATH", **where)
-    assert code == 0, output
-    assert re.search(f"^one .*/one_ws/devel:.*:{prefix}$", output, re.MULTILINE)
+    (bare_system / "python3").write_text("#!/bin/sh\necho 'not the Python of ROS' >&2\nexit 1\n")
+    (bare_system / "python3").chmod(0o755)
+    for name in ("built", "devel"):
+        (own_workspace / name).unlink()
+    demo = "rosrun tutorial_tools demo.py --for 3 rviz:=false cockpit:=false"
+    script = f"echo $ROS_MADE_UP $CMAKE_PREFIX_PATH; {demo}"
+    command = (str(clone / "tutorial"), "run", "sh", "-c", script)
+    with Program(*command, TUTORIAL_ROS=str(prefix)) as program:
+        assert program.wait(300) == 0, program.output
+        assert "not the Python of ROS" not in program.output
+        assert re.search(f"^one {own_workspace}/devel:.*:{prefix}$", program.output, re.MULTILINE)
     installed = (bare_system / "installed").read_text().split()
     assert "ros-one-ros-base" in installed and "python3-rospy" not in installed
 
@@ -166,11 +176,10 @@ def test_pip_installs_no_file_of_another_hash(tmp_path, monkeypatch):
     monkeypatch.setattr(build, "REPOSITORY", tmp_path)
     monkeypatch.setenv("PIP_NO_INDEX", "1")
     monkeypatch.setenv("PIP_FIND_LINKS", str(tmp_path))
-    for known, why in (("", "Hashes are required"), (64 * "0", "DO NOT MATCH THE HASHES")):
-        lock.write_text(f"thing==1.0 {known and f'--hash=sha256:{known}'}\n")
-        with pytest.raises(build.BuildError, match="not installed from PyPI: thing"):
-            build.install_from_pypi(tmp_path / "ws", "own", "asked.txt", "pypi")
-        assert why in (tmp_path / "ws/pip.log").read_text()
+    lock.write_text(f"thing==1.0 --hash=sha256:{64 * '0'}\n")
+    with pytest.raises(build.BuildError, match="not installed from PyPI: thing"):
+        build.install_from_pypi(tmp_path / "ws", "own", "asked.txt", "pypi")
+    assert "DO NOT MATCH THE HASHES" in (tmp_path / "ws/pip.log").read_text()
 
 
 def test_after_a_build_that_failed_nothing_counts_as_built(clone, own_workspace, tmp_path):
