@@ -26,7 +26,7 @@ IMPURE = re.compile(
 )
 # Each change is tried alone: no plugin that runs tests side by side, or again.
 PYTEST = "-m pytest -x -q --hypothesis-seed=0" + "".join(
-    f" -p no:{plugin}" for plugin in ("cacheprovider", "xdist", "rerunfailures", "benchmark")
+    f" -p no:{plugin}" for plugin in ("cacheprovider", "xdist", "benchmark")
 )
 # Bits of a float, the identity of numbers, and the | of a type say nothing about the rules.
 CONFIG = """

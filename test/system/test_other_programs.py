@@ -21,6 +21,7 @@ from tutorial_testing.processes import Program, Started
 from tutorial_testing.robot import OBSERVER, PERIOD_S, Robot
 from tutorial_testing.waiting import lost_s, wait_for
 
+pytestmark = pytest.mark.xdist_group("others")  # which share their robots
 REPOSITORY = Path(__file__).resolve().parents[2]
 TUTORIAL = str(REPOSITORY / "tutorial")
 PAGE = (REPOSITORY / "common/doc/OTHER_PROGRAMS.md").read_text(encoding="utf-8")

@@ -72,6 +72,7 @@ def test_what_the_archive_lacks_is_reported_once_and_done_without(call, bare_sys
 
 
 @pytest.mark.usefixtures("master_uri")
+@pytest.mark.night
 def test_a_clone_below_a_path_with_spaces_beside_another_python_over_a_ros_in_a_prefix_of_its_own(
     clone, own_workspace, bare_system
 ):
