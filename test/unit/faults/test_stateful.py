@@ -1,12 +1,13 @@
 """The rules of joy2twist and mux under any events at any time, judged by the invariants.
 
-A seed is a series of 40 steps, the same in every run.
+derandomize: the same examples in every run.
 """
 
 import math
-import random
 
-import pytest
+from hypothesis import HealthCheck, settings
+from hypothesis import strategies as st
+from hypothesis.stateful import RuleBasedStateMachine, initialize, rule
 
 from fake_turtlebot_sim.mux.arbitration import Publisher
 from fake_turtlebot_sim.mux.parameters import Input
@@ -14,11 +15,37 @@ from tutorial_faults.arbiter_world import ZERO, ArbiterWorld, Command
 from tutorial_faults.teleoperation_world import LEFT, Message, TeleoperationWorld
 from tutorial_faults.worlds import SUSPENDED, TICK
 
-SERIES, STEPS = range(400), 40
+SETTINGS = settings(
+    max_examples=200,
+    stateful_step_count=40,
+    deadline=None,
+    derandomize=True,
+    suppress_health_check=list(HealthCheck),
+)
 # Each threshold of the rules, and just before it; else any time, mostly short.
 THRESHOLDS_S = (0.02, 0.05, 0.1, 0.15, 0.25, 0.3, 0.45, 0.5, 0.6, 1.0)
-PAUSES_S = (0.001, *THRESHOLDS_S, *(one - 1e-6 for one in THRESHOLDS_S))
-NUMBERS = (0.0, -0.0, 1.0, -2.0, 7e-30, 1e6, -1e7, 3e38, math.inf, -math.inf, math.nan)
+seconds = st.sampled_from(
+    [0.001, *THRESHOLDS_S, *(one - 1e-6 for one in THRESHOLDS_S)]
+) | st.floats(0, 1.5)
+# Without what is so small that half of it is 0.
+sticks = st.floats(-1, 1, width=32).filter(lambda value: value == 0 or abs(value) > 1e-30)
+any_number = st.floats(width=32).filter(lambda value: value == 0 or abs(value) > 1e-30)
+
+
+class Rules(RuleBasedStateMachine):
+    """Shows a World what is drawn."""
+
+    world = None
+
+    @rule(pause=seconds)
+    def time_passes(self, pause):
+        self.world.take(float(pause))
+
+    @rule(pause=seconds)
+    def the_node_looks(self, pause):
+        self.world.take(float(pause))
+        self.world.take(TICK)
+
 
 # What decides which way a message takes; with all of it a held stick drives.
 BASE = {
@@ -40,110 +67,119 @@ BUTTONS = [
     for is_needed in (False, max(enable, turbo) >= 0)
 ]
 SCALES = ("scale_linear", "scale_angular", "scale_linear_turbo")
-LIMITS = ("max_linear_speed", "max_angular_speed", "max_linear_acceleration",
-          "max_angular_acceleration")  # fmt: skip
+SPEEDS = ("max_linear_speed", "max_angular_speed")
+ACCELERATIONS = ("max_linear_acceleration", "max_angular_acceleration")
+any_others = st.fixed_dictionaries({
+    "axis_curve": st.sampled_from([1, 1, 2]),
+    "inverted_reverse": st.booleans(),
+    "joy_timeout": st.sampled_from([0, 0.02, 0.5, 3.0]),
+    "max_joy_age": st.sampled_from([0, 0.3]),
+    "stop_messages": st.integers(1, 7),
+    "output_rate": st.floats(1, 1000),
+    **dict.fromkeys(SCALES, st.floats(0.01, 100) | st.floats(-100, -0.01)),
+    **dict.fromkeys(SPEEDS + ACCELERATIONS, st.just(0) | st.floats(0.01, 1000)),
+})  # fmt: skip
 
 
-class Draw(random.Random):
-    """What happens, by chance."""
-
-    def seconds(self):
-        return self.choice((self.choice(PAUSES_S), self.uniform(0, 1.5)))
-
-    def several(self, values, least, most):
-        return tuple(self.choices(values, k=self.randint(least, most)))
-
-    def parameters(self):
-        """Return private parameters of joy2twist that fit together."""
-        if self.random() < 0.5:
-            return {**BASE, **self.choice(CHANGES), **self.choice(ARMING)}
-        return {
-            "axis_curve": self.choice([1, 1, 2]),
-            "inverted_reverse": self.choice([False, True]),
-            "joy_timeout": self.choice([0, 0.02, 0.5, 3.0]),
-            "max_joy_age": self.choice([0, 0.3]),
-            "stop_messages": self.randint(1, 7),
-            "output_rate": 10 ** self.uniform(0, 3),
-            **{name: self.choice((1, -1)) * 10 ** self.uniform(-2, 2) for name in SCALES},
-            **{name: self.choice((0, 10 ** self.uniform(-2, 3))) for name in LIMITS},
-            **self.choice(BUTTONS), **self.choice([{}, STOPS]), **self.choice(ARMING),
-        }  # fmt: skip
+def joined(*drawn):
+    """Draw one dict of several: private parameters of joy2twist that fit together."""
+    return st.tuples(*drawn).map(lambda ones: {k: v for one in ones for k, v in one.items()})
 
 
-def time_passes(draw, world):
-    world.take(draw.seconds())
+arming = st.sampled_from(ARMING)
+stops = st.sampled_from([{}, STOPS])
+parameters = joined(st.just(BASE), st.sampled_from(CHANGES), arming) | joined(
+    any_others, st.sampled_from(BUTTONS), stops, arming
+)
+senders = st.sampled_from(["ada", "ada", "ada", "bob"])
 
 
-def node_looks(draw, world):
-    world.take(draw.seconds())
-    world.take(TICK)
-
-
-def joy(draw, world):
-    any_axes = [n / 64 for n in range(-64, 65)]
-    axes = draw.choice([(0.0, 1.0), (0.5, -1.0), (0.0, 0.0), *[draw.several(any_axes, 2, 4)] * 2])
-    buttons = draw.choice([(1, 0, 0, 0), (0, 1, 0, 0), draw.several([0, 0, 1], 2, 4)])
-    age_s, pause_s = draw.choice([0.0, 0.0, 0.0, 0.2, 0.4, -1.0]), min(draw.seconds(), 0.3)
-    sender = draw.choice(["ada", "ada", "ada", "bob"])
-    for number in range(draw.choice([1, 1, 6])):
-        world.take(pause_s if number else 0.0)
-        world.take(Message(sender, axes, buttons, age_s))
-
-
-def release(draw, world):
-    sender = draw.choice(["ada", "ada", "ada", "bob"])
-    world.take(Message(sender, (draw.choice([0.0, 0.05]), 0.0), (0, 0, 0, 0)))
-
-
-def noise(draw, world):
-    axes = [(0.0, math.nan), (math.inf, 0.0), (0.0,), *[draw.several(NUMBERS, 0, 4)] * 3]
-    buttons = [(1, 0, 0, 0), (1, 0, 1), *[draw.several([0, 1, -1, 7], 0, 6)] * 2]
-    world.take(Message("ada", draw.choice(axes), draw.choice(buttons)))
-
-
-def stop_and_reset(draw, world):
-    buttons = draw.choice([(0, 0, 1, 0), (0, 0, 0, 1), (1, 0, 0, 1), (0, 0, 1, 1)])
-    world.take(Message("ada", (0.0, draw.choice([0.0, 1.0])), buttons))
-
-
-def loss(draw, world):
-    world.take(draw.choice([LEFT, SUSPENDED]))
-
-
-def happen(draw, world, always, others):
-    """Let 40 of these happen, always some of them, of the others those that the series has."""
-    acts = always + draw.sample(others, draw.randint(0, len(others)))
-    for _ in range(STEPS):
-        draw.choice(acts)(draw, world)
-
-
-@pytest.mark.parametrize("seed", SERIES)
-def test_any_stick(seed):
+class Teleoperation(Rules):
     """Any stick at any time, with any parameters."""
-    draw = Draw(seed)
-    world = TeleoperationWorld(**draw.parameters())
-    always, others = [joy, release], [time_passes, node_looks, noise, stop_and_reset, loss]
-    happen(draw, world, always, others)
+
+    @initialize(given=parameters)
+    def start(self, given):
+        self.world = TeleoperationWorld(**given)
+
+    @rule(
+        sender=senders,
+        axes=st.sampled_from([(0.0, 1.0), (0.5, -1.0), (0.0, 0.0)])
+        | st.lists(sticks, min_size=2, max_size=4),
+        buttons=st.sampled_from([(1, 0, 0, 0), (0, 1, 0, 0)])
+        | st.lists(st.sampled_from([0, 0, 1]), min_size=2, max_size=4),
+        age=st.sampled_from([0.0, 0.0, 0.0, 0.2, 0.4, -1.0]),
+        times=st.sampled_from([1, 1, 6]),
+        pause=seconds,
+    )
+    def joy(self, sender, axes, buttons, age, times, pause):
+        for number in range(times):
+            self.world.take(float(min(pause, 0.3)) if number else 0.0)
+            self.world.take(Message(sender, tuple(axes), tuple(buttons), age))
+
+    @rule(sender=senders, stick=st.sampled_from([0.0, 0.05]))
+    def release(self, sender, stick):
+        self.world.take(Message(sender, (stick, 0.0), (0, 0, 0, 0)))
+
+    @rule(
+        axes=st.sampled_from([(0.0, math.nan), (math.inf, 0.0), (0.0,)])
+        | st.lists(any_number, max_size=4),
+        buttons=st.sampled_from([(1, 0, 0, 0), (1, 0, 1)])
+        | st.lists(st.sampled_from([0, 1, -1, 7])),
+    )
+    def noise(self, axes, buttons):
+        self.world.take(Message("ada", tuple(axes), tuple(buttons)))
+
+    @rule(
+        buttons=st.sampled_from([(0, 0, 1, 0), (0, 0, 0, 1), (1, 0, 0, 1), (0, 0, 1, 1)]),
+        stick=st.sampled_from([0.0, 1.0]),
+    )
+    def stop_and_reset(self, buttons, stick):
+        self.world.take(Message("ada", (0.0, stick), buttons))
+
+    @rule(what=st.sampled_from([LEFT, SUSPENDED]))
+    def loss(self, what):
+        self.world.take(what)
 
 
-@pytest.mark.parametrize("seed", SERIES)
-def test_any_commands(seed):
+timeouts = st.sampled_from([0.02, 0.5, 1.0]) | st.floats(0.02, 60)
+inputs = st.lists(
+    st.builds(
+        lambda timeout, priority: Input(f"in {priority}", f"topic_{priority}", timeout, priority),
+        timeouts,
+        st.integers(0, 99),
+    ),
+    min_size=1,
+    max_size=4,
+    unique_by=lambda one: one.priority,
+)
+
+
+class Mux(Rules):
     """Any command of any sender on any of several inputs."""
-    draw = Draw(seed)
-    inputs = [
-        Input(f"in {priority}", f"topic_{priority}", timeout, priority)
-        for priority in draw.sample(range(100), draw.randint(1, 4))
-        for timeout in [draw.choice([0.02, 0.5, 1.0, draw.uniform(0.02, 60)])]
-    ]
 
-    def command(draw, world):
-        name, who, is_stick = draw.choice(inputs).name, draw.choice("ab"), draw.choice([0, 1])
-        sender = Publisher(f"{who} on {name}", bool(is_stick), is_remote=True)
-        forward = draw.choice([0.0, 0.5, math.nan, draw.uniform(-10, 10), draw.choice(NUMBERS)])
-        velocity = draw.choice([(forward, *ZERO[1:]), draw.several(NUMBERS, 6, 6)])
-        pause_s = draw.choice([0.0, 0.019, 0.02, 0.1])
-        for again in range(draw.choice([1, 1, 3])):
-            world.take(pause_s if again else 0.0)
-            world.take(Command(name, velocity, sender))
+    @initialize(given=inputs)
+    def start(self, given):
+        self.names = [one.name for one in given]
+        self.world = ArbiterWorld(given)
 
-    happen(draw, ArbiterWorld(inputs), [command], [time_passes, node_looks])
+    @rule(
+        number=st.integers(0, 3),
+        who=st.sampled_from(["ada", "bob"]),
+        is_stick=st.booleans(),
+        velocity=st.sampled_from([ZERO, (0.5, *ZERO[1:]), (math.nan, *ZERO[1:])])
+        | st.tuples(*[st.floats(-10, 10)] * 6)
+        | st.tuples(*[st.floats()] * 6),
+        times=st.sampled_from([1, 1, 3]),
+        pause=st.sampled_from([0.0, 0.019, 0.02, 0.1]),
+    )
+    def command(self, number, who, is_stick, velocity, times, pause):
+        name = self.names[number % len(self.names)]
+        sender = Publisher(f"{who} on {name}", is_stick, is_remote=True)
+        for again in range(times):
+            self.world.take(pause if again else 0.0)
+            self.world.take(Command(name, velocity, sender))
+
+
+TestTeleoperation = Teleoperation.TestCase
+TestMux = Mux.TestCase
+TestTeleoperation.settings = TestMux.settings = SETTINGS
