@@ -60,8 +60,8 @@ class RosFile(pytest.File):
         if self.path.suffix == ".py":
             if not is_rostest(self.path):
                 return
-            robot = self.path.with_name("robot.launch.xml").exists()
-            command = [str(ONE), f"name:={self.path.stem}", f"robot:={str(robot).lower()}"]
+            robot = str(self.path.parent.name == "cockpit").lower()
+            command = [str(ONE), f"name:={self.path.stem}", f"robot:={robot}"]
         for turn in range(self.config.option.times):
             name = f"{self.path.stem}_{turn + 1}" if turn else self.path.stem
             yield RosTest.from_parent(self, name=name, command=command)
