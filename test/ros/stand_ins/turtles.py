@@ -64,7 +64,7 @@ class TurtlesimTest(RosTest):
         self.wait_for_log("Spawning turtle [turtle2] at x=[2.000000], y=[3.000000], theta=[0.2000")
         self.wait_for_pose(2.0, 3.0, 0.2, poses=self.record(f"{FIRST}turtle2/pose", Pose))
         with self.assertRaisesRegex(rospy.ServiceException, r"turtled named \[turtle2\] already"):
-            call(f"{FIRST}spawn", srv.Spawn, 2.0, 2.0, 0.2, "turtle2")
+            call(f"{FIRST}spawn", srv.Spawn, 2.0, 2.0, 0.2, name)
         call(f"{FIRST}kill", srv.Kill, "turtle2")
         gone = lambda: f"{FIRST}turtle2/pose" not in dict(rospy.get_published_topics())  # noqa: E731
         wait_for(gone, "end of its topics")

@@ -1,6 +1,6 @@
 """State to messages and back; the message classes need no running ROS."""
 
-from math import cos, inf, pi, sin
+from math import cos, inf, sin
 
 import numpy as np
 import pytest
