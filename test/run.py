@@ -81,7 +81,7 @@ def again(_):
 def faults(arguments):
     """Hit the live system with random faults; with --bridge the one between ROS 1 and ROS 2."""
     if BRIDGE not in arguments:
-        return run("/usr/bin/python3", "-m", "tutorial_faults", *arguments)
+        return run("/usr/bin/python3", "-m", "tutorial_faults.live.program", *arguments)
     rest = [argument for argument in arguments if argument != BRIDGE]
     return tests("ros2", ["-q", "-s", "test/ros2/test_faults.py", "-m", "night", *rest])
 

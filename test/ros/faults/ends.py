@@ -39,14 +39,10 @@ class FaultsAtTheEnd(RosTest):
         with Rig(screen=os.ttyname(screen)) as rig:
             self.check_each(rig, signal.SIGINT, lambda _: contextlib.nullcontext())
 
-    def test_each_exits_on_sigterm_while_its_peers_are_suspended(self):
+    def test_each_exits_on_sigterm_while_its_peers_and_the_master_are_suspended(self):
         with Rig() as rig:
-            peers = lambda node: [pid_of(one) for one in rig.nodes if one != node]  # noqa: E731
-            self.check_each(rig, signal.SIGTERM, lambda node: suspended(peers(node)))
-
-    def test_each_exits_on_sigterm_while_the_master_hangs(self):
-        with Rig() as rig:
-            self.check_each(rig, signal.SIGTERM, lambda _: suspended(master()))
+            pids = lambda node: master() + [pid_of(one) for one in rig.nodes if one != node]  # noqa: E731
+            self.check_each(rig, signal.SIGTERM, lambda node: suspended(pids(node)))
 
     def test_a_warning_while_the_master_hangs_makes_no_node_deaf(self):
         """NaN and a speed beyond the robot's bring a warning of the mux and of the base."""

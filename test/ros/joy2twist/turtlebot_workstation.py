@@ -16,12 +16,10 @@ from tutorial_testing.waiting import wait_for
 FILE = "launch_joy_node_realTurtlebot.launch"
 TELEOP = "/cmd_vel_mux/input/teleop"
 SPEED = 0.35  # [m/s] at full deflection, config/f710_d.yaml
-PACKAGE = """
-<package>
+PACKAGE = """<package>
   <name>turtlebot_rviz_launchers</name><version>0.0.0</version><description>None</description>
   <maintainer email="nobody@example.org">Nobody</maintainer><license>None</license>
-</package>
-"""
+</package>"""
 
 
 class WorkstationTest(RosTest):

@@ -2,7 +2,6 @@
 """A start never harms what runs: a table of what runs, what is started, and what is left."""
 
 import re
-from xmlrpc.client import ServerProxy
 
 import rosgraph
 import rospy
@@ -26,13 +25,11 @@ TABLE = {
     ("roslaunch fake_turtlebot_sim fake_turtlebot.launch", "/odom", "/joint_states"): (
         [(ROBOT, "/fake_turtlebot runs already"),
          (f"{ROBOT} _rate:=abc", "~rate: 'abc': must be a number"),
-         (f"{ROBOT} _rat:=5", "did you mean ~rate?"),
          (TURTLEBOT, "/robot_state_publisher runs already"),
          (RECORDING, "/fake_turtlebot runs already")],
         [(f"{ROBOT} __name:=another odom:=odom2", "/odom2")]),
     (TURTLEBOT, "/odom"): (
         [("rosrun fake_turtlebot_sim cmd_vel_mux.py", "/cmd_vel_mux runs already"),
-         ("rosrun fake_turtlebot_sim cmd_vel_mux.py _subscribers:=[]", "~subscribers: []: must be"),
          (TURTLEBOT, "/mobile_base runs already")], []),
     (f"{CLASS} robots:=30 cockpit:=false", "/robot_1/odom", "/robot_30/odom"): (
         [(f"{CLASS} robots:=3", "/classroom runs already")],
@@ -44,8 +41,7 @@ TABLE = {
          ("rosrun joy2twist joy2twist.py __name:=myjoystick2twist _axis_linear:=foo",
           "~axis_linear: 'foo'")], []),
     ("roslaunch gamepad joystick.launch joy_dev:=/none", "/diagnostics"): (
-        [("roslaunch gamepad joystick.launch", "/joy_node runs already"),
-         ("rosrun gamepad joy_node _deadzone:=wide", "~deadzone: 'wide'")], []),
+        [("roslaunch gamepad joystick.launch", "/joy_node runs already")], []),
 }  # fmt: skip
 
 
@@ -102,16 +98,6 @@ class StartsTest(RosTest):
         self.start(*SIMULATOR, "__name:=replaced", "_take_over:=true")
         self.check_end(old)
         self.check_goes_on(odometry)
-
-    def test_a_robot_does_not_end_in_place_of_one_that_died_on_its_port(self):
-        node, odometry = self.start(*SIMULATOR, "__name:=alive"), self.watch("odom")
-        uri = rosgraph.Master("/test").lookupNode("/alive")
-        # Another master, of which the one that died had the same name.
-        reason = "[/alive] Reason: new node registered with same name"
-        ServerProxy(uri).shutdown("/master", reason)
-        wait_for(lambda: "another node is /alive now" in node.output, "its word")
-        self.check_goes_on(odometry)
-        self.assertFalse(node.ended)
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""Programs that are obeyed; test_stateful.py judges any commands of any senders."""
+"""Programs that are obeyed; test_any_commands of test_stateful.py judges any commands."""
 
 import pytest
 
@@ -48,7 +48,6 @@ def key(delay_s):
 PROGRAMS = {
     "1 Hz": [float(k) for k in range(20)],
     "10 Hz, a busy machine": [k / 10 + 0.7 * (k > 50) for k in range(100)],
-    "taps each 0.8 s": [0.8 * k for k in range(20)],
     **{f"a key held, first repeat after {s} s": key(s) for s in (0.25, 0.5, 0.66)},
     "a key tapped, then held": [0.0, 0.8] + [5.0 + s for s in key(0.66)],
 }

@@ -23,21 +23,23 @@ def packet(one, now_ns=0, pressed=(False, False, False)):
 
 
 @pytest.mark.parametrize(
-    ("velocity", "seconds", "left_m", "right_m"),
+    ("velocity", "seconds", "left_m", "right_m", "voltage"),
     [
-        ((0.5, 0.0), 4, 2.0, 2.0),
-        ((0.7, 0.0), 10, 7.0, 7.0),  # 82071 ticks: beyond 16 bits
-        ((-0.1, 0.0), 1, -0.1, -0.1),  # backwards through zero
-        ((0.0, 1.0), 2, -0.23, 0.23),
+        ((0.7, 0.0), 10, 7.0, 7.0, (100, 100)),  # 82071 ticks: beyond 16 bits
+        ((-0.35, 0.0), 1, -0.35, -0.35, (-50, -50)),  # backwards through zero
+        ((0.0, pi), 2, -0.23 * pi, 0.23 * pi, (-52, 52)),
+        ((0.0, 0.0), 1, 0.0, 0.0, (0, 0)),
     ],
 )
-def test_the_encoders_count_ticks_in_16_bits(velocity, seconds, left_m, right_m):
+def test_the_encoders_count_ticks_in_16_bits(velocity, seconds, left_m, right_m, voltage):
     one = robot()
     one.command(velocity, 0)
     state = packet(one, seconds * SECOND)
     for ticks, way_m in ((state.left_encoder, left_m), (state.right_encoder, right_m)):
         assert 0 <= ticks < 65536
         assert abs((ticks - way_m * TICKS_PER_M + 32768) % 65536 - 32768) <= 1.5
+    assert (state.left_pwm, state.right_pwm) == voltage
+    assert all((current > 0) == any(velocity) for current in state.current)
 
 
 @pytest.mark.parametrize("reset", [SimulatedRobot.reset_odometry, SimulatedRobot.reset])
@@ -66,18 +68,6 @@ def test_bits_are_those_of_the_protocol(monkeypatch):
     right, center, left = state.bottom
     assert right == center < left  # the farther the ground, the less
     assert (state.charger, state.battery) == (state.DISCHARGING, 164)
-
-
-@pytest.mark.parametrize(
-    ("velocity", "left", "right"),
-    [((0.7, 0.0), 100, 100), ((-0.35, 0.0), -50, -50), ((0.0, pi), -52, 52), ((0.0, 0.0), 0, 0)],
-)
-def test_the_voltage_goes_with_the_speed_of_a_wheel(velocity, left, right):
-    one = robot()
-    one.command(velocity, 0)
-    state = packet(one, SECOND)
-    assert (state.left_pwm, state.right_pwm) == (left, right)
-    assert all((current > 0) == bool(left) for current in state.current)
 
 
 def test_without_power_a_robot_stands_and_with_it_waits_for_a_new_command():

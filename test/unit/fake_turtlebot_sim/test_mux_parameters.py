@@ -36,7 +36,6 @@ def test_a_turtlebots_own_file_works_as_it_is():
         ({"subscribers": ["teleop"]}, ["entry 1: 'teleop'", "must be as in"]),
         ({"subscribers": [TELEOP], "rate": 5}, ["~rate: 5", "allowed: publisher, subscribers"]),
         (with_teleop(name="navi"), ["name: 'navi'", "twice"]),
-        (with_teleop(topic="input/navi"), ["topic: 'input/navi'", "twice"]),
         (with_teleop(priority=5), ["priority: 5", "twice"]),
         (with_teleop(name="idle"), ["entry 1: name: 'idle'", "none is active"]),
         (with_teleop(topic="input teleop"), ["entry 1: topic: 'input teleop'"]),

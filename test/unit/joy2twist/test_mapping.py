@@ -40,7 +40,6 @@ CAR = {"inverted_reverse": True}
         ("enable not required, turbo", NOT_REQUIRED, AXES, (0, 1), (0.8, 0, 0, 0, 0, 0.9)),
         ("turbo is the only dead-man, and button 0", TURBO, AXES, (1, 0), (0.4, 0, 0, 0, 0, 0.3)),
         ("no other button drives then", TURBO, AXES, (0, 1), None),
-        ("reverse", {}, (0.3, -0.4), (), (-0.4, 0, 0, 0, 0, 0.3)),
         ("on the spot", CAR, (0.3, 0.0), (), (0, 0, 0, 0, 0, 0.3)),
         ("like a car", CAR, (0.3, -0.4), (), (-0.4, 0, 0, 0, 0, -0.3)),
         ("no linear axis", {"axis_linear": -1}, (0.5, 0.4), (), (0, 0, 0, 0, 0, 0.5)),
@@ -74,7 +73,6 @@ def test_a_bad_message_is_named(given, axes, buttons, words):
     [
         ({}, (0.05, -0.1, 1.0, -1.0), (0,), True),  # triggers that rest at an end are not in use
         ({}, (0.0, 0.11, 0.0, 0.0), (0,), False),
-        ({}, (-0.2, 0.0, 0.0, 0.0), (0,), False),
         ({"enable_button": 0}, (0.0, 0.0), (1,), False),
     ],
 )

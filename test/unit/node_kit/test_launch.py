@@ -1,4 +1,4 @@
-"""The programs for launch files: names_free, ends_launch; and what of the words is rospy's."""
+"""The programs for launch files: names_free, ends_launch."""
 
 import os
 import signal
@@ -11,8 +11,6 @@ import pytest
 from node_kit.launch import read_launch, will_start
 
 pytest.importorskip("rospy", reason="no ROS for this Python: ./tutorial setup")
-
-from node_kit.start import _without_parameters
 
 KIT = Path(__file__).resolve().parents[3] / "common" / "node_kit"
 PYTHON = "/usr/bin/python3"
@@ -79,8 +77,3 @@ def test_ends_launch_passes_signals_on_and_exits_with_the_code_of_its_node(
     if number:
         os.killpg(node.pid, number)  # as roslaunch does
     assert (node.communicate(timeout=60)[0], node.returncode) == (said, code)
-
-
-def test_remaps_and_special_names_stay_and_parameters_go():
-    arguments = ["node.py", "__name:=ada", "cmd_vel:=other", "_rate:=5", "_robots/ada:=[0]", "_x"]
-    assert _without_parameters(arguments) == ["node.py", "__name:=ada", "cmd_vel:=other", "_x"]

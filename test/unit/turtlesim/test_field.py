@@ -3,7 +3,7 @@
 import pytest
 
 from simulated_turtles.field import PERIOD_S, START, Field, wait_s
-from simulated_turtles.turtle import FIELD_M, Pen
+from simulated_turtles.turtle import Pen
 
 BLUE, RED = (69, 86, 255), (255, 0, 0)
 PEN = Pen().color
@@ -57,17 +57,6 @@ def test_a_lifted_pen_draws_nothing_and_keeps_its_color(field):
     field.set_pen(turtle, RED, 3, 0, 0.2)
     field.teleport(turtle, lambda: turtle.jump_by(1.0, 0.0), 0.2)
     assert field.paper.color_at(2.5, 2.0) == RED
-
-
-def test_a_turtle_at_the_wall_says_so_in_each_step_and_slides(field):
-    turtle = field.turtles["turtle1"]
-    field.teleport(turtle, lambda: turtle.jump_to(FIELD_M, 1.0, 0.0), 0.0)
-    turtle.command(1.0, 1.0, 0.0, 0.0)
-    states = [field.step(now_s)[0] for now_s in (0.25, 0.5, 2.0)]
-    assert [state.outside[0] for state in states] == pytest.approx(
-        [FIELD_M + step for step in (0.25, 0.25, 0.5)]
-    )
-    assert states[-1].pose[:2] == pytest.approx((FIELD_M, 2.0), abs=1e-6)
 
 
 def test_steps_keep_their_rate_and_a_late_one_is_not_made_up_for():

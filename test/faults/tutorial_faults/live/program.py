@@ -146,3 +146,7 @@ def main():
         f" worst time to rest {max((one.rest_s for one in trials), default=0.0):.2f} s"
     )
     return int(any(one.violations for one in trials)) if trials else CANNOT
+
+
+if __name__ == "__main__":
+    sys.exit(main())
