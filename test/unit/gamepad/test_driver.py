@@ -1,7 +1,7 @@
 """The driver without ROS and without a device: bytes and times in, axes and buttons out."""
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from gamepad.driver.driver import LONGEST_LIFELESS_S, SHORTEST_SILENCE_S

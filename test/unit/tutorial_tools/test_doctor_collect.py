@@ -40,7 +40,6 @@ def test_the_fastest_message_shows_the_offset_of_a_clock():
     assert collect.nearest([old, None, near]) == near
 
 
-
 def test_a_fifo_is_not_opened_in_vain(tmp_path, monkeypatch):
     fifo = tmp_path / "js1"
     os.mkfifo(fifo)  # which keeps its reader
