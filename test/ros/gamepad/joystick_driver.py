@@ -144,11 +144,11 @@ class DriverTest(RosTest):
         script = self.folder() / "moves.yaml"
         script.write_text("7", encoding="utf-8")
         for line, *given in (
-            ("_joystick: /no/joy.bag: cannot be read: No such file", "--bag", "/no/joy.bag"),
             ("moves.yaml: it has no list of moves", "--script", str(script)),
             ("is there and is no FIFO", "--stream", str(script)),
         ):
             self.check_mistake(Program(VIRTUAL, "--stream", self.stream.path, *given), line)
+        self.assertEqual(script.read_text(encoding="utf-8"), "7")
 
     def test_a_script_of_moves_drives_a_square(self):
         robot, device = self.enter(DiagnosedRobot()), self.stream.path

@@ -93,11 +93,3 @@ def test_a_fifo_is_served_by_one_gamepad_only(tmp_path):
         assert path.exists()
         device.close()
     assert not path.exists()
-
-
-def test_a_path_that_is_no_fifo_is_refused_and_left_alone(tmp_path):
-    path = tmp_path / "notes"
-    path.write_text("mine")
-    with pytest.raises(PadError, match="is no FIFO"):
-        StreamPad(F710_D, str(path))
-    assert path.read_text() == "mine"
