@@ -20,7 +20,7 @@ CAMERA = """camera publish_tf 3d_sensor depth_registration num_worker_threads sc
     rgb_processing ir_processing scan_processing depth_processing depth_registered_processing
     disparity_processing disparity_registered_processing"""
 PLACE = "world x y yaw"
-# The arguments that a launch file takes, those of upstream and ours; they include the simulator's.
+# The arguments that a launch file takes, those of upstream and ours.
 ARGUMENTS = {
     "turtlebot_bringup/minimal.launch": (
         f"base battery stacks 3d_sensor simulation serialport robot_name robot_type {PLACE}"
@@ -28,6 +28,9 @@ ARGUMENTS = {
     "turtlebot_bringup/3dsensor.launch": CAMERA,
     "kobuki_node/minimal.launch": f"kobuki_publish_tf {PLACE}",
     "rbx1_bringup/fake_turtlebot.launch": f"urdf_file {PLACE}",
+    "fake_turtlebot_sim/fake_turtlebot.launch": PLACE,
+    "fake_turtlebot_sim/minimal.launch": PLACE,
+    "joy2twist/launch_bag.launch": PLACE,
     "joy2twist/launch_joy_node.launch": PLACE,
 }
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from tutorial_testing.ports import free_port
-from tutorial_testing.processes import Program
+from tutorial_testing.processes import Program, refuse
 from tutorial_testing.waiting import DEADLINE_S, lost_s, wait_for
 
 pytestmark = pytest.mark.usefixtures("master_uri")
@@ -44,18 +44,24 @@ def test_demo_says_so_when_the_robot_stands(call, tmp_path):
     assert "RViz is left out" not in output  # by the user's own wish
 
 
-@pytest.mark.parametrize(
-    ("sign", "given", "code"),
-    [("process[fake_turtlebot", ("--for", "600"), 130), ("first /odom", (), 0)],
-)
-def test_ctrl_c_ends_a_demo_that_loads_or_drives_and_nothing_is_left(tutorial, sign, given, code):
-    with Program(tutorial, "demo", *given, "rviz:=false") as demo:
-        wait_for(lambda: sign in demo.output, sign)
+def test_ctrl_c_ends_a_demo_that_loads_and_nothing_is_left(tutorial):
+    with Program(tutorial, "demo", "--for", "600", "rviz:=false") as demo:
+        wait_for(lambda: "process[fake_turtlebot" in demo.output, "robot")
         demo.interrupt()
-        assert demo.wait() == code, demo.output
+        assert demo.wait() == 130
         wait_for(lambda: not demo.left_behind(), "end of every process")
-        # Python prints a traceback if it is interrupted in its very first milliseconds.
-        assert code or demo.output.endswith(f"{LINE.search(demo.output)[0]}\n")
+
+
+def test_a_second_demo_is_refused_and_the_first_drives_on_until_ctrl_c(tutorial, master_uri):
+    names = "/fake_turtlebot, /myjoystick2twist, /robot_state_publisher and /rosbag"
+    with Program(tutorial, "demo", "rviz:=false") as first:
+        wait_for(lambda: "first /odom" in first.output, "robot")
+        line = refuse(tutorial, "demo", "--for", "1")
+        assert line.startswith(f"demo: {names} run already on {master_uri}; end "), line
+        first.interrupt()
+        assert first.wait() == 0, first.output
+        assert first.output.endswith(f"{LINE.search(first.output)[0]}\n")
+        wait_for(lambda: not first.left_behind(), "end of every process")
 
 
 def test_of_two_demos_at_once_one_drives_and_says_where_to_look_without_a_screen(tutorial):

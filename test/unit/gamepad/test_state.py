@@ -4,7 +4,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gamepad.js_event import Decoder
 from tutorial_testing.gamepad_events import AXIS, BUTTON, INIT, driver, events
 
 
@@ -65,10 +64,3 @@ def test_every_sequence_gives_what_upstream_gives(sequence, deadzone, trigger, s
     for (axes, buttons), (expected_axes, expected_buttons) in zip(messages, expected):
         assert axes == pytest.approx(tuple(expected_axes), abs=1e-12)
         assert buttons == tuple(expected_buttons)
-
-
-@given(st.lists(st.binary(max_size=20)))
-def test_reads_may_be_cut_anywhere(pieces):
-    decoder = Decoder()
-    one_by_one = [event for piece in pieces for event in decoder.feed(piece)]
-    assert one_by_one == Decoder().feed(b"".join(pieces))

@@ -9,15 +9,7 @@ import pytest
 
 from node_kit.questions import Answer
 from tutorial_tools.doctor import judgement, transforms, way
-from tutorial_tools.doctor.facts import (
-    Facts,
-    Joystick,
-    Mux,
-    MuxInput,
-    Node,
-    Offset,
-    Transform,
-)
+from tutorial_tools.doctor.facts import Facts, Joystick, Mux, MuxInput, Node, Offset, Transform
 from tutorial_tools.doctor.judgement import judge
 
 JOY, TWIST = "sensor_msgs/Joy", "geometry_msgs/Twist"
