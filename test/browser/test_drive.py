@@ -3,7 +3,7 @@
 from urllib.parse import urlsplit
 
 from tutorial_testing.cockpit.hands import Keys
-from tutorial_testing.socket_page import SocketPage
+from tutorial_testing.socket_page import REST, SocketPage
 from tutorial_testing.waiting import wait_for
 
 FULL = 0.35  # m/s at full deflection: config/f710_d.yaml
@@ -38,6 +38,7 @@ def test_who_drives_how_fast_and_stop_are_above_every_tab_until_esc(world, page)
 
 def test_a_second_page_is_refused_until_the_first_hands_over(world, page):
     with SocketPage(urlsplit(world.address).port) as second:
+        second.hand = REST  # as a page that is open: without input it would lose the seat
         Keys(page).drive(world)
         second.say("drive", robot="", mode="D")
         assert "another page drives" in second.wait_for("refused")["why"]
