@@ -15,6 +15,7 @@ from sensor_msgs.msg import Joy
 
 from joy_to_twist.console import Console
 from joy_to_twist.parameters import Parameters, load
+from joy_to_twist.states import State
 from joy_to_twist.teleoperation import Teleoperation
 from node_kit.arming import SILENCE_S, ZERO, Velocity
 from node_kit.careful_connections import header_of, report_bad_messages
@@ -104,7 +105,7 @@ class Joy2Twist:
         self.diagnostics.add("joystick", self.diagnose)
         self.may_diagnose = Throttle(1.0 / parameters.diagnostic_period)
         self.may_diagnose_new = Throttle(1.0 / LOOK_ROUND_S)
-        self.diagnosed: str | None = None  # the state on /diagnostics
+        self.diagnosed: State | None = None  # the state on /diagnostics
         self.joy = rospy.Subscriber(
             "joy", LeanJoy, self.callback, queue_size=BURST, buff_size=READ_BYTES, tcp_nodelay=True
         )
@@ -154,7 +155,7 @@ class Joy2Twist:
             self.teleoperation.listeners(self.cmd_vel.listeners, self.cmd_vel.name, now)
             self.timer.clear()
             due = min(self.safety.due, now + LOOK_ROUND_S)
-            is_new = self.safety.state != self.diagnosed
+            is_new = self.safety.state is not self.diagnosed
         wanted = self.may_diagnose.ready(now) or (is_new and self.may_diagnose_new.ready(now))
         if wanted and self.diagnostics.publisher.get_num_connections():
             self.diagnostics.force_update()
@@ -164,7 +165,7 @@ class Joy2Twist:
         """Fill in the diagnostic status, a DiagnosticStatusWrapper."""
         with self.lock:
             well, state, details = self.teleoperation.summary(monotonic())
-        self.diagnosed = state
+            self.diagnosed = self.safety.state
         status.summary(DiagnosticStatus.OK if well else DiagnosticStatus.WARN, state)
         for name, value in details.items():
             status.add(name, value)

@@ -17,16 +17,10 @@ from typing import Callable
 
 from joy_to_twist.mapping import approach
 from joy_to_twist.parameters import Parameters
-from node_kit.arming import DRIVING, ZERO, Arming, Velocity
+from joy_to_twist.states import WARNS_BEFORE_S, Notice, State
+from node_kit.arming import ZERO, Arming, Velocity
 from node_kit.throttle import Throttle
 
-WAITING = "waiting for the joystick"
-NOT_ARMED = "stopped: not armed, release the sticks and the dead-man button once"
-ANOTHER = "another joystick node sends, whose sticks and dead-man button were not seen released"
-NO_AUTOREPEAT = "For a joystick without autorepeat, or a recording of one, set ~joy_timeout to 0."
-BAD_MESSAGE = "stopped: bad joystick message"
-ARMED = "armed: hold the dead-man button to drive"
-WARNS_BEFORE_S = 0.5  # before the stop, when a joystick does not change
 IN_TURN_S = 1.0  # two joystick nodes that send within this time of each other send in turn
 WARNING_PERIOD_S = 5.0  # between such warnings
 
@@ -44,9 +38,9 @@ class Safety:
         self,
         parameters: Parameters,
         wake: Callable[[], object],
-        warn: Callable[[str], object] = lambda line: None,
+        warn: Callable[[Notice], object] = lambda notice: None,
     ) -> None:
-        """Call wake() when due has become sooner, and warn() with a line for the user."""
+        """Call wake() when due has become sooner, and warn() with what the user must know."""
         p = self._parameters = parameters
         self._wake, self._warn = wake, warn
         self._period = 1.0 / p.output_rate
@@ -57,11 +51,6 @@ class Safety:
         )
         self._silence_s = p.joy_timeout or math.inf
         self._stillness_s = p.vigilance_timeout or math.inf
-        self._silence = f"no message for {p.joy_timeout:g} s"
-        self._stillness = (
-            f"the joystick has not changed for {p.vigilance_timeout:g} s, it may be out of range; "
-            "to go on, release the sticks and the dead-man button once"
-        )
         self._hears = False  # a good message came since the last loss
         self._silent_at = math.inf  # when the joystick counts as silent
         self._still_at = math.inf  # when it has been unchanged for too long
@@ -76,9 +65,9 @@ class Safety:
         self._switched_at = -math.inf  # when that was another one than before
         self._may_warn = Throttle(1.0 / WARNING_PERIOD_S)
         self.arming = Arming(not p.arm_on_neutral)  # for this sender
-        self._unarmed = NOT_ARMED  # the state until it is armed
+        self._unarmed = State.NOT_ARMED  # the state until it is armed
         self.latched = False  # the stop button was pressed
-        self.state = WAITING
+        self.state = State.WAITING
 
     @property
     def due(self) -> float:
@@ -114,13 +103,13 @@ class Safety:
         is_still = now >= self._still_at and velocity not in (None, ZERO)
         rests = rests and not is_still
         if is_still and self.arming.armed:
-            why = self._stillness
+            why = State.STILL
         elif now >= self._silent_at:  # and tick() was not called in time
-            why = self._silence
+            why = State.SILENT
         elif sender is not self._sender and self._parameters.arm_on_neutral:
-            why = ANOTHER
+            why = State.ANOTHER
             if now - self._switched_at < IN_TURN_S and self._may_warn.ready(now):
-                self._warn("Two joystick nodes send in turn: the robot stands until one has ended.")
+                self._warn(Notice.IN_TURN)
             self._switched_at = now
         stop = self.lost(why, now) if why else None
         if stop is not None and not self._parameters.arm_on_neutral:
@@ -137,10 +126,10 @@ class Safety:
         if not self.arming.hear(rests):
             return self._refuse(self._unarmed, now)
         if velocity is None:
-            return self._refuse(ARMED, now)
+            return self._refuse(State.ARMED, now)
 
         if not self._is_warned:
-            self.state = DRIVING
+            self.state = State.DRIVING
         if self._stopping:
             self._stopping, self._next_output = False, math.inf
         if not self._gradual:
@@ -152,16 +141,14 @@ class Safety:
     def reject(self, now: float) -> Velocity | None:
         """Stop at a bad message, which is no sign of life."""
         self.arming.rests = False
-        return self._refuse(BAD_MESSAGE, now)
+        return self._refuse(State.BAD_MESSAGE, now)
 
     def latch(self, now: float) -> Velocity | None:
         """Send zeros from the stop button until reset(), which hold a multiplexer, too."""
         if self.latched:
             return None
-        button = self._parameters.stop_reset_button
-        what = f"the stop button was pressed; to go on, press button {button}, then let go"
-        self._warn(f"Stopped: {what}.")
-        self._forget(f"stopped: {what}")
+        self._warn(Notice.BUTTON)
+        self._forget(State.BUTTON)
         self.arming.lose()
         self.latched = self._stopping = True
         self._repeats = math.inf
@@ -170,26 +157,26 @@ class Safety:
     def reset(self) -> None:
         """End the effect of the stop button: the robot moves again once all was seen released."""
         self.latched, self._repeats = False, 1
-        self.state = self._unarmed = NOT_ARMED
+        self.state = self._unarmed = State.NOT_ARMED
 
-    def lost(self, why: str, now: float) -> Velocity | None:
+    def lost(self, why: State, now: float) -> Velocity | None:
         """Stop, as the joystick is unreliable, and disarm if so configured."""
         if not self._hears:
             return None
-        self._forget(f"stopped: {why}")
-        self._unarmed = NOT_ARMED
-        if why == self._stillness:
-            self._unarmed = self.state
-            self._warn(f"Stopped: {why}.")
-        if why == self._silence and self._sent != ZERO:
-            self._warn(f"Stopped: {why}. {NO_AUTOREPEAT}")
+        self._forget(why)
+        self._unarmed = State.NOT_ARMED
+        if why is State.STILL:
+            self._unarmed = why
+            self._warn(Notice.STILL)
+        if why is State.SILENT and self._sent != ZERO:
+            self._warn(Notice.SILENT)
         if self._parameters.arm_on_neutral:
             self.arming.lose()
         # A robot that stands needs no zero, and its multiplexer no claim to drive it.
         stands = self._sent == ZERO and self._next_output == math.inf
         return None if stands else self._stop(now)
 
-    def _forget(self, state: str) -> None:
+    def _forget(self, state: State) -> None:
         self.state = state
         self._hears, self._silent_at = False, math.inf
         self.arming.rests = False
@@ -197,20 +184,19 @@ class Safety:
     def tick(self, now: float) -> Velocity | None:
         """Send what is due by now."""
         if now >= self._silent_at:
-            return self.lost(self._silence, now)
+            return self.lost(State.SILENT, now)
         if self._sent != ZERO and now >= self._still_at - WARNS_BEFORE_S:
             if now >= self._still_at:
-                return self.lost(self._stillness, now)
+                return self.lost(State.STILL, now)
             if not self._is_warned:
                 self._is_warned = True
-                what = f"the joystick does not change: the robot stops in {WARNS_BEFORE_S:g} s"
-                self.state = f"{DRIVING}: {what}; move a stick"
-                self._warn(f"{what[0].upper()}{what[1:]}. Move a stick, or come back into range.")
+                self.state = State.STILL_SOON
+                self._warn(Notice.STILL_SOON)
         if now < self._next_output:
             return None
         return self._repeat(now) if self._stopping else self._step(now)
 
-    def _refuse(self, why: str, now: float) -> Velocity | None:
+    def _refuse(self, why: State, now: float) -> Velocity | None:
         self.state = why
         if self._parameters.require_enable_button:
             return self._stop(now)

@@ -8,8 +8,9 @@ from typing import Callable, Sequence
 from joy_to_twist.gamepad_hints import GamepadHints
 from joy_to_twist.mapping import BadJoyError, Mapping
 from joy_to_twist.parameters import Parameters
-from joy_to_twist.safety import ARMED, Safety
-from node_kit.arming import DRIVING, Resumption, Velocity
+from joy_to_twist.safety import Safety
+from joy_to_twist.states import State, sentence
+from node_kit.arming import Resumption, Velocity
 from node_kit.throttle import Throttle
 
 UNHEARD_S = 2.0  # a robot that starts together with this node takes a moment to listen
@@ -25,11 +26,11 @@ class Teleoperation:
     def __init__(
         self, parameters: Parameters, warn: Callable[[str], object], wake: Callable[[], object]
     ) -> None:
-        """Take what Safety takes."""
+        """Call wake() as Safety does, and warn() with a line for the user."""
         self._parameters = parameters
         self._warn = warn
         self.mapping = Mapping(parameters)
-        self.safety = Safety(parameters, wake, warn)
+        self.safety = Safety(parameters, wake, lambda one: warn(sentence(one, parameters)))
         self._hints = GamepadHints(parameters)
         self._may_warn = Throttle(1.0 / WARNING_PERIOD_S)
         self._max_age_ns = round(parameters.max_joy_age * 1e9)
@@ -85,7 +86,7 @@ class Teleoperation:
         if not self._resumption.notice(number, now):
             return None
         self._warn("This node was suspended. What came meanwhile is not driven.")
-        return self.safety.lost("this node was suspended", now)
+        return self.safety.lost(State.SUSPENDED, now)
 
     def _has_changed(self, axes: Sequence[float], buttons: Sequence[int]) -> bool:
         last, self._last = self._last, (axes, buttons)
@@ -93,11 +94,11 @@ class Teleoperation:
 
     def left(self, now: float) -> Velocity | None:
         """Stop, as no node publishes joystick messages; return the velocity to send at once."""
-        return self.safety.lost("the joystick node has left", now)
+        return self.safety.lost(State.LEFT, now)
 
     def listeners(self, count: int, topic: str, now: float) -> None:
         """Warn, once, when driving reaches no subscriber, as under a wrong name."""
-        if count or self.safety.state != DRIVING:
+        if count or self.safety.state is not State.DRIVING:
             self._unheard_since = None
         elif self._unheard_since is None:
             self._unheard_since = now
@@ -117,4 +118,4 @@ class Teleoperation:
             "Age of the last Joy [s]": age,
             "Dead-man button": self.mapping.deadman,
         }
-        return state in (ARMED, DRIVING), state, details
+        return state in (State.ARMED, State.DRIVING), sentence(state, self._parameters), details

@@ -18,7 +18,7 @@ from sensor_msgs.msg import Joy
 from gamepad.driver.driver import SHORTEST_SILENCE_S
 from gamepad.gamepads import F710_D
 from gamepad.js_event import AXIS, BUTTON, FULL, INIT, JsEvent, pack
-from joy_to_twist.safety import WAITING
+from joy_to_twist.states import State
 from tutorial_testing.keys import LAUNCH, DiagnosedRobot
 from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
@@ -154,7 +154,7 @@ class DriverTest(RosTest):
         robot, device = self.enter(DiagnosedRobot()), self.stream.path
         self.start(*LAUNCH, f"joy_dev:={device}")
         # The script begins with its reader, and the robot must be ready then.
-        robot.wait_for_state(WAITING)
+        robot.wait_for_state(State.WAITING.value)
         script = str(PACKAGE / "config/virtual_joystick/square.yaml")
         self.check_end(self.start(VIRTUAL, "--stream", device, "--script", script))
         passed = iter(robot.odometry)

@@ -7,7 +7,7 @@ import uuid
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray
 
-from joy_to_twist.safety import ARMED
+from joy_to_twist.states import State
 from tutorial_testing.processes import lives
 from tutorial_testing.robot import Robot
 from tutorial_testing.waiting import wait_for
@@ -94,7 +94,7 @@ class KeyboardRig(DiagnosedRobot):
         self._stack.callback(self.terminal.close)
         wait_for(lambda: "Opened joystick" in self.terminal.history, "driver")
         # The gamepad was seen released; a key before that would not drive.
-        self.wait_for_state(ARMED)
+        self.wait_for_state(State.ARMED.value)
 
     def is_at_full_speed(self):
         return abs(self.now.v - SPEED) < 1e-6

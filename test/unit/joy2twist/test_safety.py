@@ -8,7 +8,9 @@ from math import inf
 import pytest
 
 from joy_to_twist.parameters import load
-from joy_to_twist.safety import ARMED, BAD_MESSAGE, DRIVING, WAITING, Safety
+from joy_to_twist.safety import Safety
+from joy_to_twist.states import Notice
+from joy_to_twist.states import State as S
 from node_kit.arming import ZERO
 from tutorial_testing.over_time import over_time
 
@@ -31,24 +33,24 @@ ACTS = {
     "release": lambda machine, now: machine.drive(None, True, now),
     "pushed": lambda machine, now: machine.drive(None, False, now),
     "bad": lambda machine, now: machine.reject(now),
-    "leaves": lambda machine, now: machine.lost("left", now),
+    "leaves": lambda machine, now: machine.lost(S.LEFT, now),
     "tick": lambda machine, now: machine.tick(now),
     "bob forward": lambda machine, now: machine.drive(FORWARD, False, now, "bob"),
 }
-LEFT, SILENT = "stopped: left", "stopped: no message for 0.5 s"
 # Name: parameters, then (time, what happens, what is sent at once, the state if it matters).
 STORIES = {
     "without a dead-man every message drives": ({}, [
-        (0.0, "forward", FORWARD, DRIVING), (0.02, "backward", BACKWARD), (0.04, "middle", ZERO),
+        (0.0, "forward", FORWARD, S.DRIVING), (0.02, "backward", BACKWARD), (0.04, "middle", ZERO),
         (0.06, "bob forward", FORWARD), (0.08, "forward", FORWARD)]),
     "a bad message is answered by one zero": ({}, [
-        (0.0, "forward", FORWARD), (0.02, "bad", ZERO, BAD_MESSAGE), (0.03, "bad", ZERO),
+        (0.0, "forward", FORWARD), (0.02, "bad", ZERO, S.BAD_MESSAGE), (0.03, "bad", ZERO),
         (0.4, "forward", FORWARD)]),
     "a joystick node that left is silence": ({"joy_timeout": 0, "stop_messages": 1}, [
-        (0.0, "leaves", None, WAITING), (1.0, "forward", FORWARD), (1.1, "leaves", ZERO, LEFT),
-        (1.2, "leaves", None, LEFT)]),
+        (0.0, "leaves", None, S.WAITING), (1.0, "forward", FORWARD), (1.1, "leaves", ZERO, S.LEFT),
+        (1.2, "leaves", None, S.LEFT)]),
     "a released dead-man stops, also in the first message": (DEAD_MAN, [
-        (0.0, "release", ZERO, ARMED), (0.1, "forward", FORWARD, DRIVING), (0.12, "pushed", ZERO)]),
+        (0.0, "release", ZERO, S.ARMED), (0.1, "forward", FORWARD, S.DRIVING),
+        (0.12, "pushed", ZERO)]),
     "a bad message stops hard and ends the ramp": (LIMITS, [
         (0.0, "forward", (0.1, 0, 0, 0, 0, 0)), (0.05, "bad", ZERO), (0.1, "tick", None),
         (0.4, "tick", None)]),
@@ -59,7 +61,7 @@ STORIES = {
 def test_what_is_sent_at_once_and_the_state(name):
     given, steps = STORIES[name]
     machine = safety(**given)
-    assert machine.state == WAITING
+    assert machine.state == S.WAITING
     for now, act, sent, *state in steps:
         assert ACTS[act](machine, now) == sent, now
         assert [machine.state] == state or not state, now
@@ -90,8 +92,7 @@ def test_two_that_send_in_turn_are_named_now_and_then():
     machine = Safety(load({**DEAD_MAN, "arm_on_neutral": True}), lambda: None, warnings.append)
     for i in range(200):
         machine.drive(None, True, i * 0.02, "ada" if i % 2 else "bob")
-    assert len(warnings) == 1
-    assert "Two joystick nodes" in warnings[0]
+    assert warnings == [Notice.IN_TURN]
 
 
 @pytest.mark.parametrize(
