@@ -9,11 +9,11 @@ import pytest
 
 from joy_to_twist.parameters import load
 from joy_to_twist.safety import Safety
-from joy_to_twist.states import Notice
-from joy_to_twist.states import State as S
+from joy_to_twist.states import Notice, State
 from node_kit.arming import ZERO
 from tutorial_testing.over_time import over_time
 
+S = State
 FORWARD = (0.5, 0.0, 0.0, 0.0, 0.0, 0.0)
 BACKWARD = (-0.5, 0.0, 0.0, 0.0, 0.0, 0.0)
 DEAD_MAN = {"enable_button": 4}
