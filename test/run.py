@@ -83,7 +83,7 @@ def faults(arguments):
     if BRIDGE not in arguments:
         return run("/usr/bin/python3", "-m", "tutorial_faults.live.program", *arguments)
     rest = [argument for argument in arguments if argument != BRIDGE]
-    return tests("ros2", ["-q", "-s", "test/ros2/test_faults.py", "-m", "night", *rest])
+    return tests("ros2", ["-q", "-s", "test/ros2/test_faults.py", "-k", "random", *rest])
 
 
 KINDS = {
@@ -137,10 +137,6 @@ def main():
     os.environ["PYTHONPATH"] = ":".join([*folders, os.environ.get("PYTHONPATH", "")])
     kind, *arguments = sys.argv[1:] or [""]
     try:
-        if any(argument.split("=")[0] == "--cluster" for argument in arguments):
-            from tutorial_testing.in_parts import run_in_parts  # noqa: PLC0415
-
-            sys.exit(run_in_parts(kind, arguments))
         if kind in ("again", "faults", "bench"):
             sys.exit(KINDS[kind](arguments))
         FAILED.unlink(missing_ok=True)

@@ -173,6 +173,7 @@ def test_robot_and_workstation_in_two_containers_drive():
         wait_for_movement(compose, "exec", "-T", "workstation", "./tutorial", "run")
 
 
+@pytest.mark.night
 @pytest.mark.skipif(not shutil.which("npx"), reason="npx (package npm) starts @devcontainers/cli")
 def test_the_devcontainer_checks_a_workspace_and_serves_the_page():
     tool = ("npx", "--yes", "@devcontainers/cli@0.89.0")
@@ -193,6 +194,7 @@ def test_the_devcontainer_checks_a_workspace_and_serves_the_page():
         run("docker", "rm", "--force", up["containerId"])
 
 
+@pytest.mark.night
 def test_gradescopes_autograder_as_the_service_runs_it(tmp_path):
     """Its scripts, in its folders, as root, in an image that has the Debian packages already."""
     autograder = tmp_path / "autograder"

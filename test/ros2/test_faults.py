@@ -128,7 +128,6 @@ def trial(seed, way):
     assert late and not any(late), f"{faults}: (f) it moved after the release"
 
 
-@pytest.mark.night
 def test_random_faults_of_the_bridge_leave_a_robot_that_rests_in_time(whole_way, request):
     option, way = request.config.getoption, whole_way
     for seed in range(option("--seed"), option("--seed") + option("--trials")):

@@ -56,7 +56,7 @@ KINDS = {  # kinds of tests
     "faults": "random faults on the live system, --for SECONDS or --trials N: test/FAULTS.md",
     "mutation": "whether the unit tests notice small changes to the rules; hours",
 }
-CLUSTER = "--cluster"  # option of check --all, and of some kinds of tests
+CLUSTER = "--cluster"  # option of check --all
 IN_WORDS = ("shell", "run", "doctor", "check")  # which know --in
 OWN_PARSER = {  # programs that read their options themselves, and those for completion
     "check": ("--in", "--all", "--watch", "--hints", "--solution", "--course", "--self-test"),
@@ -167,8 +167,6 @@ def plan_of_test(kind: str, rest: list[str]) -> Plan:
     if kind in ("lint", "docs"):
         made["builds"].append(f"pypi={kind}:test/requirements-{kind}.txt")
         return {**made, "command": [str(REPOSITORY / "test" / kind), *rest]}
-    if CLUSTER in options_of(rest):
-        made["sections"].append("cluster")
     if kind == "ros2" and not installed():
         made["builds"].append(ros2.BUILD)
     if kind == "mutation":
