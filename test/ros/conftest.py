@@ -21,6 +21,7 @@ from tutorial_testing.rostest_files import is_rostest
 
 RESULTS = Path(os.environ["TUTORIAL_RESULTS"]) / "rostests"
 ONE = Path(__file__).with_name("one.test")
+LONGEST = ("node_kit", "faults")  # folders
 BROKEN = ("error", "failure")  # as JUnit files note it; rosunit notes no skips
 
 
@@ -51,7 +52,7 @@ def pytest_pycollect_makemodule(module_path, parent):
 
 
 def pytest_collection_modifyitems(items):
-    items.sort(key=lambda item: item.path.parent.name != "faults")  # which take the longest
+    items.sort(key=lambda item: item.path.parent.name not in LONGEST)
 
 
 class RosFile(pytest.File):

@@ -19,7 +19,7 @@ from tutorial_testing.keys import Tmux
 from tutorial_testing.ports import free_port
 from tutorial_testing.processes import Program, Started
 from tutorial_testing.robot import OBSERVER, PERIOD_S, Robot
-from tutorial_testing.waiting import lost_s, wait_for
+from tutorial_testing.waiting import Stopwatch, lost_s, wait_for
 
 pytestmark = pytest.mark.xdist_group("others")  # which share their robots
 REPOSITORY = Path(__file__).resolve().parents[2]
@@ -35,6 +35,7 @@ HOW = {
     "`2to3`": "2to3 -w {0}",
     "`expand`": "expand -i {0} > new && cat new > {0}",
 }
+LEG_S = 6.0  # what a program drives at least
 TO_MUX = "cmd_vel:=cmd_vel_mux/input/teleop"
 JOY = "rostopic pub -r 20 joy sensor_msgs/Joy '{axes: [0, 0.4], buttons: [1]}'"
 PUSH = "rosrun others sender cmd_vel_mux/input/navi 10 60,0.6,0"
@@ -136,12 +137,14 @@ def places(tmp_path_factory):
 def test_a_program_drives_or_prints_what_it_does_on_a_robot(row, places):
     place = places[row.robot]
     place.prepare(row)
-    begin = len(place.robot.odometry)
+    begin, watch = len(place.robot.odometry), Stopwatch()
 
     def done():
         velocities = [map(abs, moment.velocity) for moment in place.robot.odometry[begin:]]
         metres, radians = (PERIOD_S * sum(one) for one in zip((0, 0), *velocities))
-        return metres >= row.metres and radians >= row.radians and re.search(row.prints, it.output)
+        share = max(0.2, 1 - watch.lost_s / LEG_S)  # of the drive, if the machine is busy
+        enough = metres >= share * row.metres and radians >= share * row.radians
+        return enough and re.search(row.prints, it.output)
 
     with place.start(row.beside), place.start(f"rosrun others {row.command}") as it:
         wait_for(done, f"effect of {row.command}", 60)
