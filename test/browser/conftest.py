@@ -76,7 +76,7 @@ def webkit(monkeypatch):
 @pytest.fixture
 def page(world, shared_browser):
     """The shared browser with the page opened again; the test fails if its console has errors."""
-    shared_browser.errors()  # what a page before reported late is not of this test
+    shared_browser.errors()  # This drops what an earlier page reported late.
     shared_browser.open(world.address)
     yield shared_browser
     errors = shared_browser.errors()

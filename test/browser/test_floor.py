@@ -72,10 +72,9 @@ def settled(browser, colour):
 
 def test_a_change_of_tab_keeps_the_view_of_walls_scan_and_bumper(two, shared_browser):
     page = shared_browser
-    page.errors()  # of pages before
-    with two.run(
-        "rosservice", "call", "/fake_turtlebot/reset"
-    ) as reset:  # nearer than 0.45 m a wall has no scan
+    page.errors()  # This drops what earlier pages reported.
+    # At the start of the room: a wall that is nearer than 0.45 m has no scan.
+    with two.run("rosservice", "call", "/fake_turtlebot/reset") as reset:
         assert reset.wait() == 0, reset.output
     page.open(two.address)
     wait_for(lambda: page.ask(DRAWN % "--wall")[0] > 500, "walls on the floor")

@@ -21,7 +21,7 @@ from tutorial_testing.processes import Program, Started
 from tutorial_testing.robot import OBSERVER, PERIOD_S, Robot
 from tutorial_testing.waiting import Stopwatch, lost_s, wait_for
 
-pytestmark = pytest.mark.xdist_group("others")  # which share their robots
+pytestmark = pytest.mark.xdist_group("others")  # All of them use the same robots.
 REPOSITORY = Path(__file__).resolve().parents[2]
 TUTORIAL = str(REPOSITORY / "tutorial")
 PAGE = (REPOSITORY / "common/doc/OTHER_PROGRAMS.md").read_text(encoding="utf-8")
@@ -35,7 +35,7 @@ HOW = {
     "`2to3`": "2to3 -w {0}",
     "`expand`": "expand -i {0} > new && cat new > {0}",
 }
-LEG_S = 6.0  # what a program drives at least
+LEG_S = 6.0  # The shortest drive of a program takes about so long.
 TO_MUX = "cmd_vel:=cmd_vel_mux/input/teleop"
 JOY = "rostopic pub -r 20 joy sensor_msgs/Joy '{axes: [0, 0.4], buttons: [1]}'"
 PUSH = "rosrun others sender cmd_vel_mux/input/navi 10 60,0.6,0"
@@ -142,7 +142,8 @@ def test_a_program_drives_or_prints_what_it_does_on_a_robot(row, places):
     def done():
         velocities = [map(abs, moment.velocity) for moment in place.robot.odometry[begin:]]
         metres, radians = (PERIOD_S * sum(one) for one in zip((0, 0), *velocities))
-        share = max(0.2, 1 - watch.lost_s / LEG_S)  # of the drive, if the machine is busy
+        # A program that drives by time drives less of its way on a busy machine.
+        share = max(0.2, 1 - watch.lost_s / LEG_S)
         enough = metres >= share * row.metres and radians >= share * row.radians
         return enough and re.search(row.prints, it.output)
 

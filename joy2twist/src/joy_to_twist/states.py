@@ -1,4 +1,4 @@
-"""What joy2twist reports of itself, and the sentences of that (pure)."""
+"""What joy2twist reports of itself: states and warnings, and their sentences (pure)."""
 
 from __future__ import annotations
 
@@ -37,19 +37,23 @@ class State(Enum):
     SUSPENDED = "stopped: this node was suspended"
 
 
+def _line(text: str) -> str:
+    return f"{text[0].upper()}{text[1:]}."
+
+
 class Notice(Enum):
     """A warning of the safety rules. A value is the line of the log."""
 
-    BUTTON = f"{State.BUTTON.value.capitalize()}."
-    STILL = f"{State.STILL.value.capitalize()}."
+    BUTTON = _line(State.BUTTON.value)
+    STILL = _line(State.STILL.value)
     SILENT = (
-        f"{State.SILENT.value.capitalize()}. For a joystick without autorepeat, or a recording of "
+        f"{_line(State.SILENT.value)} For a joystick without autorepeat, or a recording of "
         "one, set ~joy_timeout to 0."
     )
-    STILL_SOON = f"{NO_CHANGE.capitalize()}. Move a stick, or come back into range."
+    STILL_SOON = f"{_line(NO_CHANGE)} Move a stick, or come back into range."
     IN_TURN = "Two joystick nodes send in turn: the robot stands until one has ended."
 
 
 def sentence(about: State | Notice, parameters: Parameters) -> str:
-    """Return what a user reads of it."""
+    """Return the sentence that a user reads."""
     return about.value.format(p=parameters)

@@ -29,7 +29,8 @@ PACKAGE = Path(rospkg.RosPack().get_path("gamepad"))
 VIRTUAL = node_path("gamepad", "virtual_joystick")
 AXES, BUTTONS = 6, 12  # the F710 in D mode
 STILL_S = 5.0
-WAKINGS_A_SECOND = 50  # half of them to ask whether to end; measured: 26
+# Measured: 26. The driver alone wakes 10 times, to ask whether it is to end.
+WAKINGS_A_SECOND = 50
 CORNERS = [(1.0, 0.0), (1.0, 1.0), (0.0, 1.0), (0.0, 0.0)]  # [m], in their order
 NEAR_M = 0.25  # on a busy machine each move may be some hundredths of a second off
 

@@ -15,9 +15,10 @@ def test_unequal_wheels_bend_the_true_path_and_the_estimate_knows_nothing(ratio,
     robot = SimulatedRobot(Parameters(wheel_radius_ratio=ratio, track_ratio=track))
     robot.command((0.5, 0.8), 0)
     robot.advance(SECOND // 2)
-    half, size = 0.230 / 2, 2 / (1 + ratio)  # of the track [m]; of the left wheel, as a factor
-    left, right = size * (0.5 - 0.8 * half), ratio * size * (0.5 + 0.8 * half)  # [m/s]
-    true = (left + right) / 2, (right - left) / (2 * half * track)
+    half_track, left_size = 0.230 / 2, 2 / (1 + ratio)  # [m], [1]
+    left = left_size * (0.5 - 0.8 * half_track)  # [m/s]
+    right = ratio * left_size * (0.5 + 0.8 * half_track)  # [m/s]
+    true = (left + right) / 2, (right - left) / (2 * half_track * track)
     for state, velocity in ((robot.state(), (0.5, 0.8)), (robot.true_state(), true)):
         assert state[:3] == pytest.approx(arc((0.0, 0.0, 0.0), velocity, 0.5), abs=1e-12)
 
