@@ -10,7 +10,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from std_msgs.msg import String
 
 sys.path.insert(0, sys.argv[1])  # the bridge's folder
-from link import Frame
+from connection import Frame
 from ros2_side import Ros2Side, fitting
 from routes import Route
 

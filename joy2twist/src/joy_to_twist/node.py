@@ -18,8 +18,8 @@ from joy_to_twist.parameters import Parameters, load
 from joy_to_twist.states import State
 from joy_to_twist.teleoperation import Teleoperation
 from node_kit.arming import SILENCE_S, ZERO, Velocity
-from node_kit.careful_connections import header_of, report_bad_messages
-from node_kit.prompt_publisher import VelocityPublisher
+from node_kit.rospy_patches.connections import header_of, report_bad_messages
+from node_kit.rospy_patches.prompt_publisher import VelocityPublisher
 from node_kit.start import run
 from node_kit.suspension import Suspensions
 from node_kit.throttle import Throttle

@@ -8,7 +8,7 @@ from urllib.parse import urlsplit
 import rosgraph
 import rosnode
 
-from node_kit.questions import address
+from node_kit.ros_api import address
 from tutorial_testing.cockpit_rig import CockpitRig
 from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program

@@ -10,7 +10,7 @@ import termios
 import rosgraph
 from geometry_msgs.msg import Twist, Vector3
 
-from node_kit.questions import call
+from node_kit.ros_api import call
 from tutorial_testing.hands import DRIVE, RELEASED
 from tutorial_testing.nodes import pid_of
 from tutorial_testing.rig import BASE, Rig, suspended

@@ -11,7 +11,7 @@ from nav_msgs.msg import Odometry
 from rosgraph.network import encode_ros_handshake_header, read_ros_handshake_header
 from sensor_msgs.msg import Joy
 
-from node_kit.questions import call
+from node_kit.ros_api import call
 from tutorial_faults.live.table import HELD, LB, RawJoy, serialised
 from tutorial_testing.nodes import node_path
 from tutorial_testing.rig import BASE, DRIVER, MUX

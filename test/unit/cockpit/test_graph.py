@@ -11,7 +11,7 @@ from cockpit_server.graph import JOY, ODOMETRY, Graph
 from cockpit_server.seat import RefusedError
 from cockpit_server.sources.graph_view import LONGEST_MESSAGE, Topic
 from cockpit_server.sources.resets import reset_service
-from node_kit.questions import Answer
+from node_kit.ros_api import Answer
 from tutorial_testing.seat_room import serialised
 
 GRAPH = Graph(

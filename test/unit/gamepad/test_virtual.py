@@ -9,7 +9,7 @@ from gamepad.driver.device import Finder
 from gamepad.driver.device_choice import DeviceError
 from gamepad.gamepads import F710, F710_D
 from gamepad.js_event import SIGN_OF_LIFE_MS
-from gamepad.trembling import Trembling
+from gamepad.liveness import Trembling
 from gamepad.virtual.controls import Controls, positions
 from gamepad.virtual.pads import SIGN_OF_LIFE_S, PadError, StreamPad
 

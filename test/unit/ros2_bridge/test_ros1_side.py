@@ -11,7 +11,7 @@ import rospy
 
 from node_kit.raw_messages import Raw
 from ros2_bridge import ros1_side
-from ros2_bridge.link import Frame, frames
+from ros2_bridge.connection import Frame, frames
 from ros2_bridge.routes import Route
 from tutorial_testing.waiting import DEADLINE_S, wait_for
 

@@ -9,7 +9,7 @@ from geometry_msgs.msg import TransformStamped
 from sensor_msgs.msg import JointState
 from tf2_msgs.msg import TFMessage
 
-from node_kit.questions import Answer
+from node_kit.ros_api import Answer
 from tutorial_tools.doctor import collect
 from tutorial_tools.doctor.facts import Joystick, Offset, Transform
 from tutorial_tools.doctor.transforms import of_messages

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from node_kit.questions import Answer
+from node_kit.ros_api import Answer
 from tutorial_tools.doctor import judgement, transforms, way
 from tutorial_tools.doctor.facts import Facts, Joystick, Mux, MuxInput, Node, Offset, Transform
 from tutorial_tools.doctor.judgement import judge

@@ -8,7 +8,7 @@ import time
 
 import pytest
 
-from node_kit.questions import Answer
+from node_kit.ros_api import Answer
 from tutorial_tools.doctor import network
 
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from node_kit.questions import Answer
+from node_kit.ros_api import Answer
 from tutorial_tools import join
 from tutorial_tools.join import JoinError, check_host, check_master, check_robot
 

@@ -10,7 +10,7 @@ from urllib.parse import urlsplit
 import rosgraph
 
 from cockpit_server.graph import JOY, Column, Graph, topic_of, without
-from node_kit.questions import Answer, call
+from node_kit.ros_api import Answer, call
 
 PERIOD_S = 1.0
 

@@ -7,8 +7,8 @@ from sensor_msgs.msg import Joy
 
 from cockpit_server.graph import topic_of
 from cockpit_server.seat import Axes, Buttons
-from gamepad.trembling import Trembling
-from node_kit.prompt_publisher import PromptPublisher
+from gamepad.liveness import Trembling
+from node_kit.rospy_patches.prompt_publisher import PromptPublisher
 
 FRAME = "cockpit"
 

@@ -19,7 +19,7 @@ import rospy
 
 from cockpit_server.access import Access, gateways
 from node_kit.arguments import Parser
-from node_kit.questions import PARAMETER, Answer, accepts, address, call, way_out
+from node_kit.ros_api import PARAMETER, Answer, accepts, address, call, way_out
 from node_kit.start import run
 
 NODE_NAME = "cockpit"

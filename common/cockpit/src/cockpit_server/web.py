@@ -20,7 +20,7 @@ from cockpit_server.admission import connection_to_close, page_to_close
 from cockpit_server.clients import Client, name_of
 from cockpit_server.hub import Hub
 from cockpit_server.schema import LONGEST_MESSAGE
-from node_kit.newest_only import CUT_AFTER_RESENDS, resends
+from node_kit.rospy_patches.newest_only import CUT_AFTER_RESENDS, resends
 
 CHARTS = Path("/usr/share/javascript/dygraphs")
 MOST_CLIENTS = 64  # a class, each with a page and a phone

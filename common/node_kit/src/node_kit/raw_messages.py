@@ -10,7 +10,7 @@ import rosgraph
 import roslib.message
 import rospy
 
-from node_kit.questions import Answer, call
+from node_kit.ros_api import Answer, call
 
 
 @dataclass(frozen=True)

@@ -10,16 +10,16 @@ import rosgraph
 import rospy
 from rospy.client import load_command_line_node_params
 
-from node_kit.careful_connections import be_careful
 from node_kit.ending import (
     end_in_time,
     end_on_signals,
-    end_only_if_replaced,
     is_ending,
     wait_for_goodbye,
 )
 from node_kit.parameters import checked_value, switch
-from node_kit.questions import Answer, call, holder
+from node_kit.ros_api import Answer, call, holder
+from node_kit.rospy_patches.connections import be_careful
+from node_kit.rospy_patches.shutdown import end_only_if_replaced
 
 TAKE_OVER = "take_over"  # private parameter of every node that keeps its name
 

@@ -10,7 +10,7 @@ import rospkg
 import rospy
 
 from node_kit.start import run
-from ros2_bridge.link import end_with_parent
+from ros2_bridge.connection import end_with_parent
 from ros2_bridge.ros1_side import NAME, Ros1Side
 from ros2_bridge.routes import Route, read_routes
 

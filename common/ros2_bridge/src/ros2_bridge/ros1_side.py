@@ -12,7 +12,7 @@ import rospy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 
 from node_kit.raw_messages import Raw, RawPublisher, senders, subscribe, types_of_others
-from ros2_bridge.link import Frame, Sender, frames, is_late
+from ros2_bridge.connection import Frame, Sender, frames, is_late
 from ros2_bridge.routes import Route, depth_of
 
 NAME = "ros2_bridge"

@@ -1,6 +1,6 @@
 """The side of ROS 2, run by its Python: converts the bytes, subscribes and publishes.
 
-Needs rclpy and rosbags, and of the suite this folder alone: link.py and routes.py are beside it.
+Needs rclpy and rosbags, and of this suite its folder alone, with connection.py and routes.py.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ import time
 from typing import Any, Callable
 
 import rclpy
-from link import Frame, Sender, end_with_parent, frames, is_late
+from connection import Frame, Sender, end_with_parent, frames, is_late
 from rclpy.duration import Duration
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.signals import SignalHandlerOptions

@@ -10,7 +10,7 @@ from typing import Any
 import rospkg
 
 from gamepad.arguments import check
-from node_kit.questions import Answer, way_out
+from node_kit.ros_api import Answer, way_out
 from tutorial_tools.command.words import fail, parser_of
 from tutorial_tools.doctor.facts import some
 from tutorial_tools.doctor.network import addresses, call, is_called_back, is_here

@@ -13,10 +13,10 @@ from std_msgs.msg import String
 from fake_turtlebot_sim.mux.arbitration import IDLE, Arbiter, Publisher, Verdict
 from fake_turtlebot_sim.mux.parameters import MuxParameters, parse_mux_parameters
 from node_kit.arming import ZERO, Velocity
-from node_kit.careful_connections import is_remote, report_bad_messages, sender_of
-from node_kit.fresh_only import FreshOnly
 from node_kit.log import Log
-from node_kit.prompt_publisher import VelocityPublisher, is_hold_to_run
+from node_kit.rospy_patches.connections import is_remote, report_bad_messages, sender_of
+from node_kit.rospy_patches.fresh_only import FreshOnly
+from node_kit.rospy_patches.prompt_publisher import VelocityPublisher, is_hold_to_run
 from node_kit.start import run
 from node_kit.throttle import ThrottleEach
 

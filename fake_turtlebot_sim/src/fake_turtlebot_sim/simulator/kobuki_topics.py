@@ -15,7 +15,7 @@ from std_msgs.msg import Header
 from fake_turtlebot_sim.simulator.kobuki import EVENTS, QUEUE, core
 from fake_turtlebot_sim.simulator.ros_clock import Motion
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
-from node_kit.prompt_publisher import PromptPublisher
+from node_kit.rospy_patches.prompt_publisher import PromptPublisher
 
 VERSION = msg.VersionInfo("1.0.4", "1.2.0", "simulated", [0, 0, 0], 3)  # both features
 # Of heading and turning [rad2, rad2/s2]: about x and y nothing is known (kobuki_node).

@@ -18,9 +18,9 @@ from fake_turtlebot_sim.simulator.robot_topics import RobotTopics
 from fake_turtlebot_sim.simulator.ros_clock import Instant, Motion
 from fake_turtlebot_sim.simulator.ros_messages import ORIGIN, Place, static_transform
 from fake_turtlebot_sim.simulator.world_topics import WorldTopics
-from node_kit.careful_connections import report_bad_messages
 from node_kit.log import Log
-from node_kit.prompt_publisher import PromptPublisher
+from node_kit.rospy_patches.connections import report_bad_messages
+from node_kit.rospy_patches.prompt_publisher import PromptPublisher
 from node_kit.start import run
 
 NODE_NAME = "fake_turtlebot"

@@ -17,9 +17,9 @@ from fake_turtlebot_sim.simulator.parameters import Parameters
 from fake_turtlebot_sim.simulator.ros_clock import Instant, Motion
 from fake_turtlebot_sim.simulator.ros_messages import RobotMessages, between_frames, pose_on_plane
 from fake_turtlebot_sim.simulator.simulated_robot import REST, SimulatedRobot, Verdict
-from node_kit.fresh_only import FreshOnly
 from node_kit.log import Log
-from node_kit.prompt_publisher import PromptPublisher
+from node_kit.rospy_patches.fresh_only import FreshOnly
+from node_kit.rospy_patches.prompt_publisher import PromptPublisher
 
 
 class RobotTopics:

@@ -21,7 +21,7 @@ from fake_turtlebot_sim.simulator.sensors import Sensed
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot, meet
 from fake_turtlebot_sim.simulator.world import World
 from fake_turtlebot_sim.simulator.world_messages import bumper_markers, world_map, world_markers
-from node_kit.prompt_publisher import PromptPublisher
+from node_kit.rospy_patches.prompt_publisher import PromptPublisher
 
 # The camera's depth frame above base_footprint [m]: turtlebot_description's 0.287 above base_link.
 SCAN_Z = 0.2972

@@ -14,7 +14,7 @@ from cockpit_server.graph import Graph
 from cockpit_server.graph_watch import GraphWatch
 from cockpit_server.schema import full_name, or_null, switch
 from cockpit_server.sources.plots import class_of
-from node_kit.questions import Answer, call
+from node_kit.ros_api import Answer, call
 
 PERIOD_S = 0.5
 LONGEST_TEXT = 4000  # characters of the newest message

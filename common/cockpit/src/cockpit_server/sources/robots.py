@@ -15,7 +15,7 @@ from cockpit_server.graph import topic_of
 from cockpit_server.graph_watch import GraphWatch
 from cockpit_server.motion import Motion, covered, is_somewhere, motion
 from cockpit_server.schema import or_null, switch, text
-from node_kit.careful_connections import sender_of
+from node_kit.rospy_patches.connections import sender_of
 
 DIGITS = 4  # after the point [m]: a tenth of a millimetre
 LONGEST_JOY = 4000  # bytes; a gamepad's message has some 100, a huge one would hold up the driver

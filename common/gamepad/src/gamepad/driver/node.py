@@ -19,7 +19,7 @@ from gamepad.driver.parameters import DriverParameters, load
 from gamepad.driver.report import DriverReport
 from gamepad.driver.state import Message
 from gamepad.gamepads import mode_hint
-from gamepad.trembling import Trembling
+from gamepad.liveness import Trembling
 from node_kit.log import Log
 from node_kit.start import run
 from node_kit.suspension import Suspensions

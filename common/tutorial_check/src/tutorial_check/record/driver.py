@@ -21,7 +21,7 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Joy, LaserScan
 from std_msgs.msg import String
 
-from node_kit.careful_connections import connect_once
+from node_kit.rospy_patches.connections import connect_once
 
 NAME = "tutorial_check"
 JOY = "/joy"  # that it answers

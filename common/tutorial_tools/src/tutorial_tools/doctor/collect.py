@@ -20,7 +20,7 @@ from std_msgs.msg import String
 from gamepad.driver.container import in_container
 from gamepad.driver.report import SILENT_FOR
 from node_kit.manifests import broken_manifests
-from node_kit.questions import TIMEOUT_S, Answer, way_out
+from node_kit.ros_api import TIMEOUT_S, Answer, way_out
 from tutorial_tools.command.build import REPOSITORY, SHARE
 from tutorial_tools.doctor import network, transforms
 from tutorial_tools.doctor.environment import environment

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import NamedTuple
 
-from node_kit.questions import Answer
+from node_kit.ros_api import Answer
 
 MOST_NAMES = 5  # in a line; a classroom has thirty robots
 

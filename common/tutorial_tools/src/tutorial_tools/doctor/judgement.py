@@ -6,7 +6,7 @@ import errno
 from collections.abc import Iterator
 
 from gamepad.driver.device_choice import explain
-from node_kit.questions import Answer
+from node_kit.ros_api import Answer
 from tutorial_tools.doctor.facts import DEAD, JOY, Facts, Finding, ok, some, unknown, wrong
 from tutorial_tools.doctor.transforms import transforms
 from tutorial_tools.doctor.way import muxes, rivals, states, topics

@@ -13,8 +13,8 @@ from contextlib import suppress
 from typing import Any, TypeVar
 from xmlrpc.server import SimpleXMLRPCServer
 
-from node_kit import questions
-from node_kit.questions import TIMEOUT_S, Answer, family
+from node_kit import ros_api
+from node_kit.ros_api import TIMEOUT_S, Answer, family
 
 CALLER = f"/doctor_{os.getpid()}"
 LONGEST_MESSAGE = 10_000_000  # bytes; the stamped messages looked at are far shorter
@@ -66,7 +66,7 @@ def is_here(address: str) -> bool:
 
 def call(uri: str, method: str, *arguments: Any) -> tuple[Answer, Any]:
     """Call a master's or a node's method as this program; return (Answer, its value or None)."""
-    answer, value = questions.call(uri, method, *arguments, caller=CALLER)
+    answer, value = ros_api.call(uri, method, *arguments, caller=CALLER)
     return answer, value if answer is Answer.WELL else None
 
 

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 
 from node_kit.arming import DRIVING
-from node_kit.questions import Answer
+from node_kit.ros_api import Answer
 from tutorial_tools.doctor.facts import JOY, TWIST, Facts, Finding, Mux, ok, some, unknown, wrong
 
 SILENT_S = 2.0  # a gamepad in the hand is not still for so long

@@ -6,7 +6,7 @@ import time
 from collections import deque
 from typing import Any
 
-from node_kit.careful_connections import established, header_of, is_connected, renew
+from node_kit.rospy_patches.connections import established, header_of, is_connected, renew
 from node_kit.suspension import Suspensions
 
 # After a renewal [s]: rospy gives a connection up for good if its greeting fails once.

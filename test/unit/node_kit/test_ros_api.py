@@ -6,8 +6,8 @@ from xmlrpc.server import SimpleXMLRPCServer
 
 import pytest
 
-from node_kit import questions
-from node_kit.questions import holder
+from node_kit import ros_api
+from node_kit.ros_api import holder
 
 
 @pytest.fixture
@@ -54,7 +54,7 @@ def test_an_unknown_name_and_that_of_a_dead_node_are_free(serve):
 
 
 def test_a_node_that_accepts_the_connection_and_does_not_answer_holds_its_name(serve, monkeypatch):
-    monkeypatch.setattr(questions, "PATIENCE_S", 0.1)
+    monkeypatch.setattr(ros_api, "PATIENCE_S", 0.1)
     with socket.create_server(("127.0.0.1", 0)) as silent:
         uri = f"http://127.0.0.1:{silent.getsockname()[1]}"
         found = holder(serve(**answering(lookupNode=uri)), "/robot")

@@ -16,8 +16,8 @@ from geometry_msgs.msg import Twist
 from rospy.msg import serialize_message
 
 from node_kit.arming import ZERO, Velocity
-from node_kit.careful_connections import header_of
-from node_kit.newest_only import NewestOnly
+from node_kit.rospy_patches.connections import header_of
+from node_kit.rospy_patches.newest_only import NewestOnly
 
 Peers = Dict[Any, NewestOnly]  # by rospy's connection
 

@@ -7,7 +7,7 @@ import pytest
 from rospy.exceptions import TransportException
 from sensor_msgs.msg import Joy
 
-from node_kit import careful_connections
+from node_kit.rospy_patches import connections
 from node_kit.throttle import Throttle, ThrottleEach
 
 WRONG_LENGTH = b"\x03\0\0\0abc"  # three bytes are no Joy
@@ -17,9 +17,9 @@ WRONG_LENGTH = b"\x03\0\0\0abc"  # three bytes are no Joy
 def read(monkeypatch):
     """Read bytes at a time [s] as a subscription does: the warnings, and the messages or None."""
     now, lines = [0.0], []
-    monkeypatch.setattr(careful_connections, "time", SimpleNamespace(monotonic=lambda: now[0]))
-    monkeypatch.setattr(careful_connections, "_may_warn", ThrottleEach(1.0))
-    monkeypatch.setattr(careful_connections, "_warn", lines.append)
+    monkeypatch.setattr(connections, "time", SimpleNamespace(monotonic=lambda: now[0]))
+    monkeypatch.setattr(connections, "_may_warn", ThrottleEach(1.0))
+    monkeypatch.setattr(connections, "_warn", lines.append)
     subscription = SimpleNamespace(queue_size=10, recv_data_class=Joy, resolved_name="/joy")
 
     def read(data, at, buffer=None):
@@ -27,7 +27,7 @@ def read(monkeypatch):
         buffer, messages = buffer or io.BytesIO(), []
         buffer.write(data)
         try:
-            careful_connections._read_messages(subscription, buffer, messages, None)
+            connections._read_messages(subscription, buffer, messages, None)
         except TransportException:
             assert (buffer.getvalue(), messages) == (b"", [])
             return lines, None

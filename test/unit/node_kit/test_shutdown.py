@@ -5,8 +5,8 @@ from types import SimpleNamespace
 import pytest
 import rospy
 
-from node_kit import ending
-from node_kit.questions import Answer
+from node_kit.ros_api import Answer
+from node_kit.rospy_patches import shutdown
 
 REASON = "[{}] Reason: new node registered with same name"
 OWN, ANOTHER = "http://here:1", "http://here:2"
@@ -21,8 +21,8 @@ def answers(monkeypatch):
         get_publications=lambda: [["/cmd_vel", "Twist"], ["/rosout", "Log"]],
         get_subscriptions=lambda: [["/joy", "Joy"]],
     )
-    monkeypatch.setattr(ending, "call", lambda _uri, method, *_: given[method])
-    monkeypatch.setattr(ending, "_end", lambda _handler, *_: "ended")
+    monkeypatch.setattr(shutdown, "call", lambda _uri, method, *_: given[method])
+    monkeypatch.setattr(shutdown, "_end", lambda _handler, *_: "ended")
     monkeypatch.setattr(rospy, "get_name", lambda: "/robot")
     monkeypatch.setattr(rospy, "get_node_uri", lambda: OWN)
     monkeypatch.setattr(rospy, "logwarn", lambda _line: None)
@@ -49,5 +49,5 @@ SILENT = (Answer.SILENT, None)
 )  # fmt: skip
 def test_a_node_ends_only_if_it_is_meant(answers, about, changed, name, reason, ends):
     answers.update(changed)
-    ended = ending._end_if_meant(None, "/master", reason.format(name)) == "ended"
+    ended = shutdown._end_if_meant(None, "/master", reason.format(name)) == "ended"
     assert ended is ends, about
