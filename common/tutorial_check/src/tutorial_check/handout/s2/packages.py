@@ -8,7 +8,6 @@ import re
 from pathlib import Path
 
 from tutorial_check.course import check
-from tutorial_check.isolation.privileges import own_rights
 from tutorial_check.model import Note, Wrong
 from tutorial_check.record.build import built
 from tutorial_check.record.session import Session
@@ -65,8 +64,7 @@ def _missing(session: Session, name: str, expected: str) -> Wrong:
         hint = f"mv {session.whole(beside)} {session.whole('src')}"
         return Wrong(expected, f"it is beside src: {beside}", beside, hint)
     link = session.layout.source / name
-    with own_rights():
-        leads_to = os.readlink(link) if link.is_symlink() and not link.exists() else ""
+    leads_to = os.readlink(link) if link.is_symlink() and not link.exists() else ""
     if leads_to:
         seen = f"src/{name} is a link to {leads_to}, and leads nowhere here"
         return Wrong(expected, seen, f"src/{name}", "put the folder itself into src, no link")
@@ -147,10 +145,9 @@ def _is_known(session: Session, name: str) -> bool:
     if any(each.name == name for each in session.packages):
         return True
     file = f"cmake/{name}Config.cmake"
-    with own_rights():
-        found = (Path(prefix, "share", name, file).is_file() for prefix in (*prefixes, "/usr"))
-        # Of a package with a library, as roscpp, Debian has it there.
-        return any(found) or any(Path("/usr/lib").glob(f"*/cmake/{name}/{name}Config.cmake"))
+    found = (Path(prefix, "share", name, file).is_file() for prefix in (*prefixes, "/usr"))
+    # Of a package with a library, as roscpp, Debian has it there.
+    return any(found) or any(Path("/usr/lib").glob(f"*/cmake/{name}/{name}Config.cmake"))
 
 
 def _cmake(package: Package) -> str:
