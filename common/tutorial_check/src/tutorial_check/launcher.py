@@ -224,7 +224,9 @@ def judge(
 ) -> list[Outcome]:
     """Make the checks of an order from what a worker answers. Raises CannotCheck."""
     checks, known = checks_of(course), course.exercises  # the task's class is among the checks
-    case = Case(order, task_of(course)(order.variant), ask)
+    task = task_of(course)(order.variant)
+    case = Case(order, task, ask)
+    checks = [replace(one, title=task.fill(one.title), look=task.fill(one.look)) for one in checks]
     outcomes = [
         Outcome(name, title=known[name].title, points=known[name].points)
         for name in order.exercises
