@@ -4,8 +4,10 @@ import os
 import shutil
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
+import kobuki_msgs
 import pytest
 import stored
 
@@ -61,6 +63,34 @@ def pytest_collection_modifyitems(config, items):
 def underlay():
     """setup.bash of the underlay."""
     return os.environ["TUTORIAL_UNDERLAY"]
+
+
+@pytest.fixture
+def folder():
+    """A folder that everybody may enter."""
+    with tempfile.TemporaryDirectory() as made:
+        Path(made).chmod(0o755)
+        yield Path(made)
+
+
+@pytest.fixture
+def bare_underlay(folder):
+    """As much of the underlay as everybody can read: for a build, and no node."""
+    if not all(each.stat().st_mode & 0o001 for each in HERE.parents):
+        pytest.skip(f"{REPOSITORY} is closed to other users")
+    packages = [each.parent for each in REPOSITORY.glob("*/*/src")]
+    packages += [REPOSITORY / "fake_turtlebot_sim"]
+    messages = folder / "messages"  # a copy: what the build made may be closed to others
+    shutil.copytree(Path(kobuki_msgs.__file__).parent, messages / "kobuki_msgs")
+    paths = ":".join([*(str(each / "src") for each in packages), str(messages)])
+    for name in ("devel", "src"):
+        (folder / "underlay" / name).mkdir(parents=True)
+    for each in packages:
+        (folder / "underlay" / "src" / each.name).symlink_to(each)
+    (folder / "underlay" / "devel" / ".catkin").write_text(str(folder / "underlay" / "src"))
+    setup = folder / "underlay" / "devel" / "setup.bash"
+    setup.write_text(f"export PATH=/usr/bin:/bin PYTHONPATH={paths}\n")
+    return setup
 
 
 @pytest.fixture

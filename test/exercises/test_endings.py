@@ -2,9 +2,8 @@
 
 import os
 import signal
-import tempfile
 import time
-from pathlib import Path
+from dataclasses import replace
 
 import pytest
 from edits import TALKER, B, write
@@ -39,13 +38,12 @@ WORKS = {
 
 
 @pytest.fixture
-def scratch():
+def scratch(folder):
     """Where the checker has its copy. Open to the users of programs."""
-    with tempfile.TemporaryDirectory() as folder:
-        Path(folder).chmod(0o755)
-        yield folder
-        for pid in processes_like(f"{folder}/"):  # where the test has failed
-            os.kill(int(pid), signal.SIGKILL)
+    (folder / "scratch").mkdir()
+    yield folder / "scratch"
+    for pid in processes_like(f"{folder}/scratch/"):  # where the test has failed
+        os.kill(int(pid), signal.SIGKILL)
 
 
 def path_without_namespaces(folder):
@@ -56,24 +54,25 @@ def path_without_namespaces(folder):
 
 
 @pytest.fixture(params=["apart", "bare"])
-def environment(request, tmp_path, scratch):
-    """Of a checker that finds namespaces, or none."""
+def environment(request, tmp_path, scratch, underlay):
+    """Of a checker that finds namespaces, or none, with its underlay."""
     path = os.environ["PATH"]
     if request.param == "bare":
         path = path_without_namespaces(tmp_path)
+        underlay = request.getfixturevalue("bare_underlay")
     elif not bubblewrap.granted().options:
         pytest.skip("no namespaces here")
-    return {"PYTHONPATH": PYTHONPATH, "PATH": path, "TMPDIR": scratch}
+    return underlay, {"PYTHONPATH": PYTHONPATH, "PATH": path, "TMPDIR": str(scratch)}
 
 
 @pytest.mark.parametrize("work", WORKS)
 @pytest.mark.parametrize("how", [signal.SIGKILL, *at_night(signal.SIGTERM, signal.SIGHUP)])
-def test_nothing_is_left(literal, underlay, environment, how, work):
+def test_nothing_is_left(literal, environment, scratch, how, work):
     exercise, file, text, seen = WORKS[work]
+    underlay, variables = environment
     write(file, text)(literal)
     words = command(underlay, "--in", literal.parent, exercise)
-    scratch = environment["TMPDIR"]
-    with Program(*words, **environment) as checker:
+    with Program(*words, **variables) as checker:
         wait_for(
             lambda: [pid for pid in processes_like(f"{scratch}/") if seen in command_line(pid)],
             work,
@@ -91,7 +90,7 @@ def test_nothing_is_left(literal, underlay, environment, how, work):
 def test_a_worker_that_is_ended_while_it_starts_leaves_nothing(literal, underlay, tmp_path):
     folder = tmp_path / "folder"
     folder.mkdir()
-    order = order_of(literal.parent, underlay, ["2"], folder)
+    order = replace(order_of(literal.parent, underlay, ["2"], folder), apart=True)
     wrapper = bubblewrap.command(order.folder, order.shown, REPOSITORY)
     for milliseconds in range(0, 20):
         with Worker(order, wrapper):

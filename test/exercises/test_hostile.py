@@ -75,12 +75,10 @@ def processes_like(word):
 
 
 @pytest.fixture
-def scratch(monkeypatch):
+def scratch(folder, monkeypatch):
     """Where the checks of a test have their copies, and no other's. Open to the users of programs."""
-    with tempfile.TemporaryDirectory() as folder:
-        Path(folder).chmod(0o755)
-        monkeypatch.setattr(tempfile, "tempdir", folder)
-        yield folder
+    monkeypatch.setattr(tempfile, "tempdir", str(folder))
+    return folder
 
 
 @pytest.mark.parametrize("what", JOINED)
@@ -96,13 +94,13 @@ def test_a_hostile_joy2twist_has_a_verdict_and_harms_no_file(literal, underlay, 
 
 
 def test_a_link_planted_where_the_checker_writes_is_not_followed(
-    literal, underlay, scratch, monkeypatch
+    literal, bare_underlay, scratch, monkeypatch
 ):
     """Without isolation, where the link leads somewhere."""
     monkeypatch.setattr(bubblewrap, "granted", bubblewrap.Isolation)
     plant = PLANTS_LINKS.format(aim=f"{scratch}/planted")
     put(TALKER, "import rospy\n", f"import rospy\n{plant}", 1)(literal)
-    (outcome,) = examine(literal.parent, underlay, ["3"])
+    (outcome,) = examine(literal.parent, bare_underlay, ["3"])
     assert "C9" in [result.id for result in outcome.results]
     assert not os.path.lexists(f"{scratch}/planted")
 

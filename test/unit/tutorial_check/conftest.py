@@ -40,7 +40,7 @@ def order(tmp_path):
     return Order(
         folder=str(tmp_path), root=str(tmp_path), source=str(tmp_path / "src"), place="",
         is_workspace=True, own=True, exercises=("2",), only_first=False, course="", variant={},
-        underlay="", environment={}, kept=(), shown=(), number=1, apart=False,
+        underlay="", environment={}, kept=(), shown=(), apart=False,
     )  # fmt: skip
 
 

@@ -30,7 +30,9 @@ def looks(name):
 @pytest.fixture
 def examine(tmp_path, monkeypatch):
     """examine(answers, ending, tell): with a script in place of the worker."""
-    (tmp_path / "setup.bash").touch()
+    setup = tmp_path / "lower" / "devel" / "setup.bash"
+    setup.parent.mkdir(parents=True)
+    setup.touch()
     checks = [Check(f"C{n}", n, "", n, function=looks(n)) for n in ("2", "3", "5")]
     monkeypatch.setattr(launcher, "checks_of", lambda course: checks)
 
@@ -38,7 +40,7 @@ def examine(tmp_path, monkeypatch):
         # The order ends with the input; questions come from where answers go.
         script = ["cat >/dev/null", *(f"echo '{line}'; read -r _ <&1" for line in answers), ending]
         monkeypatch.setattr(bubblewrap, "command", lambda *_: ["sh", "-c", "\n".join(script)])
-        return launcher.examine(tmp_path, tmp_path / "setup.bash", ["2", "3", "5"], tell)
+        return launcher.examine(tmp_path, setup, ["2", "3", "5"], tell)
 
     return examined
 

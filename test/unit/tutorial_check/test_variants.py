@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from tutorial_check.course import read_course
 from tutorial_check.handout.task import JoystickTask
-from tutorial_check.model import WRONG, CannotCheck, Result
+from tutorial_check.model import CannotCheck
 from tutorial_check.variants import drawn, read_variant, sheet, variant_of
 
 COURSE = read_course()
@@ -94,38 +94,29 @@ def test_a_task_sheet_has_all_values_and_the_file():
     assert sheet(own, ALL, "{file}") == f"{{file}}: {odd}"
 
 
-def words(field, text, values=None):
-    result = Result("C16", WRONG, "", section="handout 4.3")
-    task = JoystickTask(ALL if values is None else values)
-    return getattr(task.words(dataclasses.replace(result, **{field: text})), field)
-
-
-@pytest.mark.parametrize(
-    ("field", "text", "said"),
-    [
-        ("title", "axis 1, axis 0", "axes[axis_linear], axes[axis_angular]"),
-        ("expected", "x = axes[1]", "x = scale_linear * axes[axis_linear]"),
-        ("seen", "linear.x follows axes[3]", "linear.x follows axes[1]"),
-        ("hint", "linear.x = axes[1]", "linear.x = 0.5 * axes[3]"),
-        ("hint", "the topic is called /cmd_vel", "the topic is called /drive"),
-        ("seen", "it publishes on /unasked/cmd_vel", "it publishes on /cmd_vel"),
-        ("expected", "Twists on /cmd_vel", "Twists on <cmd_vel>"),
-        ("seen", "a package called not_joy2twist", "a package called joy2twist"),
-        ("look", "rosrun joy2twist joy2twist.py", "rosrun <package> joy2twist.py"),
-        ("seen", "it drives with LB released", "it drives with <enable_button> released"),
-        ("expected", "about 10 times a second", "as often as rate says"),
-    ],
-)  # fmt: skip
-def test_words_name_the_values_of_a_task_in_hints_alone(field, text, said):
-    assert words(field, text) == said
-    assert words(field, text, {}) == text
+def test_words_name_the_values_of_a_task_in_hints_alone():
+    task = JoystickTask(ALL)
+    names, answers = task.names, task.answers
+    topics = ("<joy>", "<cmd_vel>", "<package>")
+    assert (names.joy, names.cmd_vel, names.package) == topics
+    assert (answers.joy, answers.cmd_vel, answers.package) == ("/stick", "/drive", "stick_drive")
+    assert names.lb == names.button == "<enable_button>" and answers.lb == "buttons[5]"
+    assert names.axes[:4] == ("axes[axis_angular]", "axes[axis_linear]", "axes[2]", "axes[1]")
+    assert names.rules[1] == "scale_linear * axes[axis_linear]"
+    assert answers.rules == {1: "0.5 * axes[3]", 0: "axes[4]"}
+    assert task.fill("{n.sticks[1]} on {n.joy}") == "axes[axis_linear] on <joy>"
+    names = JoystickTask({}).names
+    assert (names.lb, names.button, *names.rules.values()) == (
+        "LB",
+        "buttons[4]",
+        "axes[1]",
+        "axes[0]",
+    )
 
 
 def test_a_factor_below_0_is_seen_above_0_and_named_as_it_is():
     """The checks send the other sign, and so see the factor above 0; words have it as it is."""
-    values = {"axis_linear": 3, "scale_linear": -0.5}
-    assert JoystickTask(values).factors == {0: 0.5}
-    assert words("hint", "linear.x = axes[1]", values) == "linear.x = -0.5 * axes[3]"
-    seen = "linear.x = -0.40 * axes[1]: the sign is wrong"
-    told = seen.replace("-0.40 * axes[1]", "0.40 * axes[axis_linear]")
-    assert words("seen", seen, values) == told
+    task = JoystickTask({"axis_linear": 3, "scale_linear": -0.5})
+    assert task.factors == {0: 0.5}
+    assert task.answers.rules[1] == "-0.5 * axes[3]"
+    assert task.product(-0.4, 1) == "0.40 * axes[axis_linear]"

@@ -97,13 +97,13 @@ class Case(Session):
         return self._hopeless
 
     def as_sent(self, result: Result) -> Result:
-        """Return a result in the words of the task, with the student's own paths."""
+        """Return a result with the student's own paths."""
         order = self._order
         copied = f"{self.source.parent}/" if order.is_workspace else f"{self.source}/"
         # Commands work in any folder, where the workspace is known.
         is_known = order.own and self.folder not in self.layout.root.parents
         root = f"{shlex.quote(order.root)}/" if is_known else ""
-        found = dict(vars(self.task.words(result)))
+        found = dict(vars(result))
         for name, words in found.items():
             if isinstance(words, str):
                 found[name] = words.replace(copied, root if name in ("hint", "look") else "")

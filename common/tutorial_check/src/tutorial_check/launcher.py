@@ -92,6 +92,7 @@ def examine(
     if not os.path.isfile(underlay):
         why = "no such file, or may not be read; ./tutorial setup builds it"
         raise CannotCheck(f"{underlay}: {why}")
+    user = privileges.unused_user(next(NUMBERS)) if os.geteuid() == 0 else None
     # Isolated, a worker does not reach the folder itself.
     folder, cleaner = privileges.folder_until_end("tutorial_check_")
     try:
@@ -102,12 +103,17 @@ def examine(
             only_first=only_first, own=own, course=course, variant=variant,
         )  # fmt: skip
         wrapper = bubblewrap.command(folder, order.shown, SUITE)
-        outcomes = _examine(
-            replace(order, apart=bool(wrapper)), wrapper, read_course(course), report
-        )
+        order = replace(order, apart=bool(wrapper))
+        if user is not None:
+            _must_be_open(order)
+            privileges.open_to(user, folder)
+        wrapper += privileges.as_user(user)
+        outcomes = _examine(order, wrapper, read_course(course), report)
         remark = "" if own else bubblewrap.instead()
         return [replace(one, place=order.place, remark=remark) for one in outcomes]
     finally:
+        if user is not None:
+            privileges.end_all_of(user)
         shutil.rmtree(folder, ignore_errors=True)
         cleaner.communicate()
 
@@ -133,7 +139,7 @@ def order_of(
         is_workspace=layout.is_workspace, own=own, exercises=tuple(exercises),
         only_first=only_first, course=str(checks), variant=dict(variant), underlay=underlay,
         environment=_environment(underlay), kept=tuple(kept),
-        shown=(*map(str, shown), str(checks), *kept), number=next(NUMBERS),
+        shown=(*map(str, shown), str(checks), *kept),
     )  # fmt: skip
 
 
@@ -160,6 +166,21 @@ def _kept(underlay: str) -> list[str]:
     sources = filter(None, names.read_text().split(";") if names.is_file() else [])
     links = [link for source in sources for link in Path(source).glob("*") if link.is_dir()]
     return [str(devel.parent), *(str(link.resolve()) for link in links)]
+
+
+def _must_be_open(order: Order) -> None:
+    """Raise CannotCheck for a folder that programs of another user need and may not enter."""
+    needed = {Path(each) for each in order.kept}
+    ways = {up for one in (Path(order.folder), *needed) for up in one.parents}
+    for folder in sorted(needed if order.apart else needed | ways):
+        if not folder.stat().st_mode & 0o001:
+            # What is below a needed one is as closed; but a home folder is opened no further.
+            is_needed = needed & {folder, *folder.parents}
+            how = f"{'chmod -R o+rX' if is_needed else 'chmod o+x'} {folder}"
+            raise CannotCheck(
+                f"{folder} is closed to others, and the programs run as another user: {how},"
+                " or keep this suite, TUTORIAL_WORKSPACE and TMPDIR where others may enter"
+            )
 
 
 def _course_within(folder: Path, course: Path) -> Path:
@@ -203,7 +224,9 @@ def judge(
 ) -> list[Outcome]:
     """Make the checks of an order from what a worker answers. Raises CannotCheck."""
     checks, known = checks_of(course), course.exercises  # the task's class is among the checks
-    case = Case(order, task_of(course)(order.variant), ask)
+    task = task_of(course)(order.variant)
+    case = Case(order, task, ask)
+    checks = [replace(one, title=task.fill(one.title), look=task.fill(one.look)) for one in checks]
     outcomes = [
         Outcome(name, title=known[name].title, points=known[name].points)
         for name in order.exercises

@@ -24,5 +24,4 @@ class Order:
     environment: Dict[str, str]  # as in a shell that has sourced it
     kept: Tuple[str, ...]  # what the student's programs need of the suite
     shown: Tuple[str, ...]  # what they may read
-    number: int  # for a separate uid
     apart: bool = False  # in namespaces of its own, by bubblewrap

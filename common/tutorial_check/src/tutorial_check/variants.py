@@ -12,10 +12,9 @@ from typing import Any, Dict, Mapping
 import yaml
 
 from tutorial_check.course import Course, Value, package_of, read_yaml
-from tutorial_check.model import CannotCheck, Result
+from tutorial_check.model import CannotCheck
 
 SHEET = "# {title}: the task of {name}\n\n{tasks}\n\nTo check it yourself keep this as variant.yaml:\n\n{file}"
-UNASKED = "/unasked"  # before a topic that has the checks' name in the student's programs
 Variant = Dict[str, Any]  # {name of a value: what it is}; what is not named is as the course has it
 
 
@@ -29,17 +28,17 @@ class Task:
         """values: those that are given."""
         self.values = values
 
-    def known_as(self, package: str) -> str:
-        """Return the name that the checks know a package of the student's by."""
-        return package
-
     def named(self, package: str) -> str:
         """Return the name that the student's files have for a package that the checks name."""
         return package
 
-    def words(self, result: Result) -> Result:
-        """Return a result in the words of this task, whose values stand in hints alone."""
-        return result
+    def shown(self, package: str) -> str:
+        """Return what stands for that name in messages that are no hints."""
+        return package
+
+    def fill(self, text: str) -> str:
+        """Return the title of a check, or its command, as of this task, and with no value of it."""
+        return text
 
 
 def task_of(course: Course) -> type[Task]:

@@ -30,23 +30,17 @@ from tutorial_check.source import workspace
 if TYPE_CHECKING:
     from tutorial_check.record.ground import Ground
 
-SHARED_PAGES = 1 << 16  # System V shared memory: 256 MB
-
 
 def main() -> None:
     """Read the order, then record what is asked for until nobody asks any more."""
-    os.umask(0o022)  # programs that run as another user read what we write
     privileges.keep_to_itself()
     order = from_json(Order, json.load(sys.stdin))
     if order.apart:
         privileges.prctl(privileges.PR_SET_PDEATHSIG, signal.SIGKILL)  # ends with bwrap
-        with contextlib.suppress(OSError):  # where the kernel does not allow it
-            Path("/proc/sys/kernel/shmall").write_text(str(SHARED_PAGES))
     else:  # its runner notices that the reader has ended, and ends what was started
         signal.signal(signal.SIGTERM, signal.SIG_IGN)
-        privileges.prctl(
-            privileges.PR_SET_CHILD_SUBREAPER, 1
-        )  # in a container no other process may reap
+        # In a container no other process may reap.
+        privileges.prctl(privileges.PR_SET_CHILD_SUBREAPER, 1)
     line = socket.socket(fileno=os.dup(1))
     line.set_inheritable(False)
     os.dup2(2, 1)  # nothing else gets into the answers
@@ -57,7 +51,6 @@ def main() -> None:
             traceback.print_exc()
         _send(line, {"cannot": fault(error)})
     finally:  # the process that made the folder may have been killed
-        privileges.restore_rights()
         shutil.rmtree(order.folder, ignore_errors=True)
 
 
@@ -110,9 +103,7 @@ def _prepared(order: Order, reader: int) -> Ground:
     from tutorial_check.isolation import landlock, runner  # noqa: PLC0415
     from tutorial_check.record.ground import Ground  # noqa: PLC0415
 
-    uid = privileges.unused_user(order.number) if os.geteuid() == 0 else None
-    environment.prepare(scratch, uid)
-    scratch.chmod(0o755)
+    environment.prepare(scratch)
     variables = environment.variables(scratch, order.environment)
     shown: list[str | Path] = [scratch, *order.shown, *bubblewrap.SYSTEM, "/proc"]
     own = [scratch / name for name in environment.OWN]
@@ -123,18 +114,12 @@ def _prepared(order: Order, reader: int) -> Ground:
         scratch,
         layout,
         order.exercises,
-        runner.Runner(variables, uid, order.apart, reader, ruleset),
+        runner.Runner(variables, order.apart, reader, ruleset),
         underlay=order.underlay,
         can_have_devices=order.apart,
         needed=[*order.kept, Path(__file__)],
         task=variants.task_of(course)(order.variant),
     )
-    if uid is not None:
-        if not order.apart:  # then the suite may be where that user cannot read
-            importlib.import_module("rosbag")
-            importlib.import_module("tutorial_check.record.driver")
-        os.setgroups([])
-        privileges.touch_files_as(uid, uid)
     ground.must_start_programs()
     return ground
 

@@ -55,11 +55,12 @@ class Worker:
     """The process that records in isolation."""
 
     def __init__(self, order: Order, wrapper: list[str]) -> None:
-        if not wrapper:
+        """Start it. wrapper: the words before its command that isolate it."""
+        if not order.apart:
             privileges.keep_to_itself()  # and the end of the socket
         environment = {**order.environment, **given(("HOME", "LANG"))}
         environment.update(PATH="/usr/bin:/bin:/usr/sbin:/sbin", PYTHONDONTWRITEBYTECODE="1")
-        self._order, self._is_apart, self._buffer = order, bool(wrapper), b""
+        self._order, self._buffer = order, b""
         self._end_s = time.monotonic() + LONGEST_S
         self._log = tempfile.TemporaryFile("w+")  # noqa: SIM115  closed by __exit__
         # No pipe, which a path in /proc would open: a program could plant a link to that.
@@ -73,7 +74,7 @@ class Worker:
             stderr=self._log,
             env=environment,
             start_new_session=True,
-            pass_fds=bubblewrap.granted().descriptors if wrapper else (),
+            pass_fds=bubblewrap.granted().descriptors if order.apart else (),
             cwd="/",
             text=True,
         )
@@ -90,7 +91,7 @@ class Worker:
         self._line.close()  # so that it ends
         try:
             with contextlib.suppress(subprocess.TimeoutExpired):
-                self._process.wait(0 if self._is_apart else END_S)
+                self._process.wait(0 if self._order.apart else END_S)
         finally:
             if self._process.poll() is None:
                 # With it all of its namespaces. Its group: bubblewrap's child, until it may go on,

@@ -2,7 +2,7 @@
 
 Network: loopback only. Processes, System V shared memory: its own, which end with the check. Files:
 the system and what students use of this suite, read-only; an empty /tmp, /var/tmp and /dev/shm of
-limited size; no /run. Only the checker has capabilities there, where it is root, over these namespaces.
+limited size; no /run. No capability, nor a way to one.
 """
 
 from __future__ import annotations
@@ -20,16 +20,14 @@ from typing import Any, Iterable, Sequence
 from tutorial_check.isolation import landlock
 
 SCRATCH_MB = 600  # for the copy, its build, logs and what the programs write
-# Of /etc not all: the checker, which is root there, may follow a link, and may read more.
 ETC = "alternatives catkin group host.conf hosts ld.so.cache localtime nsswitch.conf passwd python3 ros"
 SYSTEM = (
     *("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32", "/opt/ros"),
     *(f"/etc/{name}" for name in ETC.split()),
 )
 NAMESPACES = ("--unshare-ipc", "--unshare-net", "--unshare-pid", "--unshare-uts", "--as-pid-1")
-# What the checker needs as root: to run programs as another user, and to end them.
-RIGHTS = ("CHOWN", "DAC_OVERRIDE", "FOWNER", "KILL", "SETGID", "SETUID")
-AS_ROOT = ("--cap-drop", "ALL", *(word for each in RIGHTS for word in ("--cap-add", f"CAP_{each}")))
+# Of root's rights only those to become another user.
+AS_ROOT = ("--cap-drop", "ALL", "--cap-add", "CAP_SETGID", "--cap-add", "CAP_SETUID")
 
 
 @dataclass(frozen=True)
@@ -125,9 +123,9 @@ def instead() -> str:
     return "isolated by Landlock alone" if landlock.version() else "not isolated"
 
 
-def _tmpfs(path: str, megabytes: int, has_sizes: bool, mode: str = "0755") -> list[str]:
+def _tmpfs(path: str, megabytes: int, has_sizes: bool) -> list[str]:
     size = ["--size", str(megabytes << 20)] if has_sizes else []
-    return [*size, "--perms", mode, "--tmpfs", path]
+    return [*size, "--perms", "1777", "--tmpfs", path]
 
 
 def command(folder: str | Path, shown: Iterable[str | Path], hidden: str | Path) -> list[str]:
@@ -140,10 +138,8 @@ def command(folder: str | Path, shown: Iterable[str | Path], hidden: str | Path)
     if not isolation.options:
         return []
     mounts = {"/proc": ["--proc", "/proc"], "/dev": ["--dev", "/dev"]}
-    for path in ("/dev/shm", "/tmp", "/var/tmp"):
-        mounts[path] = _tmpfs(path, 64, isolation.has_sizes, "1777")
-    # /dev/input is for a joystick.
-    for path, size_mb in (("/dev/input", 1), (str(hidden), 1), (str(folder), SCRATCH_MB)):
+    sizes_mb = {"/dev/shm": 64, "/tmp": 64, "/var/tmp": 64, "/dev/input": 1}  # one for a joystick
+    for path, size_mb in {**sizes_mb, str(hidden): 1, str(folder): SCRATCH_MB}.items():
         mounts[path] = _tmpfs(path, size_mb, isolation.has_sizes)
     for path in SYSTEM:
         if os.path.islink(path):

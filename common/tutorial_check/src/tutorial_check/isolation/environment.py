@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 from typing import Iterable, Mapping
 
@@ -21,7 +20,7 @@ RVIZ = (
 )
 
 
-OWN = ("home", "tmp", "ws")  # folders of a session that belong to the student's programs
+OWN = ("home", "tmp", "ws")  # folders of a session in which the student's programs may write
 
 
 def environment_of(words: Iterable[str]) -> dict[str, str]:
@@ -46,8 +45,8 @@ def variables(folder: Path, environment: Mapping[str, str]) -> dict[str, str]:
     }
 
 
-def prepare(folder: str | Path, uid: int | None) -> None:
-    """Make the folders of a session, and give those of OWN to the student's programs."""
+def prepare(folder: str | Path) -> None:
+    """Make the folders of a session."""
     folder = Path(folder)
     for name in (*OWN, "bin", "ours", "view/lib/rviz", "view/src/rviz", "devel"):
         (folder / name).mkdir(parents=True, exist_ok=True)
@@ -61,6 +60,3 @@ def prepare(folder: str | Path, uid: int | None) -> None:
     (folder / "view/src/rviz/package.xml").write_text(RVIZ)
     (folder / "view/lib/rviz/rviz").symlink_to(folder / "bin" / "rviz")
     (folder / "devel/.catkin").write_text(str(folder / "ws" / "src"))
-    for name in OWN if uid is not None else ():
-        for path in (folder / name, *(folder / name).rglob("*")):
-            os.chown(path, uid or 0, uid or 0, follow_symlinks=False)

@@ -34,18 +34,17 @@ class Runner:
     def __init__(
         self,
         environment: Mapping[str, str],
-        uid: int | None = None,
         alone: bool = False,
         result: int | None = None,
         ruleset: int | None = None,
     ) -> None:
-        """uid: under which they run, or None; alone: whether they have a PID namespace of their own.
+        """alone: whether they have a PID namespace of their own.
 
         result: a socket without whose reader nothing of this is wanted any more; ruleset: see landlock.
         """
         self.environment = environment
-        self._uid, self._alone, self._result, self._ruleset = uid, alone, result, ruleset
-        self._limits = privileges.limits_of_programs(uid)
+        self._alone, self._result, self._ruleset = alone, result, ruleset
+        self._limits = privileges.limits_of_programs()
         self._open: list[Program] = []
         self._reading: dict[int, Program] = {}  # by the descriptor of its output
         # Left alone: ours, and those that we start, which lead sessions of their own.
@@ -71,7 +70,7 @@ class Runner:
             cwd=self.environment["HOME"],
             env={**self.environment, **(environment or {})},
             start_new_session=True,  # with a group that Ctrl-C reaches, as in a terminal
-            preexec_fn=privileges.restore_rights if trusted else self._restrict,  # noqa: PLW1509  one thread
+            preexec_fn=None if trusted else self._restrict,  # noqa: PLW1509  one thread
         )
         if trusted:
             self.trusted.add(process.pid)
@@ -85,14 +84,10 @@ class Runner:
         return program
 
     def _restrict(self) -> None:
-        """In the child, before the student's program: its limits and its user."""
+        """In the child, before the student's program: its limits and rights."""
         for number in (signal.SIGINT, signal.SIGHUP, signal.SIGTERM):
             signal.signal(number, signal.SIG_DFL)
         privileges.limit(self._limits)
-        if self._uid is not None:
-            os.setgroups([])
-            os.setgid(self._uid)
-            os.setuid(self._uid)
         privileges.give_up_rights()
         if self._ruleset is not None:
             landlock.confine(self._ruleset)

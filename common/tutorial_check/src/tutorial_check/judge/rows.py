@@ -38,6 +38,7 @@ def find(rows: Iterable[Row], facts: object, expected: str = "") -> Wrong | Note
 
 def demand(rows: Iterable[Row], facts: object, expected: str) -> Note | None:
     """Return the Note of the first row that applies, or None. Raises its Wrong."""
+    expected = expected.format(f=facts)
     found = find(rows, facts, expected)
     if isinstance(found, Wrong):
         found.expected = found.expected or expected

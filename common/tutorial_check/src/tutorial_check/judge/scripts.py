@@ -50,7 +50,7 @@ def find_script(session: Session, package: str, name: str) -> str:
         seen = f"a program in C++, {compiled[0].name}"
         hint = f"the exercise asks for Python, rospy: write scripts/{name}; the C++ may stay"
         raise Wrong(f"a program {name}", seen, str(compiled[0].relative_to(folder)), hint)
-    expected = f"a program {name} in the package {package}"
+    expected = f"a program {name} in the package {session.task.shown(package)}"
     hint = f"create scripts/{name} in YOUR package; ./tutorial shell without --in has one of OURS"
     look = f"ls {session.whole('scripts', package)}"
     raise Wrong(expected, "no such file anywhere in it", "", hint, look=look)
@@ -169,7 +169,8 @@ def check_file(session: Session, package: str, script: str) -> None:
     for expected, look, row in OF_A_TEXT:
         wrong = find([row], text, expected)
         if isinstance(wrong, Wrong):
-            wrong.look = look.format(whole=text.whole) or f"rosrun {package} {text.name}"
+            start = f"rosrun {session.task.shown(package)} {text.name}"
+            wrong.look = look.format(whole=text.whole) or start
             raise wrong
 
 

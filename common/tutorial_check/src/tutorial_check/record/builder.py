@@ -64,7 +64,7 @@ class Builder(Session):
 
     def _build(self) -> Built:
         code, output = self._made()
-        names = [self.task.named(each.name) for each in self.needed]
+        names = [each.name for each in self.needed]
         if code == 0 or len(names) == len(self.packages):
             return Built(code, output)
         found, printed = self._made(f"-DCATKIN_WHITELIST_PACKAGES={';'.join(names)}")

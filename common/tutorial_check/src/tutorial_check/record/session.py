@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import re
 import shlex
-from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any, Callable, Dict, Iterable, Iterator, Mapping, Tuple, TypeVar
@@ -103,12 +102,12 @@ class Session:
 
     @cached_property
     def packages(self) -> list[Package]:
-        """In the order of their paths, by the names that the checks know."""
-        every = packages_below(self.source)
-        return [replace(each, name=self.task.known_as(each.name)) for each in every]
+        """In the order of their paths."""
+        return packages_below(self.source)
 
     def package(self, name: str) -> Any:
-        return next((each for each in self.packages if each.name == name), None)
+        """Return the package that the checks know by a name, or None."""
+        return next((each for each in self.packages if each.name == self.task.named(name)), None)
 
     def scripts(self, name: str) -> dict[str, PythonFacts]:
         """Return {path within the package: PythonFacts} of the Python programs of a package."""
@@ -151,7 +150,7 @@ class Session:
     @property
     def needed(self) -> list[Package]:
         """The packages of the exercises, and those of the workspace that they depend on."""
-        found, names = [], set(SOLUTIONS)
+        found, names = [], set(map(self.task.named, SOLUTIONS))
         for _ in self.packages:
             found = [each for each in self.packages if each.name in names]
             names |= {name for each in found for name in each.depends}

@@ -12,7 +12,6 @@ from tutorial_check.isolation import helper_process
 from tutorial_check.isolation.program import Program
 from tutorial_check.model import CANNOT_START, CannotCheck, CutShort
 from tutorial_check.record.builder import Builder
-from tutorial_check.variants import UNASKED
 
 START_S = 8.0  # a node of the student's has this long to appear
 SETTLE_S = 0.5  # once connected, a thread of it has this long to attach its callback
@@ -30,8 +29,6 @@ class Stage:
 
         self.session, self.runner, self.wait = session, session.runner, session.runner.wait
         self._topics = dict(session.task.topics) if renamed else {}
-        asked = {own: topic for topic, own in self._topics.items()}
-        self._known_as = {**{topic: f"{UNASKED}{topic}" for topic in self._topics}, **asked}
         with socket.socket() as probe:
             probe.bind(("127.0.0.1", 0))
             port = probe.getsockname()[1]
@@ -84,14 +81,7 @@ class Stage:
         """Call a method of the driver. Stop waiting if the master has ended: rospy would retry without end."""
         if arguments:
             arguments = (self._topics.get(arguments[0], arguments[0]), *arguments[1:])
-        found = self._driver.call(method, *arguments, in_vain=lambda: not self.master_lives)
-        if method == "state":
-            return tuple(map(self._as_known, found))
-        return self._as_known(found) if method == "types" else found
-
-    def _as_known(self, topics: dict[str, Any]) -> dict[str, Any]:
-        """Return what is known of topics, by the names that the checks have for them."""
-        return {self._known_as.get(topic, topic): about for topic, about in topics.items()}
+        return self._driver.call(method, *arguments, in_vain=lambda: not self.master_lives)
 
     @property
     def master_lives(self) -> bool:

@@ -15,7 +15,6 @@ from xml.etree import ElementTree
 
 from catkin_pkg.package import InvalidPackage, parse_package
 
-from tutorial_check.isolation.privileges import own_rights
 from tutorial_check.model import CannotCheck
 
 MOST_BYTES = 300 << 20  # sources of a workspace, including bags
@@ -248,7 +247,6 @@ def packages_below(folder: str | Path) -> list[Package]:
     return found
 
 
-@own_rights()
 def packages_beside(layout: Layout) -> list[Package]:
     """Return the packages in a workspace right beside its src; deeper ones may be another student's."""
     root = layout.root  # a home folder is not shown to the examination
@@ -283,7 +281,6 @@ def _name_in(manifest: Path) -> str | None:
         return None
 
 
-@own_rights()
 def underlays(devel: str | Path) -> tuple[str, list[str] | None]:
     """Return the folder for which a devel space was made, or ""; and what it was laid over, or None."""
     files = [Path(devel) / name for name in ("_setup_util.py", "setup.sh")]

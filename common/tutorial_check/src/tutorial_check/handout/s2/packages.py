@@ -8,7 +8,6 @@ import re
 from pathlib import Path
 
 from tutorial_check.course import check
-from tutorial_check.isolation.privileges import own_rights
 from tutorial_check.model import Note, Wrong
 from tutorial_check.record.build import built
 from tutorial_check.record.session import Session
@@ -21,7 +20,6 @@ WANTED = {
     "beginner_tutorials": ("std_msgs", "rospy", "roscpp"),
     "joy2twist": ("rospy", "std_msgs", "sensor_msgs", "geometry_msgs"),
 }
-CREATE = {name: f"catkin_create_pkg {name} {' '.join(words)}" for name, words in WANTED.items()}
 
 # What a message of CMake's most often means here: (pattern, what to do). The first that fits counts.
 CMAKE_HINTS = (
@@ -43,9 +41,10 @@ def _similar(name: str, packages: list[Package]) -> Package | None:
 
 
 def _package(session: Session, name: str) -> Package:
-    packages, expected = session.packages, f"one package {name} in src"
-    named = [each for each in packages if each.name == name]
-    broken = [each for each in packages if each.error and name in (each.name, each.folder.name)]
+    packages, expected = session.packages, f"one package {session.task.shown(name)} in src"
+    own = session.task.named(name)
+    named = [each for each in packages if each.name == own]
+    broken = [each for each in packages if each.error and own in (each.name, each.folder.name)]
     if broken:
         raise unreadable(broken[0])
     must_be_one(named)
@@ -61,23 +60,24 @@ def _package(session: Session, name: str) -> Package:
 
 def _missing(session: Session, name: str, expected: str) -> Wrong:
     """Return the Wrong for a package that is not there, or is elsewhere, or has another name."""
-    for beside in (each.inside for each in packages_beside(session.layout) if each.name == name):
+    own = session.task.named(name)
+    for beside in (each.inside for each in packages_beside(session.layout) if each.name == own):
         hint = f"mv {session.whole(beside)} {session.whole('src')}"
         return Wrong(expected, f"it is beside src: {beside}", beside, hint)
-    link = session.layout.source / name
-    with own_rights():
-        leads_to = os.readlink(link) if link.is_symlink() and not link.exists() else ""
+    link = session.layout.source / own
+    leads_to = os.readlink(link) if link.is_symlink() and not link.exists() else ""
     if leads_to:
-        seen = f"src/{name} is a link to {leads_to}, and leads nowhere here"
-        return Wrong(expected, seen, f"src/{name}", "put the folder itself into src, no link")
-    similar = _similar(name, session.packages)
+        seen = f"src/{own} is a link to {leads_to}, and leads nowhere here"
+        return Wrong(expected, seen, f"src/{own}", "put the folder itself into src, no link")
+    similar = _similar(own, session.packages)
     if similar:
-        hint = f"its name must be exactly {name}: lower case, with _ and without -;"
+        hint = f"its name must be exactly {own}: lower case, with _ and without -;"
         hint += " in package.xml, CMakeLists.txt and the folder"
         seen, where = f"a package called {similar.name}", f"{similar.inside}/package.xml"
         return Wrong(expected, seen, where, hint)
     found = ", ".join(each.name for each in session.packages) or "no package at all"
-    hint = f"cd to src of your workspace; {CREATE[name]}. ./tutorial shell without --in has one of OURS"
+    hint = f"cd to src of your workspace; catkin_create_pkg {own} {' '.join(WANTED[name])}."
+    hint += " ./tutorial shell without --in has one of OURS"
     return Wrong(expected, f"none; found: {found}", hint=hint)
 
 
@@ -130,7 +130,7 @@ def beginner_dependencies(session: Session) -> None:
     _dependencies(session, "beginner_tutorials")
 
 
-@check("C12", "package joy2twist and its dependencies", "4.3", look="rospack find joy2twist",
+@check("C12", "package {n.package} and its dependencies", "4.3", look="rospack find {n.package}",
        timeless=True)  # fmt: skip
 def joy2twist(session: Session) -> Note | str | None:
     package = _dependencies(session, "joy2twist")
@@ -147,10 +147,9 @@ def _is_known(session: Session, name: str) -> bool:
     if any(each.name == name for each in session.packages):
         return True
     file = f"cmake/{name}Config.cmake"
-    with own_rights():
-        found = (Path(prefix, "share", name, file).is_file() for prefix in (*prefixes, "/usr"))
-        # Of a package with a library, as roscpp, Debian has it there.
-        return any(found) or any(Path("/usr/lib").glob(f"*/cmake/{name}/{name}Config.cmake"))
+    found = (Path(prefix, "share", name, file).is_file() for prefix in (*prefixes, "/usr"))
+    # Of a package with a library, as roscpp, Debian has it there.
+    return any(found) or any(Path("/usr/lib").glob(f"*/cmake/{name}/{name}Config.cmake"))
 
 
 def _cmake(package: Package) -> str:

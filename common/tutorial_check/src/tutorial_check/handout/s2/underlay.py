@@ -8,7 +8,6 @@ from typing import Sequence
 
 from tutorial_check.course import check
 from tutorial_check.handout.s2.packages import WANTED
-from tutorial_check.isolation import privileges
 from tutorial_check.model import Note, Wrong
 from tutorial_check.record.session import Session
 from tutorial_check.source.manifests import is_stand_in
@@ -21,13 +20,7 @@ AGAIN = "in the workspace: rm -r build devel, then catkin_make"
 @check("C1", "the workspace", "2.1", look="ls src devel", timeless=True, eager=True)
 def workspace(session: Session) -> Note | str | None:
     layout = session.layout
-    with privileges.own_rights():  # no program writes here
-        has_source = layout.source.is_dir()
-        within = [layout.source / name for name in ("build", "devel")]
-        is_built_within = has_source and any(map(Path.is_dir, within))
-        setup = layout.root / "devel" / "setup.bash"
-        setup_size = setup.stat().st_size if setup.is_file() else None
-    if not has_source:
+    if not layout.source.is_dir():
         seen = f"none in {layout.root}, and no package"
         hint = "is this your workspace? --in ~/ros/hydro/catkin_ws; a new one begins with src"
         raise Wrong("a folder src in the workspace", seen, hint=hint)
@@ -39,13 +32,14 @@ def workspace(session: Session) -> Note | str | None:
     if layout.root.resolve() not in real.parents and not session.may_see(real):
         return Note("never built here (devel is a link that leads elsewhere)")
     made_for, below = underlays(devel)
+    setup = devel / "setup.bash"
     if made_for and os.path.realpath(made_for) != os.path.realpath(devel):
         return Note(f"its devel folder was made elsewhere ({made_for}); built again here")
-    if setup_size is not None and (not made_for or below is None or not setup_size):
+    if setup.is_file() and not (made_for and below is not None and setup.stat().st_size):
         gone = setup.name if made_for and below is not None else "_setup_util.py or setup.sh"
         seen = f"it is not whole: {gone} is missing or empty"
         raise Wrong("a devel folder as catkin_make makes it", seen, "devel", AGAIN)
-    if not made_for and is_built_within:
+    if not made_for and any((layout.source / name).is_dir() for name in ("build", "devel")):
         hint = "catkin_make is called in the workspace: cd .., and remove src/build and src/devel"
         raise Wrong("build and devel beside src", "they are within src", hint=hint)
     if below is None:
@@ -80,9 +74,8 @@ def _check_names(session: Session) -> None:
     """Raise Wrong for a package with the name of one that the exercises need."""
     share = Path(session.underlay).parent / "share"
     for each in session.packages:
-        with privileges.own_rights():
-            is_suite = (share / each.name).is_dir() and not is_stand_in(each.name)
-            brings = (each.folder / "msg", each.folder / "src" / each.name)
+        is_suite = (share / each.name).is_dir() and not is_stand_in(each.name)
+        brings = (each.folder / "msg", each.folder / "src" / each.name)
         is_ros = any(each.name in names for names in WANTED.values())
         # A clone of the real one is no package that catkin_create_pkg made by mistake.
         if is_suite or (is_ros and not any(map(Path.is_dir, brings))):

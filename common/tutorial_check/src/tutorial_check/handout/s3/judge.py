@@ -32,7 +32,6 @@ from tutorial_check.judge.scripts import (
 from tutorial_check.model import Note, Wrong, master_gone
 from tutorial_check.record.session import Session
 
-TALKS = "std_msgs/String on /chatter, about 10 times a second"
 LISTENS = "every text sent on /chatter, displayed once"
 GOES_ON = "it goes on until Ctrl-C"
 LOOP = "while not rospy.is_shutdown(): ..., rate.sleep() within it"
@@ -89,7 +88,7 @@ class Half:
 
     def silent_talker(self) -> Wrong:
         loops = ", and does it loop: while not rospy.is_shutdown()" if self.facts.has_main else ""
-        return self.crash(TALKS, f"does the last line call talker(){loops}?")
+        return self.crash(talks(self.session), f"does the last line call talker(){loops}?")
 
     @property
     def second_line(self) -> str:
@@ -125,6 +124,12 @@ DEAF_LISTENER = (
 )  # fmt: skip
 
 
+def talks(session: Session) -> str:
+    """Return what is expected of the talker."""
+    often = "as often as rate says" if "rate" in session.task.values else "about 10 times a second"
+    return f"std_msgs/String on /chatter, {often}"
+
+
 def scripts(session: Session) -> list[str]:
     return [find_script(session, PACKAGE, name) for name in ("talker.py", "listener.py")]
 
@@ -147,7 +152,7 @@ def talker(session: Session) -> Note | str:
     half = Half(session, is_talker=True)
     seen, facts = half.talk, half.facts
     if not seen.heard:
-        demand(SILENT_TALKER, half, TALKS)
+        demand(SILENT_TALKER, half, talks(session))
     if seen.talker_ended:
         raise crash(session, PACKAGE, half.program, GOES_ON, LOOP)
     times = [when for when, caller, _ in seen.heard if caller == seen.heard[0][1]]
@@ -160,11 +165,13 @@ def talker(session: Session) -> Note | str:
     if min(rate, (len(times) - 1) / max(1e-6, times[-1] - times[0])) > 150:
         words = f"{f'{rate:.0f}' if rate < 1000 else 'thousands of'} messages a second"
         where = f"{half.script}:{facts.loops[0]}" if facts.loops else half.script
-        raise Wrong(TALKS, words, where, "rate.sleep() is missing within the loop", sure=True)
+        raise Wrong(
+            talks(session), words, where, "rate.sleep() is missing within the loop", sure=True
+        )
     if wanted and not abs(rate / wanted - 1) < RATE_TOLERANCE:
         call = facts.first("Rate")
         where = f"{half.script}:{call.line}" if call else half.script
-        raise Wrong(TALKS, f"{rate:.1f} times a second", where, f"rospy.Rate({wanted})")
+        raise Wrong(talks(session), f"{rate:.1f} times a second", where, f"rospy.Rate({wanted})")
     texts = {value for _, _, value in seen.heard}
     if len(texts) == 1:
         return Note(f"always the same text, {texts.pop()!r}; the handout's has the time in it")

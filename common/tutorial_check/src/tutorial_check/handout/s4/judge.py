@@ -68,7 +68,7 @@ def simulated(session: Session) -> Note | str | None:
     if len(drive.publishers) != 1:
         seen = f"{len(drive.publishers)}: {', '.join(drive.publishers)}"
         hint = "end the older version: rosnode list"
-        raise Wrong("one node publishes on /cmd_vel", seen, hint=hint)
+        raise Wrong(f"one node publishes on {session.task.names.cmd_vel}", seen, hint=hint)
     if drive.told_v is None or drive.told_w is None:
         raise Wrong("Twists that the robot obeys", "none came")
     seen = f"{drive.v:.2f} m/s, then {drive.w:.2f} rad/s"
@@ -76,12 +76,13 @@ def simulated(session: Session) -> Note | str | None:
         expected = (
             f"forwards with {drive.told_v:.2f} m/s, then turning left with {drive.told_w:.2f} rad/s"
         )
-        hint = "linear.x = axes[1], angular.z = axes[0], for every Joy"
+        rules = session.task.answers.rules
+        hint = f"linear.x = {rules[1]}, angular.z = {rules[0]}, for every Joy"
         raise Wrong(expected, seen, script, hint)
     return seen
 
 
-@check("C20", "a joystick drives it", "4.5", "C16", look="rostopic echo /joy/axes[1]")
+@check("C20", "a joystick drives it", "4.5", "C16", look="rostopic echo /joy/{n.axes[1]}")
 def joystick(session: Session) -> Note | str | None:
     script = main_script(session)
     seen = session.recording(stick, script)

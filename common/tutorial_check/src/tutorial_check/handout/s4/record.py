@@ -100,7 +100,7 @@ def follow(ground: Ground, script: str) -> Follow:
         if ready:  # its Publisher may be made in the callback
             ready = stage.wait(lambda: program.ended or stage.call("speakers", CMD_VEL), START_S)
         ready = bool(ready) and not program.ended
-        publishers = tuple(sorted(set(stage.call("state")[0].get(CMD_VEL, []))))
+        publishers = tuple(sorted(set(stage.call("state")[0].get(ground.task.topic(CMD_VEL), []))))
         if not ready or len(publishers) != 1:
             return Follow(program.ran, ready, publishers)
         (v, _), told_v = _driven(stage, robot, held(ground, 0.0, FORWARDS), LINEAR)

@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 import statistics
+from dataclasses import replace
 
 from tutorial_check.handout.s4_3.drive import Drive
 from tutorial_check.handout.s4_3.facts import Facts
 from tutorial_check.handout.s4_3.probes import ROUNDED, SILENCES
-from tutorial_check.handout.s4_3.record import CMD_VEL, COUNT, JOY
-from tutorial_check.handout.s4_3.rules import AXES, judge
+from tutorial_check.handout.s4_3.record import COUNT
+from tutorial_check.handout.s4_3.rules import judge
+from tutorial_check.handout.task import AXES
 from tutorial_check.judge.rows import Row, demand, find
 from tutorial_check.model import Note, master_gone
 from tutorial_check.record.session import Session
 
-CONNECTS = "it subscribes to /joy, sensor_msgs/Joy"
+CONNECTS = "it subscribes to {f.n.joy}, sensor_msgs/Joy"
 DISPLAYS = "every Joy displayed with its six axes, two decimals, in one line"
-PUBLISHES = "it publishes on /cmd_vel, geometry_msgs/Twist"
-MAPS = "for each Joy one Twist: linear.x = axes[1], angular.z = axes[0], all else 0"
+PUBLISHES = "it publishes on {f.n.cmd_vel}, geometry_msgs/Twist"
+MAPS = "for each Joy one Twist: linear.x = {f.n.rules[1]}, angular.z = {f.n.rules[0]}, all else 0"
 KEEPS_UP = "at 50 Joys a second as many Twists, each within 50 ms"
 IN_CALLBACK = "publish in the callback alone, once for every Joy; end with rospy.spin()"
 
@@ -30,8 +32,8 @@ HIDDEN = Row(lambda c: c.hidden_crash, lambda c: c.hidden_crash)
 ENDED = Row(lambda c: c.seen.ended_early, lambda c: c.end())
 CONNECTED = (
     Row(lambda c: not c.seen.master_alive, lambda c: master_gone(c.script)),
-    Row(lambda c: not c.seen.connected and JOY in c.seen.subscribers,
-        "it wants {f.wanted} on /joy", "{f.joy_line}", "{f.at[Subscriber]}"),
+    Row(lambda c: not c.seen.connected and c.joy in c.seen.subscribers,
+        "it wants {f.wanted} on {f.n.joy}", "{f.joy_line}", "{f.at[Subscriber]}"),
     Row(lambda c: not (c.seen.samples or c.seen.shown) and c.facts.without_callback,
         "its Subscriber has no callback", "{f.joy_line}", "{f.script}:{found.line}", sure=True),
 )  # fmt: skip
@@ -40,11 +42,11 @@ NOT_CONNECTED = (
     CRASHED,
     HIDDEN,
     ENDED,
-    Row(lambda c: JOY in c.seen.publishers and c.seen.types.get(JOY, "?"),
-        "it PUBLISHES on /joy ({found})",
+    Row(lambda c: c.joy in c.seen.publishers and c.seen.types.get(c.joy, "?"),
+        "it PUBLISHES on {f.n.joy} ({found})",
         "a Subscriber receives what the joystick sends, a Publisher sends", "{f.at[Subscriber]}"),
-    Row(lambda c: c.heard_on.lower() == JOY and c.heard_on,
-        "it subscribes to {found}", "the topic is called /joy, in lower case",
+    Row(lambda c: c.heard_on.lower() == c.joy and c.heard_on,
+        "it subscribes to {found}", "the topic is called {f.a.joy}, in lower case",
         "{f.at[Subscriber]}"),
     Row(lambda c: c.heard_on,
         "it subscribes to {found}", "{f.joy_line}", "{f.at[Subscriber]}"),
@@ -71,10 +73,10 @@ NOT_DISPLAYED = (
         "display data.axes in the callback, with rospy.loginfo(...)", "{f.script}"),
 )  # fmt: skip
 TOPICS = (
-    Row(lambda c: c.seen.publishers.get(JOY),
-        "it publishes on /joy itself ({found[0]})", "/joy belongs to the joystick", "{f.at[Publisher]}"),
+    Row(lambda c: c.seen.publishers.get(c.joy), "it publishes on {f.n.joy} itself ({found[0]})",
+        "{f.a.joy} belongs to the joystick", "{f.at[Publisher]}"),
     Row(lambda c: c.drivers and c.carried,
-        "/cmd_vel carries {found}", "{f.twist_line}", "{f.at[Publisher]}"),
+        "{f.n.cmd_vel} carries {found}", "{f.twist_line}", "{f.at[Publisher]}"),
     Row(lambda c: len(c.drivers) > 1 and ", ".join(c.drivers), "several do: {found}", "",
         "{f.at[Publisher]}"),
     Row(lambda c: c.drivers and c.facts.called_back.get("Publisher"),
@@ -84,7 +86,7 @@ TOPICS = (
 NO_TOPIC = (
     Row(lambda c: c.seen.trouble and c.facts.first("Publisher"), lambda c: c.crash()),
     Row(lambda c: "mux" in c.sent_on and c.sent_on,
-        "it publishes on {found}", "the topic is called /cmd_vel; that of the TurtleBot stands in"
+        "it publishes on {found}", "the topic is called {f.a.cmd_vel}; that of the TurtleBot stands in"
         " the launch file alone, in a <remap>", "{f.at[Publisher]}"),
     Row(lambda c: c.sent_on,
         "it publishes on {found}", "{f.twist_line}", "{f.at[Publisher]}"),
@@ -117,7 +119,7 @@ ONCE = (
 )  # fmt: skip
 RIGHT_RULE = (
     Row(lambda c: c.seen.unanswered and not c.complaint and c.seen.trouble, lambda c: c.crash()),
-    Row(lambda c: not c.complaint and c.seen.unanswered and find(SILENCES, c.seen.silence),
+    Row(lambda c: not c.complaint and c.seen.unanswered and find(SILENCES, c.seen.silence(c.session.task)),
         "{found.seen}", "{found.hint}", "{f.at[publish]}"),
     Row(lambda c: c.complaint, lambda c: c.odd()),
     Row(lambda c: c.seen.trouble and c.crash(), "right, but also: {found.seen}", "{found.hint}",
@@ -157,9 +159,9 @@ def check_displays(session: Session, seen: Drive, few_are_enough: bool = False) 
 def check_topics(session: Session, seen: Drive) -> Note | str:
     one = check_connected(session, seen)
     note = demand(TOPICS, one, PUBLISHES)
-    if CMD_VEL not in seen.publishers:
+    if one.cmd_vel not in seen.publishers:
         demand(NO_TOPIC, one, PUBLISHES)
-    return note or "/joy -> /cmd_vel"
+    return note or f"{one.n.joy} -> {one.n.cmd_vel}"
 
 
 def check_mapping(session: Session, seen: Drive) -> Note | None:
@@ -169,10 +171,11 @@ def check_mapping(session: Session, seen: Drive) -> Note | None:
         demand([SLEEPING], one, MAPS)
     if len(seen.samples) < COUNT * 0.9:
         demand(ANSWERED, one, MAPS)
-    one.complaint, one.hint = judge(seen.evidence)
+    task = session.task
+    one.complaint, one.hint = judge(replace(seen.evidence, task=task))
     if not one.complaint:
         one.remark = one.hint
-        one.complaint, one.hint = seen.judge_probes()
+        one.complaint, one.hint = seen.judge_probes(task)
     demand(ONCE, one, MAPS)
     return demand(RIGHT_RULE, one, MAPS)
 

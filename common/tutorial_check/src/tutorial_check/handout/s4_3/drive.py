@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import statistics
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Dict, Optional, Tuple
 
 from tutorial_check.handout.s4_3 import probes
 from tutorial_check.handout.s4_3.rules import FIELDS, Evidence, judge
-from tutorial_check.handout.task import Joy
+from tutorial_check.handout.task import HANDOUT, Joy, JoystickTask
 from tutorial_check.isolation.program import Ran
 from tutorial_check.record.recording import Topics
 
@@ -79,16 +79,15 @@ class Drive:
         """What is odd about the answers to the numbered Joys; empty if nothing is."""
         return judge(self.evidence)[0]
 
-    def judge_probes(self) -> tuple[str, str]:
+    def judge_probes(self, task: JoystickTask = HANDOUT) -> tuple[str, str]:
         """Return what is wrong with the answers to the probes, and what to do; empty if nothing is."""
-        about = self.evidence.factors, self.needs_button
-        return probes.judge_probes(self.samples, self.answers, *about)
+        evidence = replace(self.evidence, task=task)
+        return probes.judge_probes(evidence, self.answers, self.needs_button)
 
-    @property
-    def silence(self) -> probes.Silence | None:
-        """The first probe that was not answered."""
+    def silence(self, task: JoystickTask) -> probes.Silence | None:
+        """Return the first probe that was not answered."""
         last = self.answers[-1][1] if self.answers else (1.0,)
-        return probes.Silence(*self.unanswered, last) if self.unanswered else None
+        return probes.Silence(*self.unanswered, last, task) if self.unanswered else None
 
     @property
     def delay_s(self) -> float | None:

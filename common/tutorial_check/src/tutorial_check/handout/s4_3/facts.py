@@ -33,33 +33,70 @@ class Facts:
         self.facts = facts = session.scripts(PACKAGE)[seen.script]
         self.calls = calls = facts.calls  # by name
         self.complaint, self.remark, self.hint = "", "", ""
-        self.joy_line = with_import("rospy.Subscriber('/joy', Joy, callback)", "Joy", facts)
-        line = "rospy.Publisher('/cmd_vel', Twist, queue_size=10)"
-        self.twist_line = with_import(line, "Twist", facts)
+        self.n, self.a = session.task.names, session.task.answers  # for the texts of the rows
+        self.joy, self.cmd_vel = map(session.task.topic, (JOY, CMD_VEL))  # in its program
         # {name of a function: where it is called first}
         places = {name: f"{self.script}:{each[0].line}" for name, each in calls.items()}
         self.at = collections.defaultdict(lambda: self.script, places)
-        # Where a loop publishes, or else a Timer or Rate is made.
-        timers = [call.line for name in ("Timer", "Rate") for call in calls.get(name, [])]
-        self.loop = self._first(facts.publishing_loops or timers)
-        # Where a second Twist may come from: a second publish in a callback, or a second Subscriber.
-        publishes = facts.called_back.get("publish", [])
-        subscribers = [call.line for call in calls.get("Subscriber", [])]
-        self.second = self._first([each[1] for each in (publishes, subscribers) if len(each) > 1])
-        self.sleep = self._first(seen.sleep_lines)
-        call = facts.first("Subscriber")
-        self.wanted = call.words[1] if call and len(call.words) > 1 else "another type"
-        kind, own = seen.types.get(CMD_VEL), session.task.topic(CMD_VEL)
-        refused = any("datatype" in line and own in line for line in seen.warnings)
-        self.carried = kind if kind != "geometry_msgs/Twist" or refused else ""
-        self.heard_on = other_topic(seen.subscribers, JOY, seen.types, "sensor_msgs/Joy")
-        self.sent_on = other_topic(seen.publishers, JOY, seen.types, "geometry_msgs/Twist")
-        self.drivers = sorted(set(seen.publishers.get(CMD_VEL, ())))
-        publishers = calls.get("Publisher", [])
-        self.has_latch = any(call.names.get("latch") == "True" for call in publishers)
 
     def _first(self, lines: Sequence[int]) -> str:
         return f"{self.script}:{lines[0]}" if lines else self.script
+
+    @property
+    def joy_line(self) -> str:
+        line = f"rospy.Subscriber('{self.a.joy}', Joy, callback)"
+        return with_import(line, "Joy", self.facts)
+
+    @property
+    def twist_line(self) -> str:
+        line = f"rospy.Publisher('{self.a.cmd_vel}', Twist, queue_size=10)"
+        return with_import(line, "Twist", self.facts)
+
+    @property
+    def loop(self) -> str:
+        """Where a loop publishes, or else a Timer or Rate is made."""
+        timers = [call.line for name in ("Timer", "Rate") for call in self.calls.get(name, [])]
+        return self._first(self.facts.publishing_loops or timers)
+
+    @property
+    def second(self) -> str:
+        """Where a second Twist may come from: a second publish in a callback, or a second Subscriber."""
+        publishes = self.facts.called_back.get("publish", [])
+        subscribers = [call.line for call in self.calls.get("Subscriber", [])]
+        return self._first([each[1] for each in (publishes, subscribers) if len(each) > 1])
+
+    @property
+    def sleep(self) -> str:
+        return self._first(self.seen.sleep_lines)
+
+    @property
+    def wanted(self) -> str:
+        """The type that its Subscriber asks for."""
+        call = self.facts.first("Subscriber")
+        return call.words[1] if call and len(call.words) > 1 else "another type"
+
+    @property
+    def carried(self) -> str | None:
+        """The type of its velocities, if that is another; or empty."""
+        kind, warnings = self.seen.types.get(self.cmd_vel), self.seen.warnings
+        refused = any("datatype" in line and self.cmd_vel in line for line in warnings)
+        return kind if kind != "geometry_msgs/Twist" or refused else ""
+
+    @property
+    def heard_on(self) -> str:
+        return other_topic(self.seen.subscribers, self.joy, self.seen.types, "sensor_msgs/Joy")
+
+    @property
+    def sent_on(self) -> str:
+        return other_topic(self.seen.publishers, self.joy, self.seen.types, "geometry_msgs/Twist")
+
+    @property
+    def drivers(self) -> list[str]:
+        return sorted(set(self.seen.publishers.get(self.cmd_vel, ())))
+
+    @property
+    def has_latch(self) -> bool:
+        return any(call.names.get("latch") == "True" for call in self.calls.get("Publisher", []))
 
     @property
     def first_version(self) -> str:

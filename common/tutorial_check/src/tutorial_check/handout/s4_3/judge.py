@@ -38,11 +38,11 @@ def check_manifest(session: Session, script: str) -> None:
     call = facts.first("load_manifest") if facts else None
     if not facts or not call or not call.words or call.words[0] in facts.names:
         return  # PKG = "joy2twist": what is in it shows when the program runs
-    if session.package(session.task.known_as(call.words[0])):
+    if any(each.name == call.words[0] for each in session.packages):
         return
     if not session.recording(found, call.words[0]).found:
         expected = "roslib.load_manifest names a package that exists"
-        hint = f"load_manifest('{PACKAGE}'); or leave the line out: catkin needs it no more"
+        hint = f"load_manifest('{session.task.named(PACKAGE)}'); or leave the line out: catkin needs it no more"
         seen = f"ResourceNotFound: {call.words[0]}"
         raise Wrong(expected, seen, f"{script}:{call.line}", hint)
 
@@ -51,7 +51,7 @@ def _seen(session: Session) -> Drive:
     return session.recording(drive, main_script(session))
 
 
-@check("C13", "joy2twist.py can be run", "4.3", "C12", look="rosrun joy2twist joy2twist.py",
+@check("C13", "joy2twist.py can be run", "4.3", "C12", look="rosrun {n.package} joy2twist.py",
        timeless=True)  # fmt: skip
 def file(session: Session) -> Note | str:
     script = find_script(session, PACKAGE, NAME)
@@ -65,16 +65,17 @@ def file(session: Session) -> Note | str:
 
 
 @check("C14", "it displays every Joy", "4.3", "C13",
-       look="rosrun joy2twist joy2twist.py; rostopic echo /joy")  # fmt: skip
+       look="rosrun {n.package} joy2twist.py; rostopic echo {n.joy}")  # fmt: skip
 def displays(session: Session) -> Note | None:
     return diagnoses.check_displays(session, _seen(session))
 
 
-@check("C15", "/joy in, /cmd_vel out", "4.3", "C13", look="rosnode info NODE")
+@check("C15", "{n.joy} in, {n.cmd_vel} out", "4.3", "C13", look="rosnode info NODE")
 def topics(session: Session) -> Note | str:
     seen = _seen(session)
     about = diagnoses.check_topics(session, seen)
-    name, node = session.task.values.get("node"), seen.subscribers.get(JOY, [""])[0]
+    name = session.task.values.get("node")
+    node = seen.subscribers.get(session.task.topic(JOY), [""])[0]
     if name and not re.fullmatch(rf"/{name}(_\d+_\d+)?", node):
         call = session.scripts(PACKAGE)[seen.script].first("init_node")
         where = f"{seen.script}:{call.line}" if call else seen.script
@@ -83,12 +84,13 @@ def topics(session: Session) -> Note | str:
     return about
 
 
-@check("C16", "axis 1 drives forwards, axis 0 turns", "4.3", "C15", look="rostopic echo /cmd_vel")
+@check("C16", "{n.sticks[1]} drives forwards, {n.sticks[0]} turns", "4.3", "C15",
+       look="rostopic echo {n.cmd_vel}")  # fmt: skip
 def mapping(session: Session) -> Note | None:
     return diagnoses.check_mapping(session, _seen(session))
 
 
-@check("C17", "it keeps up with the joystick", "4.3", "C16", look="rostopic hz /cmd_vel")
+@check("C17", "it keeps up with the joystick", "4.3", "C16", look="rostopic hz {n.cmd_vel}")
 def rate(session: Session) -> Note | str | None:
     return diagnoses.check_rate(session, _seen(session))
 
@@ -101,7 +103,7 @@ def ctrl_c(session: Session) -> Note | str:
 
 
 @check("C18", "it starts while the joystick sends", "4.3", "C16",
-       look="rosbag play --loop joy.bag; rosrun joy2twist joy2twist.py")  # fmt: skip
+       look="rosbag play --loop joy.bag; rosrun {n.package} joy2twist.py")  # fmt: skip
 def under_load(session: Session) -> Note | None:
     """Start it while 200 Joys a second come. Never a failure."""
     script = main_script(session)

@@ -5,18 +5,17 @@ from __future__ import annotations
 import collections
 import math
 import re
-from types import MappingProxyType
-from typing import Iterable, Mapping, NamedTuple, Sequence, Tuple
+from typing import Iterable, NamedTuple, Sequence, Tuple
 
 from tutorial_check.handout.s4_3 import rules
-from tutorial_check.handout.s4_3.rules import RIGHT, SMALL, Sample
-from tutorial_check.handout.task import LB, Joy
+from tutorial_check.handout.s4_3.rules import RIGHT, SMALL
+from tutorial_check.handout.task import AXES, HANDOUT, LB, Joy, JoystickTask
 from tutorial_check.judge.rows import Row, find
 
 Answer = Tuple[Joy, Sequence[float]]  # and the six values of its Twist
 
 BUTTONS = 12
-REST = (0.0,) * rules.AXES
+REST = (0.0,) * AXES
 FAST = (0.6, 0.7, *REST[2:])
 BACK = tuple(-axis for axis in FAST)
 SLOWEST = 0.25  # an axis below this may be in a dead zone, and is no measure of a factor
@@ -89,10 +88,10 @@ def small_and_button_probes() -> list[Joy]:
     return joys
 
 
-def _other_button(buttons: Sequence[int]) -> str:
+def _other_button(task: JoystickTask, buttons: Sequence[int]) -> str:
     """Return which button is pressed besides LB, or an empty text."""
     pressed = (index for index, value in enumerate(buttons) if value and index != LB)
-    return next((f"buttons[{index}]" for index in pressed), "")
+    return next((f"buttons[{task.buttons.get(index, index)}]" for index in pressed), "")
 
 
 class Silence(NamedTuple):
@@ -101,25 +100,28 @@ class Silence(NamedTuple):
     joy: Joy
     before: Joy
     last: Sequence[float]
+    task: JoystickTask = HANDOUT
 
     @property
     def still_axis(self) -> str:
-        return next((f"axes[{axis}]" for axis in RIGHT.values() if not self.joy[0][axis]), "")
+        axes = self.task.names.axes
+        return next((axes[axis] for axis in RIGHT.values() if not self.joy[0][axis]), "")
 
 
 ALWAYS = "publish for every Joy, with no `if` around it"
 SILENCES = (
     Row(lambda s: not s.joy[1][LB] and not s.before[1][LB] and not any(s.last),
-        "only one zero after LB is released, and then silence",
-        "without LB publish Twist(), all zero, for every Joy, not only for the first"),
+        "only one zero after {f.task.names.lb} is released, and then silence",
+        "without {f.task.answers.lb} publish Twist(), all zero, for every Joy, not only for the first"),
     Row(lambda s: s.joy == s.before, "no Twist for the same Joy again",
         ALWAYS + ": not only for a new one"),
-    Row(lambda s: _other_button(s.joy[1]),
+    Row(lambda s: _other_button(s.task, s.joy[1]),
         "no Twist for a Joy with {found} pressed: the robot drives on",
         "silence stops no robot: to stop it publish Twist(), all zero, before return"),
     Row(lambda s: not s.joy[1][LB],
-        f"no Twist for a Joy with LB released (buttons[{LB}] = 0): the robot drives on",
-        "silence stops no robot: with LB released publish Twist(), all zero"),
+        "no Twist for a Joy with {f.task.names.lb} released ({f.task.names.button} = 0):"
+        " the robot drives on",
+        "silence stops no robot: with {f.task.answers.lb} released publish Twist(), all zero"),
     Row(lambda s: not any(s.joy[0]), "no Twist for a Joy at rest, all axes 0: the robot drives on",
         ALWAYS + ": zero is what stops the robot"),
     Row(lambda s: s.still_axis, "no Twist for a Joy with {found} = 0", ALWAYS),
@@ -137,10 +139,11 @@ class Reply(NamedTuple):
     before: float
     again: float
     last_button: str
+    task: JoystickTask
 
     @property
     def other(self) -> str:
-        return _other_button(self.joy[1])
+        return _other_button(self.task, self.joy[1])
 
     @property
     def differs(self) -> bool:
@@ -159,9 +162,10 @@ class Reply(NamedTuple):
 
     @property
     def when(self) -> str:
-        lb = "" if self.joy[1][LB] else " and LB released"
+        names = self.task.names
+        lb = "" if self.joy[1][LB] else f" and {names.lb} released"
         other = f" and {self.other} pressed" if self.other else ""
-        return f"axes[{self.axis}] is {self.joy[0][self.axis]:.2f}{lb}{other}"
+        return f"{names.axes[self.axis]} is {self.joy[0][self.axis]:.2f}{lb}{other}"
 
 
 REPLIES = (
@@ -178,17 +182,14 @@ REPLIES = (
 
 
 def judge_probes(
-    samples: Sequence[Sample],
-    answers: Iterable[Answer],
-    factors: Mapping[int, float] = MappingProxyType({}),
-    needs_button: bool = False,
+    evidence: rules.Evidence, answers: Iterable[Answer], needs_button: bool = False
 ) -> tuple[str, str]:
     """Return (complaint, hint), as rules.judge() does, about the answers to the probes.
 
-    samples: the numbered Joys, whose rule is right as far as they show. factors: see rules.Evidence.
+    evidence: the numbered Joys, whose rule is right as far as they show.
     needs_button: whether LB must be held to drive.
     """
-    answers = list(answers)
+    answers, samples, task = list(answers), evidence.samples, evidence.task
     odd = rules.no_number([(axes, twist) for (axes, _), twist in answers])
     if odd:
         return odd, "look at what it is calculated from"
@@ -196,10 +197,10 @@ def judge_probes(
     before, last_button = samples[-1][1], ""
     for joy, twist in answers:
         again = known.setdefault(joy, twist)
-        last_button = _other_button(joy[1]) or last_button
+        last_button = _other_button(task, joy[1]) or last_button
         for field, axis in RIGHT.items():
             values = twist[field], before[field], again[field]
-            wrong = find(REPLIES, Reply(rules.FIELDS[field], axis, joy, *values, last_button))
+            wrong = find(REPLIES, Reply(rules.FIELDS[field], axis, joy, *values, last_button, task))
             if wrong:
                 return wrong.seen, wrong.hint
         before = twist
@@ -210,11 +211,14 @@ def judge_probes(
     ]
     for field, axis in RIGHT.items():
         if any(axes[axis] and not axes[1 - axis] and not any(twist) for axes, twist in held):
-            seen = f"{rules.FIELDS[field]} is 0 when axes[{axis}] alone is moved"
-            return seen, f"{rules.FIELDS[field]} = axes[{axis}], whatever the other axis is"
+            seen = f"{rules.FIELDS[field]} is 0 when {task.names.axes[axis]} alone is moved"
+            hint = f"{rules.FIELDS[field]} = {task.answers.rules[axis]}, whatever the other axis is"
+            return seen, hint
     if needs_button and any(any(twist) for (_, buttons), twist in answers if not buttons[LB]):
-        return "the robot drives with LB released", "publish Twist(), all zero, unless LB is held"
-    complaint, hint = rules.judge(rules.Evidence([*samples, *held], factors=factors))
+        hint = f"publish Twist(), all zero, unless {task.answers.lb} is held"
+        return f"the robot drives with {task.names.lb} released", hint
+    whole = rules.Evidence([*samples, *held], factors=evidence.factors, task=task)
+    complaint, hint = rules.judge(whole)
     return (complaint, hint) if complaint else ("", "")
 
 

@@ -7,6 +7,7 @@ import math
 from dataclasses import dataclass, field
 from typing import Iterable, Mapping, NamedTuple, Sequence, Tuple
 
+from tutorial_check.handout.task import AXES, HANDOUT, JoystickTask
 from tutorial_check.judge.rows import Row, find
 
 Sample = Tuple[Sequence[float], Sequence[float]]  # (axes, six values of the Twist)
@@ -15,7 +16,6 @@ FIELDS = ("linear.x", "linear.y", "linear.z", "angular.x", "angular.y", "angular
 LINEAR, ANGULAR = 0, 5  # the two fields that a robot in the plane obeys
 RIGHT = {LINEAR: 1, ANGULAR: 0}  # the axis that each of them follows
 SMALL = 1e-4
-AXES = 6
 
 
 class Rule(NamedTuple):
@@ -76,6 +76,7 @@ class Evidence:
     again: list[Sample] = field(default_factory=list)
     at_rest: Sequence[float] | None = None
     factors: Mapping[int, float] = field(default_factory=dict)
+    task: JoystickTask = HANDOUT  # for the words
 
     def __post_init__(self) -> None:
         twists = [twist for _, twist in self.samples]
@@ -90,14 +91,18 @@ class Evidence:
         if index is None:
             return ""
         rule = self.rules[index]
-        return f"{FIELDS[index]} follows axes[{rule.axis}]" if rule else f"{FIELDS[index]} is not 0"
+        follows = rule and f"follows {self.task.names.axes[rule.axis]}"
+        return f"{FIELDS[index]} {follows or 'is not 0'}"
 
 
 class Field:
     """One field of the Twists, beside the axis that it should follow."""
 
     def __init__(self, evidence: Evidence, index: int, axis: int) -> None:
-        self.name, self.axis, self.across_axis = FIELDS[index], axis, 1 - axis
+        self.task, self.name, self.axis = evidence.task, FIELDS[index], axis
+        self.n, self.a = self.task.names, self.task.answers  # for the texts of the rows
+        self.just = self.a.rules[axis]
+        self.n_axis, self.n_across = self.n.axes[axis], self.n.axes[1 - axis]
         self.sides = ("forwards", "backwards") if axis == 1 else ("left", "right")
         self.values = [twist[index] for _, twist in evidence.samples]
         self.given = [axes[axis] for axes, _ in evidence.samples]
@@ -124,6 +129,10 @@ class Field:
         both = [(earlier[key], now) for key, now in zip(keys, self.values) if key in earlier]
         self.other_answer = next((each for each in both if not is_near(*each)), None)
 
+    @property
+    def product(self) -> str:
+        return self.task.product(self.rule.factor, self.axis) if self.rule else ""
+
     def follows(self, inputs: Iterable[float]) -> bool:
         return bool(factor_of(self.values, list(inputs)))
 
@@ -148,7 +157,7 @@ class Field:
             both = zip(self.axes, self.values)
             fits = all(abs(p * axes[i] + q * axes[j] - value) < 1e-3 for axes, value in both)
             if fits and min(abs(p), abs(q)) > 0.05:
-                return f"{p:.2f} * axes[{i}] {'-' if q < 0 else '+'} {abs(q):.2f} * axes[{j}]"
+                return f"{self.task.product(p, i)} + {self.task.product(q, j)}".replace("+ -", "- ")
         return ""
 
     @property
@@ -205,8 +214,9 @@ def no_number(samples: Iterable[Sample]) -> str:
     return "{} is {}, which is no number".format(*odd) if odd else ""
 
 
-JUST = "{f.name} = axes[{f.axis}]"
-WRONG_SIGN = "{f.name} = {f.rule.factor:.2f} * axes[{f.axis}]: the sign is wrong"
+JUST = "{f.name} = {f.just}"
+PRODUCT = "{f.name} = {f.product}"
+WRONG_SIGN = PRODUCT + ": the sign is wrong"
 ONLY_THIS = "{f.name} comes from this Joy alone: no +=, no mean, nothing kept"
 BEFORE = (
     Row(lambda e: no_number(e.samples), "{found}", "look at what it is calculated from"),
@@ -215,15 +225,16 @@ BEFORE = (
 )  # fmt: skip
 # Of a field that does not follow its axis by a constant. The first row that applies counts.
 OF_A_FIELD = (
-    Row(lambda f: f.is_scaled, "{f.name} = {f.rule.factor:.2f} * axes[{f.axis}]", JUST),
+    Row(lambda f: f.is_scaled, PRODUCT, JUST),
     Row(lambda f: f.wanted and f.rule and f.rule.axis == f.axis, WRONG_SIGN, JUST),
     Row(lambda f: f.rule and f.rule.axis == f.axis, WRONG_SIGN,
         "pushed {f.sides[0]}, the robot goes {f.sides[1]}: leave the minus out"),
-    Row(lambda f: f.is_swapped, "angular.z follows axes[1] and linear.x axes[0]: they are swapped",
-        "linear.x = axes[1] (forwards), angular.z = axes[0] (left)"),
-    Row(lambda f: f.rule, "{f.name} follows axes[{found.axis}]", JUST),
+    Row(lambda f: f.is_swapped,
+        "angular.z follows {f.n.axes[1]} and linear.x {f.n.axes[0]}: they are swapped",
+        "linear.x = {f.a.rules[1]} (forwards), angular.z = {f.a.rules[0]} (left)"),
+    Row(lambda f: f.rule and f.n.axes[f.rule.axis], "{f.name} follows {found}", JUST),
     Row(lambda f: f.is_still and f.misplaced,
-        "{found} follows axes[{f.axis}], {f.name} stays 0",
+        "{found} follows {f.n_axis}, {f.name} stays 0",
         "a robot in the plane drives along x and turns about z: linear.x and angular.z"),
     Row(lambda f: f.is_still, "{f.name} is always 0", JUST),
     Row(lambda f: f.mixture, "{f.name} = {found}: two axes in one", JUST),
@@ -235,25 +246,25 @@ OF_A_FIELD = (
     Row(lambda f: f.other_answer,
         "{f.name} depends on earlier Joys: the same Joy gives {found[0]:.2f} and {found[1]:.2f}",
         ONLY_THIS),
-    Row(lambda f: f.has_lost_its_sign, "{f.name} has lost the sign of axes[{f.axis}]",
+    Row(lambda f: f.has_lost_its_sign, "{f.name} has lost the sign of {f.n_axis}",
         JUST + ", without abs or a square"),
     Row(lambda f: f.follows(g if a >= 0 else -g for g, a in zip(f.given, f.across)),
-        "{f.name} changes sign when axes[{f.across_axis}] is negative",
+        "{f.name} changes sign when {f.n_across} is negative",
         JUST + ", whatever the other axis is"),
     Row(lambda f: len({round(value, 6) for value in f.values}) == 1,
         "{f.name} is always {f.values[0]:.2f}", JUST),
     Row(lambda f: all(value == round(value) for value in f.values),
         "{f.name} has whole numbers only", JUST + ", without int() or round()"),
-    Row(lambda f: f.side_left_out, "{f.name} is 0 wherever axes[{f.axis}] is {found} 0",
+    Row(lambda f: f.side_left_out, "{f.name} is 0 wherever {f.n_axis} is {found} 0",
         JUST + ", of either sign"),
     Row(lambda f: f.offset,
-        "{f.name} = axes[{f.axis}] + {found}: released, the robot still moves", JUST),
+        "{f.name} = {f.n_axis} + {found}: released, the robot still moves", JUST),
     Row(lambda f: abs(f.at_rest) > SMALL,
         "{f.name} is {f.at_rest:.2f} at rest, all axes 0: the robot never stands still", JUST),
     Row(lambda f: f.steps,
-        "{f.name} has steps, as {found}: it does not follow axes[{f.axis}] between them",
+        "{f.name} has steps, as {found}: it does not follow {f.n_axis} between them",
         JUST + ", without round(), and not one speed for many positions"),
-    Row(lambda f: not f.is_curve or f.wanted, "{f.name} is no constant times axes[{f.axis}]", JUST),
+    Row(lambda f: not f.is_curve or f.wanted, "{f.name} is no constant times {f.n_axis}", JUST),
 )  # fmt: skip
 AFTER = (
     Row(lambda e: e.extra, "{found}",
@@ -275,7 +286,7 @@ def _remark(evidence: Evidence) -> str:
         are = "are curves of their axes" if len(curves) > 1 else "is a curve of its axis"
         return f"{' and '.join(curves)} {are}, not a constant times it"
     scaled = [
-        f"{f.name} = {f.rule.factor:.2f} * axes[{f.axis}]"
+        f"{f.name} = {f.product}"
         for f in evidence.fields
         if f.rule and abs(f.rule.factor - 1) > 0.02 and not f.wanted
     ]

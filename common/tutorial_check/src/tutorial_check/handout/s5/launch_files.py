@@ -43,7 +43,8 @@ class LaunchFile:
         self.text = read(self.path)
         self.facts = session.memo("launch facts", lambda: _read(session)).get(name)
         self.nodes: list[Node] = self.facts["nodes"]  # that it starts
-        self.own = [node for node in self.nodes if node["package"] == PACKAGE]
+        self.package = session.task.named(PACKAGE)
+        self.own = [node for node in self.nodes if node["package"] == self.package]
 
     def at(self, *words: str) -> str:
         """Return FILE:LINE of the first line with the first of the words that is there; else the file."""
@@ -87,13 +88,13 @@ def copy_bag(session: Session) -> str:
 
 def find_launch(session: Session, name: str) -> Path:
     """Return the path of a launch file in the student's package. Raises Wrong."""
-    folder = session.package(PACKAGE).folder
+    folder, own = session.package(PACKAGE).folder, session.task.named(PACKAGE)
     found = sorted(path for path in folder.rglob(name) if path.is_file())
     if len(found) > 1:
         inside = [str(path.relative_to(folder)) for path in found]
         hint = f"roslaunch says 'multiple files named {name}' and starts nothing: keep one in"
         seen = f"several: {', '.join(inside)}"
-        raise Wrong(f"one file {name}", seen, inside[1], f"{hint} {PACKAGE}/launch")
+        raise Wrong(f"one file {name}", seen, inside[1], f"{hint} {own}/launch")
     if found:
         return found[0]
     paths = sorted(path for path in session.source.rglob("*launch*") if path.is_file())
@@ -101,10 +102,10 @@ def find_launch(session: Session, name: str) -> Path:
     near = [other for other in others if other.lower() == name.lower()]
     strange = [other for other in others if other not in ALL]
     near = near or difflib.get_close_matches(name, strange, 1, 0.85)
-    expected = f"{PACKAGE}/launch/{name}"
+    expected = f"{session.task.names.package}/launch/{name}"
     if near:
         other = os.path.relpath(others[near[0]], session.source)
-        hint = f"its name must be {name}, and its place {PACKAGE}/launch"
+        hint = f"its name must be {name}, and its place {own}/launch"
         raise Wrong(expected, f"a file {other}", other, hint)
     hint = f"write it: launch/{name} in YOUR package. ./tutorial shell without --in has one of OURS"
     raise Wrong(expected, "no such file in your package", f"{PACKAGE}/launch", hint)
@@ -122,15 +123,7 @@ def _read(session: Session) -> dict[str, dict[str, Any]]:
     if facts is None:
         seen, hint = "reading them does not end", "roslaunch --nodes FILE"
         raise Wrong("launch files that roslaunch can read", seen, hint=hint)
-    known_as = session.task.known_as
-
-    def known(node: dict[str, Any]) -> dict[str, Any]:
-        return {**node, "package": known_as(node["package"])}
-
-    return {
-        Path(one["path"]).name: {**one, "nodes": [known(node) for node in one["nodes"]]}
-        for one in facts
-    }
+    return {Path(one["path"]).name: one for one in facts}
 
 
 def check_file(session: Session, name: str) -> LaunchFile:
@@ -143,7 +136,7 @@ def check_file(session: Session, name: str) -> LaunchFile:
         _check_finds(file)
         return file
     except Wrong as wrong:
-        wrong.look = wrong.look or f"roslaunch --nodes {PACKAGE} {name}"
+        wrong.look = wrong.look or f"roslaunch --nodes {session.task.names.package} {name}"
         raise
 
 
@@ -209,7 +202,7 @@ def _check_node(file: LaunchFile, node: Node) -> None:
     if kind.endswith(".launch"):
         hint = f'<include file="$(find {package})/launch/{kind}"/>'
         raise Wrong("programs in <node>", f'type="{kind}"', place, hint)
-    if package == PACKAGE:
+    if package == file.package:
         _check_own_node(file.session, kind, place)
     elif not node["found"] and (package, kind) != ("rviz", "rviz"):
         hint = "look at pkg= and type=: rosrun PACKAGE and Tab twice lists its programs"
@@ -230,7 +223,8 @@ def _check_own_node(session: Session, kind: str, place: str) -> None:
         hint = f'type="{near[0]}"' if near else "type is the name of the file, with .py"
         hint = JOY_HINT if kind == "joy_node" else hint
         seen = f"Cannot locate node of type [{kind}]"
-        raise Wrong(f"a program {kind} in {PACKAGE}", seen, place, hint)
+        expected = f"a program {kind} in {session.task.names.package}"
+        raise Wrong(expected, seen, place, hint)
     if not any(is_runnable(session, PACKAGE, path) for path in found):
         hint = f"chmod +x {session.whole(found[0], PACKAGE)}"
         raise Wrong(f"{kind} may be run", "it is not executable", place, hint)
@@ -238,7 +232,8 @@ def _check_own_node(session: Session, kind: str, place: str) -> None:
 
 def _check_finds(file: LaunchFile) -> None:
     """Raise Wrong for a $(find joy2twist) of a file that the student does not have."""
-    folder, package = file.session.package(PACKAGE).folder, file.session.task.named(PACKAGE)
+    folder, package = file.session.package(PACKAGE).folder, file.package
+    shown_as = file.session.task.names.package
     for number, line in enumerate(file.text.splitlines(), 1):
         for rest in re.findall(rf"\$\(find\s+{package}\)([^\s\"'<>$]*)", line):
             if not rest.strip("/") or (folder / rest.strip("/")).exists():
@@ -249,13 +244,13 @@ def _check_finds(file: LaunchFile) -> None:
                 hint = copy_bag(file.session)
             there = sorted(each.relative_to(folder) for each in folder.rglob(name))
             if there:
-                hint = f"it is elsewhere: $(find {PACKAGE})/{there[0]}"
-            expected = f"$(find {PACKAGE}){rest} in your package"
+                hint = f"it is elsewhere: $(find {package})/{there[0]}"
+            expected = f"$(find {shown_as}){rest} in your package"
             hint += "; roslaunch would take another workspace's file and not say so"
             raise Wrong(expected, "no such file there", f"{file.where}:{number}", hint)
 
 
 @check("C21", "the two launch files can be read", "5.1", "C12",
-       look="roslaunch --nodes joy2twist launch_bag.launch", timeless=True)  # fmt: skip
+       look="roslaunch --nodes {n.package} launch_bag.launch", timeless=True)  # fmt: skip
 def files(session: Session) -> Note | str | None:
     return ", ".join(check_file(session, name).where for name in (BAG, STICK))

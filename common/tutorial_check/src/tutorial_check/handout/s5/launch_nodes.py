@@ -17,10 +17,9 @@ from tutorial_check.model import Note, Wrong
 from tutorial_check.record.session import Session
 
 ROBOT_HINT = '<include file="$(find rbx1_bringup)/launch/fake_turtlebot.launch"/>'
-OWN_HINT = '<node pkg="joy2twist" type="joy2twist.py" name="myjoystick2twist"/>'
-BAG_HINT = (
-    '<node pkg="rosbag" type="play" name="rosbag" args="--loop $(find joy2twist)/bag/joy.bag"/>'
-)
+# {} is the student's package.
+OWN_HINT = '<node pkg="{}" type="joy2twist.py" name="myjoystick2twist"/>'
+BAG_HINT = '<node pkg="rosbag" type="play" name="rosbag" args="--loop $(find {})/bag/joy.bag"/>'
 VIEWER_HINT = '<node pkg="rviz" type="rviz" name="my_rviz" args="-d $(find rbx1_nav)/sim.rviz"/>'
 # Of rosbag play; as letters after one hyphen none of these words makes sense.
 LONG_OPTIONS = "loop|clock|rate|quiet|delay|start|pause|immediate|queue|hz|keep-alive|topics"
@@ -121,7 +120,8 @@ def check_joy(file: LaunchFile, sender: Node) -> None:
 def bag_of(session: Session) -> tuple[str, str]:
     """Return (the recording that launch_bag plays, where that is written). Raises Wrong."""
     file = LaunchFile(session, BAG)
-    node = file.demand("rosbag play", is_player, BAG_HINT)
+    play = BAG_HINT.format(file.package)
+    node = file.demand("rosbag play", is_player, play)
     where = file.at(*attribute("type", "play"))
     words = [word for word in file.words_of(node) if not word.startswith("_")]
     for word in words:
@@ -131,9 +131,9 @@ def bag_of(session: Session) -> tuple[str, str]:
     bags = [word for word in words if word.endswith(".bag")]
     if not bags:
         seen = f"args: {node['args'] or 'none'}"
-        raise Wrong("rosbag play with the recording", seen, where, BAG_HINT)
+        raise Wrong("rosbag play with the recording", seen, where, play)
     if not os.path.isabs(bags[0]):
-        hint = "roslaunch starts rosbag in a folder of its own: $(find joy2twist)/bag/"
+        hint = f"roslaunch starts rosbag in a folder of its own: $(find {file.package})/bag/"
         raise Wrong("a whole path to the recording", bags[0], where, hint + Path(bags[0]).name)
     if not is_there(session, bags[0]) and str(session.layout.root) not in bags[0]:
         seen = f"no file {bags[0]} on this machine"
@@ -147,13 +147,13 @@ def _check_items(file: LaunchFile) -> Note | None:
     """Look at what both files start; return a Note about it, or None."""
     note = check_viewer(file) or odd_name(file)
     file.demand("the simulated robot", is_simulator, ROBOT_HINT)
-    file.demand("joy2twist", file.own.__contains__, OWN_HINT)
+    file.demand("joy2twist", file.own.__contains__, OWN_HINT.format(file.package))
     check_one_driver(file)
     return note
 
 
 @check("C22", "launch_bag starts the four items", "5.1", "C21",
-       look="roslaunch --nodes joy2twist launch_bag.launch", timeless=True)  # fmt: skip
+       look="roslaunch --nodes {n.package} launch_bag.launch", timeless=True)  # fmt: skip
 def bag_nodes(session: Session) -> Note | str | None:
     file = LaunchFile(session, BAG)
     note = _check_items(file)
@@ -164,12 +164,12 @@ def bag_nodes(session: Session) -> Note | str | None:
     if bag.startswith(str(session.source)):
         return note
     is_portable = is_there(session, bag) and "$(find" in file.text.split("play", 1)[-1]
-    hint = "$(find joy2twist)/bag/joy.bag goes wherever the package goes"
+    hint = f"$(find {file.package})/bag/joy.bag goes wherever the package goes"
     return Note(f"the recording is not in your package: {bag}", where, "" if is_portable else hint)
 
 
 @check("C25", "launch_joy_node starts the four items", "5.1", "C21",
-       look="roslaunch --nodes joy2twist launch_joy_node.launch", timeless=True)  # fmt: skip
+       look="roslaunch --nodes {n.package} launch_joy_node.launch", timeless=True)  # fmt: skip
 def stick_nodes(session: Session) -> Note | str | None:
     file = LaunchFile(session, STICK)
     note = _check_items(file)

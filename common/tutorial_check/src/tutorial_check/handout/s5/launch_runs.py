@@ -87,7 +87,7 @@ def _bag_run(session: Session) -> tuple[LaunchFile, Plan, Run]:
 
 
 @check("C23", "launch_bag drives the robot", "5.1", "C22 C16",
-       look="roslaunch joy2twist launch_bag.launch")  # fmt: skip
+       look="roslaunch {n.package} launch_bag.launch")  # fmt: skip
 def bag_drives(session: Session) -> None:
     file, plan, run = _bag_run(session)
     if not run.drives or not run.counts[plan.joys]:
@@ -106,7 +106,7 @@ def bag_loops(session: Session) -> None:
 
 
 @check("C26", "launch_joy_node drives the robot", "5.1", "C25 C16",
-       look="roslaunch joy2twist launch_joy_node.launch")  # fmt: skip
+       look="roslaunch {n.package} launch_joy_node.launch")  # fmt: skip
 def stick_drives(session: Session) -> None:
     file = LaunchFile(session, STICK)
     plan = plan_of(file)

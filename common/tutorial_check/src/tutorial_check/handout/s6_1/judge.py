@@ -11,7 +11,6 @@ from tutorial_check.handout.s5 import launch_nodes
 from tutorial_check.handout.s5.launch_files import JOY_HINT, REAL, TURTLEBOT, LaunchFile, check_file
 from tutorial_check.handout.s5.launch_runs import fault_of, plan_of, traced
 from tutorial_check.handout.s6_1.record import TELEOP, real_run, remap_run
-from tutorial_check.handout.task import PACKAGE
 from tutorial_check.judge.rows import Row, demand
 from tutorial_check.model import Wrong
 from tutorial_check.record.session import Session
@@ -93,7 +92,8 @@ BY_ITSELF = (
        look="rostopic echo /cmd_vel_mux/input/teleop")  # fmt: skip
 def remapped(session: Session) -> None:
     file = check_file(session, TURTLEBOT)
-    file.demand("joy2twist", file.own.__contains__, launch_nodes.OWN_HINT)
+    start = launch_nodes.OWN_HINT.format(file.package)
+    file.demand("joy2twist", file.own.__contains__, start)
     found = Remapped(file)
     if found.is_right:
         demand(BY_ITSELF, found, "the program as it was, whose topic the launch file renames")
@@ -122,7 +122,7 @@ def _check_items(file: LaunchFile) -> None:
     topics = [f"/{to.strip('/')}" for node in file.own for _, to in node["remaps"]]
     is_included = any(each.endswith(f"/{TURTLEBOT}") for each in file.facts["files"])
     if TELEOP not in topics and not is_included:
-        hint = f'<include file="$(find {PACKAGE})/launch/{TURTLEBOT}"/>'
+        hint = f'<include file="$(find {file.package})/launch/{TURTLEBOT}"/>'
         raise Wrong(f"it includes {TURTLEBOT}", "it does not", file.where, hint)
     launcher = '<include file="$(find turtlebot_rviz_launchers)/launch/view_robot.launch"/>'
     file.demand("RViz", launch_nodes.is_viewer, launcher)

@@ -30,7 +30,7 @@ def _endings(session: Session) -> Endings:
 
 
 @check("C31", "ended, it stops the robot", "6.2", "C30",
-       look="rostopic echo /cmd_vel; Ctrl-C in the node's terminal")  # fmt: skip
+       look="rostopic echo {n.cmd_vel}; Ctrl-C in the node's terminal")  # fmt: skip
 def stops(session: Session) -> Note | str | None:
     _, path, _ = program(session)
     seen, facts = _endings(session), session.scripts(PACKAGE)[path]
@@ -56,7 +56,8 @@ def stops(session: Session) -> Note | str | None:
         raise Wrong(expected, f"after {way}: {words}", where, hint, sure)
     if not seen.robot_rests:
         expected = "the robot stands within a second of the end of the node"
-        hint = "what the program has started ends with it; who publishes? rostopic info /cmd_vel"
+        hint = "what the program has started ends with it; who publishes? rostopic info "
+        hint += session.task.answers.cmd_vel
         raise Wrong(expected, "the node is gone, and the robot still drives", where, hint)
     return ", ".join(
         f"{way}: zero after {1000 * (end.zero_after_s or 0.0):.0f} ms, gone after {end.took_s:.1f} s"
@@ -85,7 +86,7 @@ def _complaint(end: End, is_registered: bool) -> tuple[str, str]:
     return "", ""
 
 
-@check("C32", "nothing follows the zero", "6.2", "C31", look="rostopic echo /cmd_vel")
+@check("C32", "nothing follows the zero", "6.2", "C31", look="rostopic echo {n.cmd_vel}")
 def nothing_after(session: Session) -> Note | str | None:
     """Note moving Twists after the zero; no failure, as the handout's listing sends some."""
     most = max(end.after_zero for end in _endings(session).ends.values())

@@ -62,9 +62,10 @@ def program(session: Session) -> tuple[str, str, ClassFacts]:
         for path in (path for path, facts in scripts.items() if facts.error and _fits(path)):
             check_file(session, PACKAGE, path)
         named = [path for path in scripts if re.search(r"new|class", path, re.IGNORECASE)]
-        expected = "a class that subscribes to /joy and publishes on /cmd_vel"
+        names = session.task.names
+        expected = f"a class that subscribes to {names.joy} and publishes on {names.cmd_vel}"
         hint = "class NewJoy2Twist: with __init__(self), callback(self, data), shutdown(self)"
-        seen = "no class in any program of joy2twist"
+        seen = f"no class in any program of {names.package}"
         raise Wrong(expected, seen, next(iter(named), ""), hint)
     path, one = next(iter(files.items()))
     file = session.package(PACKAGE).folder / path
@@ -162,7 +163,7 @@ RIGHT_FORM = (
 )  # fmt: skip
 
 
-@check("C29", "the program is a class", "6.2", "C12", look="rosrun joy2twist THE_CLASS",
+@check("C29", "the program is a class", "6.2", "C12", look="rosrun {n.package} THE_CLASS",
        timeless=True)  # fmt: skip
 def is_class(session: Session) -> Note | str | None:
     script, path, one = program(session)
@@ -177,7 +178,9 @@ def is_class(session: Session) -> Note | str | None:
     return demand(RIGHT_FORM, form, EXPECTED) or f"{one.name} in {path}"
 
 
-@check("C30", "the class does what the functions did", "6.2", "C29", look="rostopic echo /cmd_vel")
+@check(
+    "C30", "the class does what the functions did", "6.2", "C29", look="rostopic echo {n.cmd_vel}"
+)
 def behaves(session: Session) -> Note | str | None:
     script, _, _ = program(session)
     seen = session.recording(drive, script)
@@ -191,7 +194,7 @@ def behaves(session: Session) -> Note | str | None:
 
 
 @check("C33", "its errors are seen", "6.2", "C30",
-       look="rosrun joy2twist THE_CLASS, without a joystick")  # fmt: skip
+       look="rosrun {n.package} THE_CLASS, without a joystick")  # fmt: skip
 def errors_are_seen(session: Session) -> Note | str | None:
     script, path, _ = program(session)
     text = without_name(session.text(PACKAGE, script), "Joy")
@@ -200,9 +203,8 @@ def errors_are_seen(session: Session) -> Note | str | None:
     where = f"{path}:{excepts[0].lineno}" if excepts else path
     output = seen.program.output
     if seen.ended and not REPORTS.search(output):
-        words = (
-            f"nobody publishes on /joy, and it ends; it printed: {last_lines(output) or 'nothing'}"
-        )
+        words = f"nobody publishes on {session.task.names.joy}, and it ends; it printed: "
+        words += last_lines(output) or "nothing"
         hint = "a Subscriber waits by itself, for as long as it takes; what an except catches, it should show"
         expected = "without a joystick it waits for one, or says what it misses"
         raise Wrong(expected, words, where, hint)

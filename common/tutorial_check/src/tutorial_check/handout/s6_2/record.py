@@ -65,12 +65,13 @@ class Endings:
 
 def alone(ground: Ground, script: str, text: str) -> Alone:
     """Start it without a joystick. text: of the copy; empty: there is none."""
+    joy = ground.task.topic(JOY)
     with ground.stage() as stage:
         program, broken = stage.start(PACKAGE, script), None
         if text:
             copy = ground.sibling(PACKAGE, script, text)
             broken = stage.start(PACKAGE, copy, "__name:=broken")
-        stage.wait_for_start(lambda: program.ended or JOY in stage.call("state")[1])
+        stage.wait_for_start(lambda: program.ended or joy in stage.call("state")[1])
         stage.wait(lambda: program.ended, ALONE_S)
         stage.wait_for_start(lambda: broken is None or broken.ended)
         ended, broken_ended = program.ended, broken is not None and broken.ended
