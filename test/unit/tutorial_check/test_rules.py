@@ -36,15 +36,15 @@ def test_the_rule_is_found_and_named(text, complaint, remark):
 
 
 @pytest.mark.parametrize(
-    ("sent", "heard", "factor", "found"),
+    ("sent", "received", "factor", "found"),
     [
         ([1.0, 1.1], [(1.0, NAN), (1.0, INF), (1.5, 0.3)], 1.0, [0.5]),  # no number answers no Joy
         ([1.0, 3.0], [(1.1, 0.305)], 1.0, []),  # the value of a Joy yet to come
         ([1.0, 2.0], [(1.5, 0.01), (2.25, 0.02)], None, [0.5, 0.25]),
     ],
 )
-def test_which_twist_answers_which_joy(sent, heard, factor, found):
-    assert delays(sent, [(when, "", (value, 0.0)) for when, value in heard], factor) == found
+def test_which_twist_answers_which_joy(sent, received, factor, found):
+    assert delays(sent, [(when, "", (value, 0.0)) for when, value in received], factor) == found
 
 
 @pytest.mark.parametrize(

@@ -15,14 +15,18 @@ def callback(data):
 rospy.Subscriber('chatter', String, callback)
 """
 TALKER = "#!/usr/bin/env python3\nfrom std_msgs.msg import String\nrospy.init_node('talker')\n"
-TORRENT = {"heard": tuple((k / 1e4, "", "") for k in range(9))}
-ENDED = {"talker": Ran("x.py", "", 0, False, False), "talker_ended": True, "heard": ((0, "", ""),)}
+TORRENT = {"received": tuple((k / 1e4, "", "") for k in range(9))}
+ENDED = {
+    "talker": Ran("x.py", "", 0, False, False),
+    "talker_ended": True,
+    "received": ((0, "", ""),),
+}
 
 
 RIGHT = Talk(
     Ran("x.py", "", None, False, False), Ran("x.py", "", None, False, False),
     talker_ended=False, listener_ended=False, published={}, publishers={},
-    subscribers={"/chatter": ("/listener",)}, types={}, warnings=(), heard=(), master_alive=True,
+    subscribers={"/chatter": ("/listener",)}, types={}, warnings=(), received=(), master_alive=True,
 )  # fmt: skip
 
 

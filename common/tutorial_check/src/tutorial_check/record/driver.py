@@ -99,7 +99,7 @@ class Driver:
         self._master = rosgraph.Master(f"/{NAME}")
         self._publishers: dict[str, rospy.Publisher] = {}
         self._subscribers: dict[str, rospy.Subscriber] = {}
-        self._heard: dict[str, list[tuple[float, str, Any]]] = {}
+        self._received: dict[str, list[tuple[float, str, Any]]] = {}
         self._sent: dict[str, list[float]] = {}
         self._streams: dict[str, threading.Event] = {}
         self._warnings = _Warnings()
@@ -114,32 +114,32 @@ class Driver:
         self._publishers[topic] = rospy.Publisher(topic, KINDS[kind], **about)
 
     def listen(self, topic: str, kind: str) -> None:
-        self._heard[topic] = []
+        self._received[topic] = []
         about = topic, KINDS[kind], self._keep, topic
         self._subscribers[topic] = rospy.Subscriber(*about, tcp_nodelay=True)
 
     def _keep(self, message: Any, topic: str) -> None:
-        if len(self._heard[topic]) < MOST_KEPT:
+        if len(self._received[topic]) < MOST_KEPT:
             caller = str(message._connection_header.get("callerid", ""))
-            self._heard[topic].append((time.monotonic(), caller, _plain(message)))
+            self._received[topic].append((time.monotonic(), caller, _plain(message)))
 
     def listeners(self, topic: str) -> int:
         return int(self._publishers[topic].get_num_connections())
 
-    def speakers(self, topic: str) -> int:
+    def publishers(self, topic: str) -> int:
         """Return how many publishers our subscriber is connected to."""
         return int(self._subscribers[topic].get_num_connections())
 
     def ends_of(self, topic: str) -> list[str]:
         """Return the methods that count the other ends of a topic of ours."""
-        ours = {"listeners": self._publishers, "speakers": self._subscribers}
+        ours = {"listeners": self._publishers, "publishers": self._subscribers}
         return [method for method, topics in ours.items() if topic in topics]
 
-    def heard(self, topic: str, since: int = 0) -> list[tuple[float, str, Any]]:
-        return self._heard[topic][since:]
+    def received(self, topic: str, since: int = 0) -> list[tuple[float, str, Any]]:
+        return self._received[topic][since:]
 
     def count(self, topic: str) -> int:
-        return len(self._heard[topic])
+        return len(self._received[topic])
 
     def send(self, topic: str, values: Any) -> float:
         """Publish one message, (axes, buttons), (bumper, state), 6 velocities or text; return when."""

@@ -15,7 +15,7 @@ MODE = F710["D"]  # as its switch stands
 PERIOD_S = 0.02  # how often it looks whether a driver has started to read
 
 
-class Pad:
+class Gamepad:
     """Stick and LB are where they were last put."""
 
     def __init__(self, path: str, arranged: Callable[[Any], Any]) -> None:

@@ -45,13 +45,13 @@ class SimulatedRobot:
     @property
     def path(self) -> tuple[Sample, ...]:
         """All that it did so far, 50 samples a second."""
-        return tuple(map(_sample, self._stage.call("heard", self._poses)))
+        return tuple(map(_sample, self._stage.call("received", self._poses)))
 
     @property
     def moves(self) -> bool:
         """Whether it moved within the last second."""
         count = self._stage.call("count", self._poses)
-        newest = self._stage.call("heard", self._poses, max(0, count - NEWEST))
+        newest = self._stage.call("received", self._poses, max(0, count - NEWEST))
         return any(one.v or one.w for one in map(_sample, newest))
 
     @property
@@ -75,6 +75,6 @@ def has_moved(path: Sequence[Sample]) -> bool:
     return any(one.v or one.w for one in path)
 
 
-def _sample(heard: tuple[float, str, Sequence[float]]) -> Sample:
-    at_s, x, y, sine, cosine, v, w = heard[2]
+def _sample(received: tuple[float, str, Sequence[float]]) -> Sample:
+    at_s, x, y, sine, cosine, v, w = received[2]
     return Sample(at_s, x, y, 2.0 * math.atan2(sine, cosine), v, w)

@@ -151,11 +151,11 @@ def files(session: Session) -> Note | str:
 def talker(session: Session) -> Note | str:
     half = Half(session, is_talker=True)
     seen, facts = half.talk, half.facts
-    if not seen.heard:
+    if not seen.received:
         demand(SILENT_TALKER, half, talks(session))
     if seen.talker_ended:
         raise crash(session, PACKAGE, half.program, GOES_ON, LOOP)
-    times = [when for when, caller, _ in seen.heard if caller == seen.heard[0][1]]
+    times = [when for when, caller, _ in seen.received if caller == seen.received[0][1]]
     wanted = session.task.values.get("rate")
     if len(times) < FEW and not wanted:
         return Note(f"{len(times)} messages in {LISTEN_S + 2:.0f} s: slower than 1 Hz")
@@ -172,7 +172,7 @@ def talker(session: Session) -> Note | str:
         call = facts.first("Rate")
         where = f"{half.script}:{call.line}" if call else half.script
         raise Wrong(talks(session), f"{rate:.1f} times a second", where, f"rospy.Rate({wanted})")
-    texts = {value for _, _, value in seen.heard}
+    texts = {value for _, _, value in seen.received}
     if len(texts) == 1:
         return Note(f"always the same text, {texts.pop()!r}; the handout's has the time in it")
     is_as_asked = wanted or 8 <= rate <= 12

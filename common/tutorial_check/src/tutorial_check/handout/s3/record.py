@@ -41,7 +41,7 @@ class Talk:
     subscribers: Topics
     types: Dict[str, str]
     warnings: Tuple[str, ...]
-    heard: Tuple[HeardText, ...]  # messages of the student's talkers
+    received: Tuple[HeardText, ...]  # messages of the student's talkers
     master_alive: bool
     pair: Optional[Pair] = None  # where both programs go on
 
@@ -59,7 +59,7 @@ def talk(ground: Ground, talker: str, listener: str) -> Talk:
     """Start the programs of these paths, and send STRINGS to the listener."""
     with ground.stage() as stage:
         stage.call("listen", TOPIC, "String")
-        first, hears = stage.start(PACKAGE, talker), stage.start(PACKAGE, listener)
+        first, listens = stage.start(PACKAGE, talker), stage.start(PACKAGE, listener)
         published: dict[str, str] = {}
 
         def is_right() -> bool:
@@ -73,45 +73,45 @@ def talk(ground: Ground, talker: str, listener: str) -> Talk:
         if is_right():
             stage.wait_for_start(lambda: stage.call("count", TOPIC) or first.ended)
         stage.call("advertise", TOPIC, "String")
-        stage.wait_for_start(lambda: stage.call("listeners", TOPIC) > 1 or hears.ended)
-        talks = bool(_heard(stage))
+        stage.wait_for_start(lambda: stage.call("listeners", TOPIC) > 1 or listens.ended)
+        talks = bool(_received(stage))
         if talks:
-            stage.wait(lambda: len(_heard(stage)) > 3 or first.ended, 2.0)
+            stage.wait(lambda: len(_received(stage)) > 3 or first.ended, 2.0)
         publishers, subscribers = stage.call("state")
         types, warnings = stage.call("types"), stage.call("warnings")
-        count = len(_heard(stage))
+        count = len(_received(stage))
         for text in STRINGS:
             stage.call("send", TOPIC, text)
-        stage.wait(lambda: all(text in hears.output for text in STRINGS), 2.0)
+        stage.wait(lambda: all(text in listens.output for text in STRINGS), 2.0)
         if talks:
-            stage.wait(lambda: len(_heard(stage)) >= count + 6 or first.ended, LISTEN_S)
-        heard = _heard(stage)
-        talker_ended, listener_ended, alive = first.ended, hears.ended, stage.master_lives
+            stage.wait(lambda: len(_received(stage)) >= count + 6 or first.ended, LISTEN_S)
+        received = _received(stage)
+        talker_ended, listener_ended, alive = first.ended, listens.ended, stage.master_lives
         pair = None
-        if heard and not talker_ended and not listener_ended:
-            pair = _pair(ground, stage, talker, first, hears, set(publishers.get(TOPIC, [])))
+        if received and not talker_ended and not listener_ended:
+            pair = _pair(ground, stage, talker, first, listens, set(publishers.get(TOPIC, [])))
             talker_ended = pair.both and first.ended  # by itself, after some messages
     return Talk(
-        first.ran, hears.ran, talker_ended, listener_ended, published, publishers, subscribers,
-        types, tuple(warnings), heard, alive, pair,
+        first.ran, listens.ran, talker_ended, listener_ended, published, publishers, subscribers,
+        types, tuple(warnings), received, alive, pair,
     )  # fmt: skip
 
 
 def _pair(
-    ground: Ground, stage: Stage, talker: str, first: Program, hears: Program, names: set[str]
+    ground: Ground, stage: Stage, talker: str, first: Program, listens: Program, names: set[str]
 ) -> Pair:
     """Start a second talker of the same kind; both must go on, or the first must end."""
     second = stage.start(PACKAGE, talker)
 
     def both() -> bool:
-        return len({caller for _, caller, _ in _heard(stage)[-20:]}) > 1 and not first.ended
+        return len({caller for _, caller, _ in _received(stage)[-20:]}) > 1 and not first.ended
 
     stage.wait_for_start(lambda: set(stage.call("state")[0].get(TOPIC, [])) - names or first.ended)
     stage.wait_for_start(lambda: first.ended or both())
     first_ended, both_talk = first.ended, both()
-    so_far = len(_heard(stage))  # the one that is ended next must be well under way
-    stage.wait(lambda: len(_heard(stage)) > so_far + 2 or second.ended, 3.0)
-    taken_s = ground.runner.end_all([second, hears])
+    so_far = len(_received(stage))  # the one that is ended next must be well under way
+    stage.wait(lambda: len(_received(stage)) > so_far + 2 or second.ended, 3.0)
+    taken_s = ground.runner.end_all([second, listens])
     return Pair(first_ended, both_talk, second.ran, tuple(taken_s))
 
 
@@ -127,12 +127,12 @@ def second(ground: Ground, talker: str, text: str) -> Second:
         other = stage.start(PACKAGE, script)
 
         def settled() -> bool:
-            callers = {caller for _, caller, _ in stage.call("heard", TOPIC)}
+            callers = {caller for _, caller, _ in stage.call("received", TOPIC)}
             return first.ended or other.ended or len(callers) > 1
 
         stage.wait_for_start(settled)
         return Second(first.ran, True, first.ended)
 
 
-def _heard(stage: Stage) -> tuple[HeardText, ...]:
-    return tuple(each for each in stage.call("heard", TOPIC) if each[1] != "/tutorial_check")
+def _received(stage: Stage) -> tuple[HeardText, ...]:
+    return tuple(each for each in stage.call("received", TOPIC) if each[1] != "/tutorial_check")

@@ -98,7 +98,7 @@ def follow(ground: Ground, script: str) -> Follow:
         ready = stage.wait(lambda: program.ended or stage.call("listeners", JOY), START_S)
         rest(stage, CMD_VEL)
         if ready:  # its Publisher may be made in the callback
-            ready = stage.wait(lambda: program.ended or stage.call("speakers", CMD_VEL), START_S)
+            ready = stage.wait(lambda: program.ended or stage.call("publishers", CMD_VEL), START_S)
         ready = bool(ready) and not program.ended
         publishers = tuple(sorted(set(stage.call("state")[0].get(ground.task.topic(CMD_VEL), []))))
         if not ready or len(publishers) != 1:
@@ -111,9 +111,9 @@ def follow(ground: Ground, script: str) -> Follow:
 
 def _speeds(stage: Stage, robot: SimulatedRobot) -> tuple[float, float]:
     """Return (speed [m/s], rate of turn [rad/s]) of the robot in a while of even driving."""
-    begun = stage.call("count", ODOM)
-    stage.wait(lambda: stage.call("count", ODOM) >= begun + SAMPLES, SAMPLES_S)
-    path = robot.path[begun:]
+    before = stage.call("count", ODOM)
+    stage.wait(lambda: stage.call("count", ODOM) >= before + SAMPLES, SAMPLES_S)
+    path = robot.path[before:]
     mean = statistics.fmean if path else lambda _: 0.0
     return mean([sample.v for sample in path]), mean([sample.w for sample in path])
 
@@ -131,7 +131,7 @@ def _driven(
     before = stage.call("count", CMD_VEL)
 
     def wanted() -> list[float]:
-        return [value[field] for _, _, value in stage.call("heard", CMD_VEL, before)]
+        return [value[field] for _, _, value in stage.call("received", CMD_VEL, before)]
 
     stage.call("stream", JOY, [joy], 20.0, True)
     stage.wait(lambda: any(abs(value) > 0.01 for value in wanted()), 3.0)
@@ -146,20 +146,20 @@ def _driven(
 
 
 def plug_in(ground: Ground, stage: Stage, device: str = "/dev/input/js0") -> tuple[Helper, Path]:
-    """Make a virtual F710 behind a device, or a FIFO where that cannot be; (Pad, path)."""
-    from tutorial_check.record.gamepad import Pad  # noqa: PLC0415  judges need no gamepad
+    """Make a virtual F710 behind a device, or a FIFO where that cannot be; (Gamepad, path)."""
+    from tutorial_check.record.gamepad import Gamepad  # noqa: PLC0415  judges need no gamepad
 
     path = Path(device) if ground.can_have_devices else ground.folder / "js0"
-    pad = stage.help(lambda: Pad(str(path), ground.task.joy))
-    pad.call("connected")
-    return pad, path
+    gamepad = stage.help(lambda: Gamepad(str(path), ground.task.joy))
+    gamepad.call("connected")
+    return gamepad, path
 
 
 def stick(ground: Ground, script: str) -> Stick:
     with ground.stage() as stage:
         stage.call("listen", JOY, "Joy")
         stage.call("listen", CMD_VEL, "Twist")
-        pad, path = plug_in(ground, stage)
+        gamepad, path = plug_in(ground, stage)
         node = stage.start_ours("gamepad", "joy_node", f"_dev:={path}", "_autorepeat_rate:=20")
         program = stage.start(PACKAGE, script)
 
@@ -170,10 +170,10 @@ def stick(ground: Ground, script: str) -> Stick:
             return any(abs(speed) > 0.01 for speed in _speeds_told(stage))
 
         def is_up() -> bool:
-            return bool(stage.call("count", JOY) and stage.call("speakers", CMD_VEL))
+            return bool(stage.call("count", JOY) and stage.call("publishers", CMD_VEL))
 
         stage.wait(lambda: is_up() or has_ended(), START_S)
-        pad.call("push", 0.0, 0.6)
+        gamepad.call("push", 0.0, 0.6)
         stage.wait(lambda: drives() or has_ended(), 3.0)
         if not stage.call("count", JOY):
             raise CannotCheck(f"the joystick driver does not start: {node.output[-200:]}")
@@ -188,7 +188,7 @@ def stick(ground: Ground, script: str) -> Stick:
 
 
 def _speeds_told(stage: Stage, since: int = 0) -> list[float]:
-    return [value[0] for _, _, value in stage.call("heard", CMD_VEL, since)]
+    return [value[0] for _, _, value in stage.call("received", CMD_VEL, since)]
 
 
 def _survives_eight_axes(ground: Ground, stage: Stage, program: Program) -> bool:

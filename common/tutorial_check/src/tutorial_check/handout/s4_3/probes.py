@@ -223,18 +223,20 @@ def judge_probes(
 
 
 def delays(
-    sent: Sequence[float], heard: Sequence[tuple[float, str, Sequence[float]]], factor: float | None
+    sent: Sequence[float],
+    received: Sequence[tuple[float, str, Sequence[float]]],
+    factor: float | None,
 ) -> list[float]:
     """Return [s] from each Joy to its Twist: the next one, or if some are missing that of its value.
 
-    sent: when each of rising_joys() was; heard: [(when, sender, six values)]; factor: of linear.x, or None.
+    sent: when each of rising_joys() was; received: [(when, sender, six values)]; factor: of linear.x, or None.
     """
-    heard = [each for each in heard if math.isfinite(each[2][0])]
-    if len(heard) == len(sent):
-        return [when - asked for (when, _, _), asked in zip(heard, sent)]
+    received = [each for each in received if math.isfinite(each[2][0])]
+    if len(received) == len(sent):
+        return [when - asked for (when, _, _), asked in zip(received, sent)]
     found = []
-    often = collections.Counter(round(twist[0], 6) for _, _, twist in heard)
-    for when, _, twist in heard:
+    often = collections.Counter(round(twist[0], 6) for _, _, twist in received)
+    for when, _, twist in received:
         if often[round(twist[0], 6)] > 1:
             continue  # at a limit, or repeated: that does not say which
         k = round((twist[0] / factor - SLOW) / STEP) if factor else -1

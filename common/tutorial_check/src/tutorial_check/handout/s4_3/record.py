@@ -24,7 +24,7 @@ RATED = frozenset(["4.3", "6.2"])  # the exercises that look at the rate
 STARTS = 10  # under load, all at once
 ANSWER_S = 1.0  # for one Twist, before it counts as missing
 SETTLE_S = 0.15  # after it, in which more of them may come
-QUIET_S = 0.25  # without a Joy, or longer for a slow one: a clock of its own makes itself heard
+QUIET_S = 0.25  # without a Joy, or longer for a slow one: a clock of its own makes itself received
 SAME_S = 0.06  # in which several Twists answer one Joy
 COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 
@@ -70,7 +70,7 @@ def loaded(ground: Ground, script: str) -> Loaded:
             return any("NameError" in each.output for each in programs)
 
         def all_publish() -> bool:
-            return len({caller for _, caller, _ in stage.call("heard", CMD_VEL)}) >= STARTS
+            return len({caller for _, caller, _ in stage.call("received", CMD_VEL)}) >= STARTS
 
         stage.wait(lambda: all_publish() or one_has_failed(), START_S)
         return Loaded(one_has_failed())
@@ -104,7 +104,7 @@ class _Driver:
         stage.wait_for_start(lambda: stage.call("listeners", JOY) or program.ended)
         connected = bool(stage.call("listeners", JOY)) and not program.ended
         if connected and wants_twist:
-            self._wait(lambda: stage.call("speakers", CMD_VEL), 1.5)
+            self._wait(lambda: stage.call("publishers", CMD_VEL), 1.5)
         publishers, subscribers = stage.call("state")
         if connected:
             self._converse(wants_twist)
@@ -132,8 +132,8 @@ class _Driver:
     def _count(self) -> int:
         return int(self._stage.call("count", CMD_VEL))
 
-    def _heard(self, since: int) -> list[Any]:
-        return list(self._stage.call("heard", CMD_VEL, since))
+    def _received(self, since: int) -> list[Any]:
+        return list(self._stage.call("received", CMD_VEL, since))
 
     def _converse(self, wants_twist: bool) -> None:
         stage, joys = self._stage, probes.numbered_joys(COUNT)
@@ -181,16 +181,16 @@ class _Driver:
         first = self._seen.samples
         self._note(samples=(), missing=0)
         self._pause(SETTLE_S)  # late ones belong to the first pass
-        begun = self._count()
+        before = self._count()
         self._one_by_one([*joys, *low], SETTLE_S)
-        twists = tuple(twist for _, _, twist in self._heard(begun))
+        twists = tuple(twist for _, _, twist in self._received(before))
         if len(self._seen.samples) < len(first):
             again, first = first, self._seen.samples
             self._note(samples=again)
         # Of several Twists for one Joy it is not known which of them answers it.
         self._note(twists=twists, first_samples=first if is_plain else ())
-        heard = self._ask(probes.AT_REST, SETTLE_S)[1]
-        self._note(at_rest=heard[-1][2] if heard else None)
+        received = self._ask(probes.AT_REST, SETTLE_S)[1]
+        self._note(at_rest=received[-1][2] if received else None)
         self._ask(joys[-1], SETTLE_S)  # the last one moves the robot
 
     def _keep_quiet(self) -> None:
@@ -198,7 +198,7 @@ class _Driver:
         begun_s, before = time.monotonic(), self._count()
         usual_s = statistics.median(self._seen.waits)
         self._pause(max(QUIET_S, 2.5 * min(ANSWER_S, usual_s)))
-        unasked = self._heard(before)
+        unasked = self._received(before)
         has_clock = len(unasked) > 1
         late = [twist for when, _, twist in unasked if when > begun_s + SAME_S]
         self._note(has_clock=has_clock, repeats=has_clock and any(map(any, late)))
@@ -212,14 +212,14 @@ class _Driver:
         plan = [(joy, settle_s, 1) for joy in probes.probes(joys)]
         plan += [(joy, 0.0, times) for joy in probes.small_and_button_probes()]
         for joy, wait_s, often in plan:
-            _, heard = self._ask(joy, wait_s, often)
-            if not heard and not self._program.ended:
+            _, received = self._ask(joy, wait_s, often)
+            if not received and not self._program.ended:
                 self._ask(before, wait_s, often)
-                _, heard = self._ask(joy, wait_s, often)
-            if not heard:
+                _, received = self._ask(joy, wait_s, often)
+            if not received:
                 self._note(unanswered=(joy, before))
                 return
-            answer = joy, heard[-1 if settle_s else 0][2]
+            answer = joy, received[-1 if settle_s else 0][2]
             self._note(answers=(*self._seen.answers, answer))
             before = joy
 
@@ -232,16 +232,16 @@ class _Driver:
         self._wait(lambda: self._count() - before >= often, longest_s if often == 1 else SETTLE_S)
         if settle_s:
             self._pause(settle_s)
-        return sent_s, self._heard(before)
+        return sent_s, self._received(before)
 
     def _one_by_one(self, joys: Sequence[Joy], settle_s: float) -> None:
-        begun, answered, unanswered = self._count(), 0, 0
+        before, answered, unanswered = self._count(), 0, 0
         for joy in joys:
-            sent_s, heard = self._ask(joy, settle_s)
-            seen, wait_s = self._seen, heard[0][0] - sent_s if heard else ANSWER_S
+            sent_s, received = self._ask(joy, settle_s)
+            seen, wait_s = self._seen, received[0][0] - sent_s if received else ANSWER_S
             self._note(asked=seen.asked + 1, waits=(*seen.waits, wait_s))
-            if heard:
-                sample = joy[0], heard[-1][2] if settle_s else heard[0][2]
+            if received:
+                sample = joy[0], received[-1][2] if settle_s else received[0][2]
                 self._note(samples=(*seen.samples, sample))
                 answered += 1
             else:
@@ -250,12 +250,12 @@ class _Driver:
             if unanswered == 3 or self._program.ended or self._seen.naps:
                 break
         # Also those that came between an answer and the next Joy.
-        self._note(unasked=self._seen.unasked + self._count() - begun - answered)
+        self._note(unasked=self._seen.unasked + self._count() - before - answered)
         if unanswered == 3 and not self._program.ended and not self._seen.naps:
             # The rest without much patience, to see how many of all are answered.
             for joy in joys[answered + unanswered :]:
                 self._ask(joy, 0.0, longest_s=SAME_S)
-        self._note(came=self._count() - begun)
+        self._note(came=self._count() - before)
 
     def _stream_beside_ours(self) -> None:
         stage = self._stage
@@ -272,12 +272,12 @@ class _Driver:
         stage.call("stream", JOY, joys, RATE, False)
         stage.wait(lambda: len(stage.call("sent", JOY)) >= count, STREAM_S + 3)
         stage.wait(lambda: self._count() - before >= count, 0.3)
-        sent, heard = stage.call("sent", JOY), self._heard(before)
+        sent, received = stage.call("sent", JOY), self._received(before)
         rule = rule_of(LINEAR, self._seen.samples)
-        delays = probes.delays(sent, heard, rule.factor if rule else None)
-        strays = probes.strays([any(twist) for _, _, twist in heard])
-        self._note(sent=len(sent), answered=len(heard), delays=tuple(delays), strays=strays)
+        delays = probes.delays(sent, received, rule.factor if rule else None)
+        strays = probes.strays([any(twist) for _, _, twist in received])
+        self._note(sent=len(sent), answered=len(received), delays=tuple(delays), strays=strays)
         if beside:
-            echoed, sign = stage.call("heard", beside), self._task.signs[RIGHT[LINEAR]]
+            echoed, sign = stage.call("received", beside), self._task.signs[RIGHT[LINEAR]]
             ours = statistics.median(probes.delays(sent, echoed, sign) or [0.0])
             self._note(possible=len(echoed), unavoidable_s=ours)

@@ -112,7 +112,7 @@ class Launch:
 
     def moved_m(self) -> float:
         """Return how far the robot drove, along its way."""
-        path = [value[1:3] for _, _, value in self.stage.call("heard", ODOM)]
+        path = [value[1:3] for _, _, value in self.stage.call("received", ODOM)]
         return sum(map(math.dist, path, path[1:]))
 
     def run(
@@ -140,9 +140,9 @@ def bag_run(ground: Ground, plan: Plan, bag: str, length_s: float, is_looped: bo
         loops = is_looped
         # A robot that drives by another topic has not shown that /joy does it.
         if drives and is_looped and bag and stage.call("count", plan.joys):
-            end_s = stage.call("heard", plan.joys)[0][0] + length_s + 0.5
+            end_s = stage.call("received", plan.joys)[0][0] + length_s + 0.5
             loops = bool(
-                stage.wait(lambda: stage.call("heard", plan.joys)[-1][0] > end_s, length_s + 2.5)
+                stage.wait(lambda: stage.call("received", plan.joys)[-1][0] > end_s, length_s + 2.5)
             )
         return launch.run(drives, loops=loops)
 
@@ -168,14 +168,14 @@ def _own_bag(ground: Ground, path: Path, length_s: float) -> None:
 def stick_run(ground: Ground, plan: Plan) -> Run:
     """Run launch_joy_node, push the stick and release it."""
     with ground.stage(renamed=False) as stage:
-        pad = plug_in_for(ground, stage, plan)
+        gamepad = plug_in_for(ground, stage, plan)
         launch = Launch(ground, stage, plan)
-        if not drives_forwards(stage, pad, launch):
+        if not drives_forwards(stage, gamepad, launch):
             return launch.run(drives=False)
-        pad.call("release")
+        gamepad.call("release")
 
         def rests() -> bool:
-            return abs(stage.call("heard", ODOM, -1)[0][2][5]) <= 0.01
+            return abs(stage.call("received", ODOM, -1)[0][2][5]) <= 0.01
 
         return launch.run(drives=True, rests=bool(stage.wait(rests, 3.0)))
 
@@ -185,13 +185,13 @@ def plug_in_for(ground: Ground, stage: Stage, plan: Plan) -> Helper:
     if plan.device and not ground.can_have_devices:
         name = Path(plan.path).name
         raise CannotCheck(f"the system grants no {plan.device} to try {name} with")
-    pad, path = plug_in(ground, stage, *filter(None, [plan.device]))
+    gamepad, path = plug_in(ground, stage, *filter(None, [plan.device]))
     for node in plan.joysticks if not ground.can_have_devices else ():
         stage.call("set_parameter", f"{node}/dev", str(path))
-    return pad
+    return gamepad
 
 
-def drives_forwards(stage: Stage, pad: Helper, launch: Launch, *signs: str) -> bool:
+def drives_forwards(stage: Stage, gamepad: Helper, launch: Launch, *signs: str) -> bool:
     """Push the stick forwards once everything runs; return whether the robot moves.
 
     signs: topics, listened to, on which a message comes as soon as their node works.
@@ -199,15 +199,17 @@ def drives_forwards(stage: Stage, pad: Helper, launch: Launch, *signs: str) -> b
     plan = launch.plan
 
     def ready() -> bool:
-        counts = [stage.call("speakers", topic) for topic in (plan.joys, plan.twists, ODOM)]
-        return pad.call("connected") and all(counts + [stage.call("count", each) for each in signs])
+        counts = [stage.call("publishers", topic) for topic in (plan.joys, plan.twists, ODOM)]
+        return gamepad.call("connected") and all(
+            counts + [stage.call("count", each) for each in signs]
+        )
 
     def moves() -> bool:
         return launch.moved_m() > NEAR_M
 
     def touch(*how: Any) -> None:
         before = stage.call("count", plan.joys)
-        pad.call(*how)
+        gamepad.call(*how)
         stage.wait(lambda: launch.is_over() or stage.call("count", plan.joys) > before, 1.0)
 
     launch.wait(ready)
@@ -216,6 +218,6 @@ def drives_forwards(stage: Stage, pad: Helper, launch: Launch, *signs: str) -> b
     touch("release")
     # A new robot obeys only after a while of zero velocities; so does this check.
     stage.wait(launch.is_over, 0.6)
-    pad.call("push", 0.0, 1.0)
+    gamepad.call("push", 0.0, 1.0)
     stage.wait(lambda: moves() or launch.is_over(), 4.0 if ready() else 0.0)
     return moves()

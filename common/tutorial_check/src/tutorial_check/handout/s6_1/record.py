@@ -40,7 +40,7 @@ def remap_run(ground: Ground, plan: Plan, own: str) -> Remap:
             return tuple(sorted(each for each in found if re.search("vel|teleop|mux", each)))
 
         def is_up() -> bool:
-            publishes = any(stage.call("speakers", each) for each in topics)
+            publishes = any(stage.call("publishers", each) for each in topics)
             # One of the listeners is ours.
             return stage.call("listeners", plan.joys) > 1 and bool(publishes or others())
 
@@ -49,7 +49,7 @@ def remap_run(ground: Ground, plan: Plan, own: str) -> Remap:
         stage.call("stream", plan.joys, [held(ground, 0.2, 0.3)], 20.0, True)
 
         def moving(topic: str) -> bool:
-            return any(abs(value[0]) > 0.01 for _, _, value in stage.call("heard", topic))
+            return any(abs(value[0]) > 0.01 for _, _, value in stage.call("received", topic))
 
         stage.wait(lambda: any(map(moving, topics)) or launch.is_over(), 3.0)
         good, bad = map(moving, topics)
@@ -61,13 +61,13 @@ def real_run(ground: Ground, plan: Plan, has_base: bool) -> Run:
     """Run the file for the real TurtleBot beside a simulated one, and push the stick."""
     with ground.stage(renamed=False) as stage:
         stage.call("listen", ACTIVE, "String")
-        pad, base = plug_in_for(ground, stage, plan), None
+        gamepad, base = plug_in_for(ground, stage, plan), None
         if not has_base:
             command = ["roslaunch", "fake_turtlebot_sim", "minimal.launch", "model:=false"]
             base = stage.launch(command, trusted=True)
         launch = Launch(ground, stage, plan)
-        drives = drives_forwards(stage, pad, launch, ACTIVE)
+        drives = drives_forwards(stage, gamepad, launch, ACTIVE)
         if base and base.ended:
             raise CannotCheck(f"the simulated TurtleBot does not start: {base.output[-200:]}")
-        active = {value for _, _, value in stage.call("heard", ACTIVE)}
+        active = {value for _, _, value in stage.call("received", ACTIVE)}
         return launch.run(drives, active=tuple(sorted(active)))

@@ -107,12 +107,12 @@ def _start(ground: Ground, stage: Stage, script: str, way: str) -> Program:
 
 def _twists(stage: Stage, since: int = 0) -> dict[str, list[Heard]]:
     """Return {way: what that node has sent}."""
-    heard = stage.call("heard", CMD_VEL, since)
-    return {way: [one for one in heard if one[1] == name] for way, name in NODES.items()}
+    received = stage.call("received", CMD_VEL, since)
+    return {way: [one for one in received if one[1] == name] for way, name in NODES.items()}
 
 
 def _robot_rests(stage: Stage) -> bool:
-    last = stage.call("heard", ODOM, -1)
+    last = stage.call("received", ODOM, -1)
     return bool(last) and max(map(abs, last[0][2][5:])) < 0.01
 
 
@@ -123,7 +123,7 @@ def _drive(ground: Ground, stage: Stage, programs: dict[str, Program]) -> str:
         return any(each.ended for each in programs.values())
 
     def are_connected() -> bool:
-        ends = stage.call("listeners", JOY), stage.call("speakers", CMD_VEL)
+        ends = stage.call("listeners", JOY), stage.call("publishers", CMD_VEL)
         return min(ends) >= len(programs) and bool(stage.call("count", ODOM))
 
     def moving() -> list[int]:
@@ -170,7 +170,7 @@ def _end(ground: Ground, stage: Stage, programs: dict[str, Program]) -> Endings:
     rests = bool(stage.wait(lambda: _robot_rests(stage), STANDS_S)) or not all_gone()
     stage.call("end_stream", JOY)
     runner.end_all(list(programs.values()), 0.2)
-    stage.wait(lambda: not stage.call("speakers", CMD_VEL), 3.0)
+    stage.wait(lambda: not stage.call("publishers", CMD_VEL), 3.0)
     ends = {}
     for way, sent in _twists(stage, index).items():
         first = next((at for at, (_, _, value) in enumerate(sent) if value == ZERO), None)

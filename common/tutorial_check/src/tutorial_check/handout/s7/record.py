@@ -94,18 +94,18 @@ def _driven(ground: Ground, script: str, *arguments: str) -> Drive:
         program = stage.start(PACKAGE, script, *arguments)
 
         def now_s() -> float:
-            return stage.call("heard", TRUTH, -1)[0][0]
+            return stage.call("received", TRUTH, -1)[0][0]
 
         def pushes() -> bool:
-            return longest_push_s(stage.call("heard", BUMPER), now_s()) > LONGEST_PUSH_S
+            return longest_push_s(stage.call("received", BUMPER), now_s()) > LONGEST_PUSH_S
 
         if arguments:
             robot.drive(program)
         else:
             stage.wait(lambda: program.ended or pushes(), WANDER_S)
         publishers, types = stage.call("state")[0], stage.call("types")
-        path, bumps, ended_s = robot.path, stage.call("heard", BUMPER), now_s()
-        last = stage.call("heard", CMD_VEL, -1)
+        path, bumps, ended_s = robot.path, stage.call("received", BUMPER), now_s()
+        last = stage.call("received", CMD_VEL, -1)
     twist = last[0][2] if last else None
     return Drive(program.ran, path, tuple(bumps), ended_s, twist, publishers, types)
 
