@@ -13,9 +13,10 @@ try:
     from tutorial_tools.system.apt import SetUpError, say
 
     if ONLY_PACKAGES:
-        from tutorial_tools.system.packages import install_all
+        from tutorial_tools.system.packages import DONE, install, packages
 
-        install_all(WORKSPACE)
+        install(packages("demo", "more", "test"), WORKSPACE, again=True)
+        say(DONE)
     else:
         from tutorial_tools.command.program import main
 

@@ -18,7 +18,7 @@ from tutorial_tools.system.packages import DONE, install, packages
 NO_VERDICT = "check: nothing was checked; this says nothing about your exercises"
 
 
-def set_up(plan: words.Plan, workspace: Path) -> None:
+def set_up(plan: words.Plan, workspace: Path, again: bool) -> None:
     """Install and build what a plan needs. Raises SetUpError."""
     if plan["sections"] == ["doctor"]:  # which must not install for minutes
         missing = not_installed(packages("demo"))
@@ -27,7 +27,7 @@ def set_up(plan: words.Plan, workspace: Path) -> None:
             todo = "./tutorial setup installs them"
             raise SetUpError(f"doctor: nothing can drive: {why}; {todo}")
     else:
-        install(packages(*plan["sections"]), workspace)
+        install(packages(*plan["sections"]), workspace, again)
     for program in plan.get("programs", ()):
         if not shutil.which(program):
             todo = "take Debian 12 or 13 (docker/ has it), or put a Chromium and its chromedriver"
@@ -44,10 +44,8 @@ def main(workspace: Path, typed: list[str]) -> None:
     if plan is None:
         return
     word, student = typed[0], "".join(plan.get("student", []))
-    if word == "setup":
-        (workspace / "lacking").unlink(missing_ok=True)  # the archive may have it by now
     try:
-        set_up(plan, workspace)
+        set_up(plan, workspace, again=word == "setup")
     except (SetUpError, OSError, subprocess.SubprocessError) as error:
         if word != "check":
             raise

@@ -39,8 +39,8 @@ def say(line: str) -> None:
 
 
 def _ask(*command: str) -> subprocess.CompletedProcess[str]:
-    english, pipe = {**os.environ, "LC_ALL": "C"}, subprocess.PIPE
-    return subprocess.run(command, check=False, env=english, text=True, stdout=pipe, stderr=pipe)
+    english = {**os.environ, "LC_ALL": "C"}
+    return subprocess.run(command, check=False, env=english, text=True, capture_output=True)
 
 
 def not_installed(names: Sequence[str]) -> list[str]:
@@ -100,7 +100,7 @@ def apt_get(log: Path, script: str, *arguments: str, size: str = "") -> bool:
     """Call apt-get as root, show its progress, and return whether it succeeded."""
     command, pipe = as_root("sh", "-c", script, "sh", *APT_GET, *arguments), subprocess.PIPE
     with open(log, "a", encoding="utf-8") as words:
-        apt = subprocess.Popen(command, text=True, stdout=pipe, stderr=words)
+        apt = subprocess.Popen(command, errors="replace", stdout=pipe, stderr=words)
     with apt:
         if script == IS_FINISHED:
             signal.signal(signal.SIGINT, signal.SIG_IGN)

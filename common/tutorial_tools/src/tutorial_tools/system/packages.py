@@ -43,15 +43,18 @@ def packages(*sections: str) -> list[str]:
     return found
 
 
-def install(wanted: list[str], workspace: Path) -> None:
+def install(wanted: list[str], workspace: Path, again: bool) -> None:
     """Install what is missing of these packages. Raises SetUpError.
 
-    What the archive lacks is reported once, and kept in a file of the workspace.
+    What the archive lacks is reported once, and kept in a file of the workspace. again: the archive
+    may have it by now.
     """
     if wanted and not shutil.which("apt-get"):
         todo = "this needs Debian 12 or 13, or Ubuntu 22.04 or 24.04; elsewhere use docker/"
         raise SetUpError(f"no apt-get here: {todo}")
     kept = workspace / "lacking"
+    if again:
+        kept.unlink(missing_ok=True)
     known = kept.read_text().split() if kept.exists() else []
     missing = [name for name in apt.not_installed(wanted) if name not in known]
     if not missing:
@@ -93,10 +96,3 @@ def _install(missing: list[str], kept: Path, log: Path) -> None:
         failed = " ".join(apt.not_installed(missing))
         todo = "then run ./tutorial setup again: it goes on where it stopped"
         raise SetUpError(f"not installed: {failed}. Check the network {words}, {todo}")
-
-
-def install_all(workspace: Path) -> None:
-    """Install what the suite and its tests need."""
-    (workspace / "lacking").unlink(missing_ok=True)  # the archive may have it by now
-    install(packages("demo", "more", "test"), workspace)
-    say(DONE)
