@@ -4,7 +4,7 @@ import sys
 from pathlib import Path
 
 SOURCES = Path(__file__).resolve().parents[2]
-sys.path[:1] = [str(SOURCES), str(SOURCES.parents[1] / "node_kit" / "src")]
+sys.path[:0] = [str(SOURCES), str(SOURCES.parents[1] / "node_kit" / "src")]
 WORKSPACE, TYPED = Path(sys.argv[1]), sys.argv[2:]
 # With no other modules than docker/Dockerfile has by then, and no files of root's beside them.
 ONLY_PACKAGES = sys.dont_write_bytecode = TYPED == ["setup", "system"]
