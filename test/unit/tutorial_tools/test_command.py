@@ -1,11 +1,14 @@
 """The words of ./tutorial: what they set up and start, their mistakes, completion, the build."""
 
 import os
+from pathlib import Path
 
 import pytest
 
 from tutorial_tools.command import build
-from tutorial_tools.command.words import candidates, main, plan
+from tutorial_tools.command.words import candidates, plan, read
+from tutorial_tools.system import apt
+from tutorial_tools.system.packages import packages
 
 SECTIONS = {"demo": ["demo", "more"], "test": ["demo", "more", "test"], "doctor": ["doctor"]}
 SECTIONS["browser"] = [*SECTIONS["test"], "browser"]
@@ -64,9 +67,8 @@ def test_a_students_workspace_is_absolute_and_built_last(tmp_path, monkeypatch):
 def test_a_mistake_is_one_line(monkeypatch, capsys, line, words):
     for name in ("DISPLAY", "TUTORIAL_IN"):
         monkeypatch.delenv(name, raising=False)
-    monkeypatch.setattr("sys.argv", ["words", "/ws", *line.split()])
     with pytest.raises(SystemExit) as end:
-        main()
+        read(Path("/ws"), line.split())
     (said,) = capsys.readouterr().err.splitlines()
     assert words in said and end.value.code == 2
 
@@ -101,3 +103,15 @@ def test_what_cannot_be_a_students_workspace(tmp_path, monkeypatch, folder, why)
     (tmp_path / "ws" / "devel").mkdir(parents=True)
     monkeypatch.setattr(os, "geteuid", lambda: 4321)
     assert why in build.why_no_workspace(tmp_path / "cache", tmp_path / folder)
+
+
+def test_which_packages_belong_to_a_section(monkeypatch):
+    monkeypatch.setenv("TUTORIAL_ROS", "/opt/ros/one")
+    monkeypatch.setenv("TUTORIAL_WITHOUT", "test view")
+    assert packages("demo", "test") == packages("demo") and "ros-one-ros-base" in packages("demo")
+    assert "python3-distributed" in packages("cluster") and "ros-one-rviz" not in packages("more")
+
+
+def test_apts_progress_in_steps_of_ten_percent():
+    status = ["dlstatus:1:9.9:a", "dlstatus:2:31.5:a", "dlstatus:3:32:a", "pmerror:a:50:a"]
+    assert [line.split()[1] for line in apt.progress(status, " of 2 MB")] == ["9", "31"]

@@ -1,6 +1,6 @@
-"""Set up what ./tutorial needs beside Debian packages: catkin workspaces, and what PyPI has.
+"""What ./tutorial needs beside Debian packages: catkin workspaces, and what PyPI has.
 
-build.py WORKSPACE [workspace] [student=PATH] [pypi=NAME:FILE] [maybe=NAME:FILE] [alone=NAME:FILE]
+Parts: workspace, student=PATH, pypi=NAME:FILE, maybe=NAME:FILE, alone=NAME:FILE.
 """
 
 from __future__ import annotations
@@ -12,7 +12,6 @@ import hashlib
 import os
 import re
 import shutil
-import signal
 import subprocess
 import sys
 from collections.abc import Iterable, Iterator, Sequence
@@ -20,6 +19,7 @@ from pathlib import Path
 
 from node_kit.manifests import broken_manifests, manifests
 from tutorial_tools.hidden import hidden_stand_ins
+from tutorial_tools.system.apt import SetUpError, say
 
 REPOSITORY = Path(__file__).resolve().parents[5]
 # The prefix of a ROS that is not the system's own, as ./tutorial has found it.
@@ -30,15 +30,6 @@ OVERLAY = ("beginner_tutorials", "joy2twist", "test")  # the solutions
 SCRIPTS = "common/tutorial_tools/scripts"
 COMMANDS = (f"{SCRIPTS}/rqt_graph", f"{SCRIPTS}/rqt_bag", f"{SCRIPTS}/2to3", "tutorial")
 WRONG = re.compile("rror|invalid|mismatched|not found")
-
-
-class BuildError(Exception):
-    """Why nothing can be built, in one line for the user."""
-
-
-def say(line: str) -> None:
-    """Report to the user."""
-    print(f"tutorial: {line}", file=sys.stderr, flush=True)
 
 
 def stamp() -> str:
@@ -109,7 +100,7 @@ def build_workspace(workspace: Path) -> None:
     """Build the underlay and the overlay if a file that catkin reads has changed."""
     if re.search(r"\s", str(workspace)):
         todo = "set TUTORIAL_WORKSPACE to a path without spaces"
-        raise BuildError(f"catkin cannot build in {workspace}: {todo}")
+        raise SetUpError(f"catkin cannot build in {workspace}: {todo}")
     with one_at_a_time(workspace):
         if not is_built(workspace):
             build_both(workspace)
@@ -142,7 +133,7 @@ def build_both(workspace: Path) -> None:
         and clean_catkin_make(lower / "devel" / "setup.bash", workspace, log)
     ):
         print(*log.read_text().splitlines()[-15:], sep="\n", file=sys.stderr)
-        raise BuildError(f"catkin_make failed; {log} has all of it")
+        raise SetUpError(f"catkin_make failed; {log} has all of it")
     (workspace / "built").write_text(f"{built}\n")
 
 
@@ -178,7 +169,7 @@ def build_student(workspace: Path, student: Path) -> None:
     """Make and build a student's workspace over the underlay; only report a mistake in it."""
     refused = why_no_workspace(workspace, student)
     if refused:
-        raise BuildError(f"--in {student}: {refused}")
+        raise SetUpError(f"--in {student}: {refused}")
     for seen, todo in hidden_stand_ins(student, REPOSITORY, SHARE):
         say(f"{seen}: {todo}")
     with one_at_a_time(workspace):
@@ -187,13 +178,18 @@ def build_student(workspace: Path, student: Path) -> None:
             return
     for path, why in broken_manifests(str(student / "src"))[:1]:
         say(f"{path}: {why}; until that is fixed no ROS program starts in {student}")
-    util = student / "devel" / "_setup_util.py"
-    made = util.read_text(errors="replace") if util.exists() else ""
+    made = made_over(student)
     if f"{workspace}/lower/devel" not in made:
         other = re.search("([^';]*)/lower/devel", made)
         over = f", over another copy of it in {other[1]}" if other else ""
         todo = f"in the shell, cd {student}; rm -r build devel; catkin_make"
         say(f"{student} was built without this suite{over}: {todo}")
+
+
+def made_over(student: Path) -> str:
+    """Return the file in which catkin keeps over which workspaces this one was built."""
+    util = student / "devel" / "_setup_util.py"
+    return util.read_text(errors="replace") if util.exists() else ""
 
 
 def build_new(workspace: Path, student: Path) -> None:
@@ -259,28 +255,18 @@ def install_from_pypi(workspace: Path, name: str, requirements: str, kind: str) 
         todo = "then run ./tutorial setup again: it goes on where it stopped"
         line = f"not installed from PyPI: {names}. Check the network ({log}), {todo}"
         if needed:
-            raise BuildError(line)
+            raise SetUpError(line)
         say(f"{line}\ntutorial: all but replay_bag works without")
         shutil.copy(wanted, failed)
 
 
-def main() -> None:
-    """Build the parts that the command line names, in its order."""
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
-    workspace, *parts = Path(sys.argv[1]), *sys.argv[2:]
-    for part in parts:
-        kind, _, value = part.partition("=")
-        try:
-            if kind == "workspace":
-                build_workspace(workspace)
-            elif kind == "student":
-                build_student(workspace, Path(value))
-            else:
-                name, requirements = value.split(":")
-                install_from_pypi(workspace, name, requirements, kind)
-        except BuildError as error:
-            sys.exit(f"tutorial: {error}")
-
-
-if __name__ == "__main__":
-    main()
+def build(workspace: Path, part: str) -> None:
+    """Build one part. Raises SetUpError."""
+    kind, _, value = part.partition("=")
+    if kind == "workspace":
+        build_workspace(workspace)
+    elif kind == "student":
+        build_student(workspace, Path(value))
+    else:
+        name, requirements = value.split(":")
+        install_from_pypi(workspace, name, requirements, kind)

@@ -1,7 +1,6 @@
-"""The words of ./tutorial, their options and help: prints the plan that the shell script follows.
+"""The words of ./tutorial, their options and help, and the plan of each: what to set up and to run.
 
-Only the standard library, as ROS may not be installed yet. The plan is bash: the packages and
-builds to set up, then the command to run.
+Only the standard library, as ROS may not be installed yet.
 """
 
 from __future__ import annotations
@@ -9,7 +8,6 @@ from __future__ import annotations
 import argparse
 import difflib
 import os
-import shlex
 import sys
 from pathlib import Path
 from typing import Dict, List, NoReturn, TextIO
@@ -17,7 +15,7 @@ from typing import Dict, List, NoReturn, TextIO
 from node_kit.arguments import Parser, above_zero
 from node_kit.ros2_python import installed
 from tutorial_tools.command import ros2
-from tutorial_tools.command.build import REPOSITORY, is_done
+from tutorial_tools.command.build import REPOSITORY
 
 SCRIPTS = REPOSITORY / "common" / "tutorial_tools" / "scripts"
 PROGRAMS = {word: str(SCRIPTS / f"{word}.py") for word in ("demo", "join", "doctor")}
@@ -257,32 +255,22 @@ def candidates(typed: list[str]) -> list[str]:
     return [each for each in found if each.startswith(last) and (last or each[0] != "-")]
 
 
-def main() -> None:
-    """Print the plan on file descriptor 3; without one, nothing is left to do."""
-    workspace, word, *arguments = [*sys.argv[1:], ""] if len(sys.argv) == 2 else sys.argv[1:]
+def read(workspace: Path, typed: list[str]) -> Plan | None:
+    """Return the plan of what the user typed; None if nothing is left to do. A misuse exits."""
+    word, arguments = "".join(typed[:1]), typed[1:]
     if word == "":
         show_help(sys.stderr)
         sys.exit(2)
     if word in ("help", "-h", "--help"):
         show_help(sys.stdout)
-    elif word == "completion":
+        return None
+    if word == "completion":
         print("\n".join(candidates(arguments)) if arguments else COMPLETION)
-    elif word not in WORDS:
+        return None
+    if word not in WORDS:
         near = difflib.get_close_matches(word, WORDS, 1)
         meant = f"; did you mean {near[0]}?" if near else ""
         fail(f'"{word}" is no command{meant}; ./tutorial help lists them')
-    elif arguments[:1] == ["--in"] and word not in IN_WORDS:
+    if arguments[:1] == ["--in"] and word not in IN_WORDS:
         fail(f"{word}: knows no --in; shell, run, doctor and check do")
-    else:
-        here = Path(workspace)
-        made = plan_of_ros2(here, arguments) if word == "ros2" else plan(word, arguments)
-        made["builds"] = [part for part in made["builds"] if not is_done(here, part)]
-        lines = [f"word={word} student={shlex.quote(''.join(made.get('student', [])))}"]
-        for name in ("sections", "programs", "builds", "command"):
-            lines.append(f"{name}=({' '.join(map(shlex.quote, made.get(name, [])))})")
-        with open(3, "w", encoding="utf-8") as file:
-            print("\n".join(lines), file=file)
-
-
-if __name__ == "__main__":
-    main()
+    return plan_of_ros2(workspace, arguments) if word == "ros2" else plan(word, arguments)

@@ -1,0 +1,65 @@
+"""The environment of what ./tutorial starts."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+from tutorial_tools.command.build import REPOSITORY, made_over
+
+OTHERS = ("CMAKE_PREFIX_PATH", "ROS_PACKAGE_PATH")  # of another workspace, from ~/.bashrc
+LOCAL = ("", "localhost", "127.0.0.1")
+
+
+def environment_of(workspace: Path, word: str, student: str) -> dict[str, str]:
+    """Return the environment of the command of a word. student: "" for the suite's own."""
+    # Not os.environ, to which Python adds LC_CTYPE where no locale is set.
+    given = _parse(Path("/proc/self/environ").read_bytes())
+    lower, etc = workspace / "lower" / "devel", str(REPOSITORY / "common/node_kit/etc/ros")
+    own = {"TUTORIAL_UNDERLAY": f"{lower}/setup.bash"}
+    if word in ("check", "worker", "scheduler"):
+        libraries = f"{lower}/lib/python3/dist-packages"
+        return {**given, **own, "PYTHONPATH": libraries, "ROS_ETC_DIR": etc}
+    setup = workspace / "devel" / "setup.bash"
+    if student:  # the underlay's, if the student has built nothing over it
+        over = str(lower) in made_over(Path(student))
+        setup = Path(student, "devel", "setup.bash") if over else lower / "setup.bash"
+    made = _sourced(setup, given)
+    # ROS lets anybody in the network drive: all stays on this machine until the user names an
+    # address. Not by ROS_HOSTNAME, which would outdo the ROS_IP that a user sets afterwards.
+    master = re.sub("^.*?://", "", made.get("ROS_MASTER_URI", ""))
+    named = made.get("ROS_IP") or made.get("ROS_HOSTNAME")
+    if not named and re.split("[:/]", master)[0] in LOCAL:
+        made["ROS_IP"] = "127.0.0.1"
+    from_pypi = map(str, workspace.glob("python/lib/python3*/site-packages"))
+    path = f"{workspace}/bin:/usr/bin"  # ROS belongs to the system's Python, whichever is first
+    own.update(
+        PATH=f"{path}:{made['PATH']}",
+        PYTHONPATH=":".join([made.get("PYTHONPATH", ""), *from_pypi]),
+        ROS_ETC_DIR=etc,  # where roscore and roslaunch look for roscore.xml
+        TUTORIAL_IN=student,
+        TUTORIAL_RESULTS=str(workspace),
+        TUTORIAL_ROS2=f"{workspace}/ros2/bin/python",  # if ./tutorial ros2 has set it up
+    )
+    if word == "doctor":
+        own["TUTORIAL_TERMINAL_PATH"] = given["PATH"]
+    if word == "shell":  # for shellrc, after the user's .bashrc
+        own.update(TUTORIAL_SETUP=str(setup), TUTORIAL_ETC=etc, TUTORIAL_PATH=path)
+        own["TUTORIAL_PYTHONPATH"] = own["PYTHONPATH"]
+    return {**made, **own}
+
+
+def _sourced(setup: Path, given: dict[str, str]) -> dict[str, str]:
+    kept = {name: value for name, value in given.items() if name not in OTHERS}
+    command = ["bash", "-ec", '. "$0" >&2; exec /usr/bin/env -0', str(setup)]
+    done = subprocess.run(command, env=kept, check=False, stdout=subprocess.PIPE)
+    if done.returncode:
+        sys.exit(done.returncode)
+    return _parse(done.stdout)
+
+
+def _parse(block: bytes) -> dict[str, str]:
+    return dict(re.findall("([^=\0]+)=([^\0]*)\0", os.fsdecode(block)))
