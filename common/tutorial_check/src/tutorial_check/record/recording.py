@@ -1,13 +1,14 @@
 """What recorders write down, as JSON and back. Pure.
 
 A recording is a frozen dataclass. Its fields are texts, numbers, truth values, None, other such
-dataclasses, or tuples and maps of these, as their annotations say.
+dataclasses, paths, or tuples and maps of these, as their annotations say.
 """
 
 from __future__ import annotations
 
 import dataclasses
 import inspect
+from pathlib import Path
 from typing import Any, Dict, List, Tuple, TypeVar, Union, cast, get_type_hints
 
 VERSION = 1  # raised by each change that an older judge could not read
@@ -26,7 +27,7 @@ def as_json(value: Any) -> Any:
         return {str(key): as_json(each) for key, each in value.items()}
     if isinstance(value, (list, tuple)):
         return [as_json(each) for each in value]
-    return value
+    return str(value) if isinstance(value, Path) else value
 
 
 def from_json(kind: type[Recording], value: Any) -> Recording:
@@ -53,7 +54,7 @@ def _from_json(kind: Any, value: Any) -> Any:
         return {key: _from_json(inner[1], each) for key, each in value.items()}
     if origin in (list, List):
         return [_from_json(inner[0], each) for each in value]
-    return float(value) if kind is float else value
+    return kind(value) if kind in (float, Path) else value
 
 
 def recorded_by(recorder: Any) -> Any:

@@ -66,7 +66,7 @@ class Stage:
 
     def start_ours(self, package: str, program: str, *arguments: str) -> Program:
         """Start a program of the suite's. Without rosrun, which searches it for half a second."""
-        path = Path(self.session.underlay).parent / "lib" / package / program
+        path = Path(self.session.order.underlay).parent / "lib" / package / program
         renamed = [f"{topic}:={own}" for topic, own in self._topics.items()]
         return self.launch([str(path), *renamed, *arguments], trusted=True)
 
