@@ -81,7 +81,7 @@ def examine(
     only_first: bool = False,
     own: bool = True,
     course: Path = OURS,
-    variant: Mapping[str, Any] = MappingProxyType({}),
+    variant: Mapping[str, object] = MappingProxyType({}),
 ) -> list[Outcome]:
     """Return the Outcomes of a workspace; call report with each result as soon as it is there.
 
@@ -127,7 +127,7 @@ def order_of(
     only_first: bool = False,
     own: bool = True,
     course: Path = OURS,
-    variant: Mapping[str, Any] = MappingProxyType({}),
+    variant: Mapping[str, object] = MappingProxyType({}),
 ) -> Order:
     """Copy a workspace into an empty folder; return the order to check it. Raises CannotCheck."""
     layout, shown = _hand_in(os.path.abspath(workspace), folder, own)
