@@ -28,6 +28,7 @@ NEEDS_BUILD = re.compile(
     re.MULTILINE | re.IGNORECASE,
 )
 Recorded = TypeVar("Recorded")
+Value = TypeVar("Value")
 Recorder = Callable[..., Recorded]  # called with a ground.Ground and arguments
 
 
@@ -40,7 +41,7 @@ class Session:
         self.task: Any = task  # the course's own
         self.source = self.folder / "ws" / "src"
         self.underlay_environment: Mapping[str, str] = order.environment
-        self._scripts: dict[str, dict[str, PythonFacts]] = {}
+        self._memory: dict[object, Any] = {}
         self._visible = [Path("/")]  # what the student's programs may see, with all below it
 
     def is_own(self, path: str | Path) -> bool:
@@ -51,6 +52,13 @@ class Session:
         """Return whether the student's programs may see what is at a path, so that it may be looked at."""
         real = Path(os.path.realpath(path))
         return any(each == real or each in real.parents for each in self._visible)
+
+    def memo(self, key: object, make: Callable[[], Value]) -> Value:
+        """Return make(), called once. For facts, which do not change."""
+        if key not in self._memory:
+            self._memory[key] = make()
+        found: Value = self._memory[key]
+        return found
 
     def recording(self, recorder: Recorder[Recorded], *arguments: object) -> Recorded:
         """Return what a recorder writes down; recorded once, unless it is looked at again."""
@@ -88,9 +96,7 @@ class Session:
 
     def scripts(self, name: str) -> dict[str, PythonFacts]:
         """Return {path within the package: PythonFacts} of the Python programs of a package."""
-        if name not in self._scripts:
-            self._scripts[name] = dict(self._programs(self.package(name)))
-        return self._scripts[name]
+        return self.memo(("scripts", name), lambda: dict(self._programs(self.package(name))))
 
     def _programs(self, package: Package) -> Iterator[tuple[str, PythonFacts]]:
         for path in sorted(package.folder.rglob("*")):
