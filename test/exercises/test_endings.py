@@ -95,4 +95,4 @@ def test_a_worker_that_is_ended_while_it_starts_leaves_nothing(literal, underlay
     for milliseconds in range(0, 20):
         with Worker(order, wrapper):
             time.sleep(milliseconds / 1000)  # it ends at each point of bubblewrap's start
-    wait_for(lambda: not processes_like(order.folder), "end of the workers", SOON_S)
+    wait_for(lambda: not processes_like(str(folder)), "end of the workers", SOON_S)

@@ -2,6 +2,7 @@
 
 import os
 import shutil
+from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
@@ -10,10 +11,11 @@ import stored
 from tutorial_check.handout.task import JoystickTask
 from tutorial_check.order import Order
 from tutorial_check.record.ground import Ground
+from tutorial_check.source.workspace import Layout
 
 
 @pytest.fixture
-def make_session(tmp_path):
+def make_session(tmp_path, order):
     """make_session(package, exercise): a Ground of a workspace with that package, still empty."""
 
     def make(package, exercise):
@@ -21,15 +23,7 @@ def make_session(tmp_path):
         folder.mkdir(parents=True)
         (folder / "package.xml").write_text(f"<package><name>{package}</name></package>")
         runner = SimpleNamespace(environment={"PATH": ""})
-        return Ground(
-            tmp_path,
-            None,
-            [exercise],
-            runner,
-            underlay="",
-            can_have_devices=False,
-            task=JoystickTask({}),
-        )
+        return Ground(replace(order, exercises=(exercise,)), JoystickTask({}), runner)
 
     return make
 
@@ -37,11 +31,8 @@ def make_session(tmp_path):
 @pytest.fixture
 def order(tmp_path):
     """An Order of an empty workspace."""
-    return Order(
-        folder=str(tmp_path), root=str(tmp_path), source=str(tmp_path / "src"), place="",
-        is_workspace=True, own=True, exercises=("2",), only_first=False, course="", variant={},
-        underlay="", environment={}, kept=(), shown=(), apart=False,
-    )  # fmt: skip
+    layout = Layout(tmp_path, tmp_path / "src", True)
+    return Order(tmp_path, layout, True, ("2",), False, tmp_path, {}, "", {}, (), ())
 
 
 @pytest.fixture

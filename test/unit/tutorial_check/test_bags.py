@@ -21,7 +21,7 @@ def workspace(tmp_path):
     for folder in folders.values():
         folder.mkdir()
     package = lambda name: SimpleNamespace(folder=folders[name])  # noqa: E731
-    one = SimpleNamespace(source=tmp_path, package=package)
+    one = SimpleNamespace(source=tmp_path, package=package, has=folders.__contains__)
     one.recording = lambda recorder, path: recorder(one, path)
     return one
 

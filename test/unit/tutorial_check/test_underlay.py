@@ -18,7 +18,8 @@ def session(tmp_path):
         (tmp_path / folder).mkdir(parents=True)
     layout = Layout(tmp_path / "ws", tmp_path / "ws/src", True)
     underlay = str(tmp_path / "this/lower/devel/setup.bash")
-    return SimpleNamespace(layout=layout, underlay=underlay, packages=[])
+    order = SimpleNamespace(underlay=underlay)
+    return SimpleNamespace(layout=layout, order=order, packages=[])
 
 
 def build(tmp_path, below):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import shlex
 from pathlib import Path
-from typing import Any, Callable, Dict
+from typing import Any, Callable, cast
 
 from tutorial_check.isolation.bubblewrap import SYSTEM
 from tutorial_check.model import (
@@ -17,41 +17,41 @@ from tutorial_check.model import (
     Wrong,
     master_gone,
 )
-from tutorial_check.order import Order
+from tutorial_check.order import Line, Order
 from tutorial_check.record.recording import as_json, from_json, recorded_by
-from tutorial_check.record.session import Memory, Recorded, Recorder, Session, once
+from tutorial_check.record.session import Recorded, Recorder, Session
 from tutorial_check.source.manifests import unreadable
-from tutorial_check.source.workspace import COPY, Layout
+from tutorial_check.source.workspace import COPY
+from tutorial_check.variants import Task
 
-Ask = Callable[[Dict[str, Any]], Dict[str, Any]]  # the worker: question -> answer
+Ask = Callable[[Line], Line]  # the worker: question -> answer
 
 
 class Case(Session):
     """What the files of a workspace say, as they were handed in, and what the worker records."""
 
-    def __init__(self, order: Order, task: Any, ask: Ask) -> None:
-        layout = Layout(Path(order.root), Path(order.source), order.is_workspace)
-        super().__init__(
-            order.folder,
-            layout,
-            order.exercises,
-            underlay=order.underlay,
-            underlay_environment=order.environment,
-            task=task,
-        )
+    def __init__(self, order: Order, task: Task, ask: Ask) -> None:
+        super().__init__(order, task)
         self.source = self.folder / COPY
-        visible = (str(self.source), *order.shown, *SYSTEM)
+        visible = [self.source, *order.shown, *map(Path, SYSTEM)]
         self._visible = [Path(os.path.realpath(each)) for each in visible]
-        self._order, self._ask = order, ask
-        self._runs: Memory = {}
-        self.asked: list[dict[str, Any]] = []  # each question with its answer
+        self._ask = ask
+        self._runs: dict[object, Any] = {}  # what was recorded, or the Wrong in its place
+        self.asked: list[Line] = []  # each question with its answer
         self._strained = self._hopeless = False
 
     def recording(self, recorder: Recorder[Recorded], *arguments: object) -> Recorded:
         """Ask for a recording, at the first call. Raises CannotCheck, or Wrong if there can be none."""
         key = recorder.__module__, recorder.__name__, *arguments
-        found: Recorded = once(self._runs, key, lambda: self._asked(recorder, arguments))
-        return found
+        if key not in self._runs:
+            try:
+                self._runs[key] = self._asked(recorder, arguments)
+            except Wrong as wrong:
+                self._runs[key] = wrong
+        found = self._runs[key]
+        if isinstance(found, Wrong):
+            raise found
+        return cast(Recorded, found)
 
     def _asked(self, recorder: Recorder[Recorded], arguments: tuple[object, ...]) -> Recorded:
         name = f"{recorder.__module__}:{recorder.__name__}"
@@ -98,11 +98,11 @@ class Case(Session):
 
     def as_sent(self, result: Result) -> Result:
         """Return a result with the student's own paths."""
-        order = self._order
-        copied = f"{self.source.parent}/" if order.is_workspace else f"{self.source}/"
+        layout = self.layout
+        copied = f"{self.source.parent}/" if layout.is_workspace else f"{self.source}/"
         # Commands work in any folder, where the workspace is known.
-        is_known = order.own and self.folder not in self.layout.root.parents
-        root = f"{shlex.quote(order.root)}/" if is_known else ""
+        is_known = self.order.own and self.folder not in layout.root.parents
+        root = f"{shlex.quote(str(layout.root))}/" if is_known else ""
         found = dict(vars(result))
         for name, words in found.items():
             if isinstance(words, str):

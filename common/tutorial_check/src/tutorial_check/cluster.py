@@ -18,7 +18,7 @@ import sys
 import tarfile
 import tempfile
 from pathlib import Path
-from typing import Any, Callable, Mapping, NoReturn, Sequence
+from typing import Any, Callable, Mapping, NoReturn, Sequence, TypeVar
 from urllib.parse import urlsplit
 
 from node_kit.arguments import Parser
@@ -26,6 +26,7 @@ from tutorial_check.course import OURS, read_course
 from tutorial_check.isolation import bubblewrap, landlock, privileges
 from tutorial_check.launcher import Outcome, examine
 from tutorial_check.model import CannotCheck
+from tutorial_check.order import Variant
 from tutorial_check.report.last_run import digest_of_checks
 from tutorial_check.source.workspace import IGNORED, MOST_BYTES
 
@@ -42,6 +43,7 @@ OPENSSL = """openssl req -x509 -newkey rsa:3072 -nodes -days 3650 -subj /CN=ros1
 NO_PAGES = {f"DASK_DISTRIBUTED__{one}__HTTP__ROUTES": "[]" for one in ("SCHEDULER", "WORKER")}
 LOCAL = ("--no-dashboard", "--dashboard-address", "127.0.0.1:0")
 INSISTS = "TUTORIAL_NOT_ISOLATED"  # variable of a worker of --not-isolated
+Value = TypeVar("Value")
 
 
 class Gone(CannotCheck):
@@ -103,11 +105,11 @@ class Cluster:
         if not self._client.nthreads():
             print(f"no worker yet; on each machine: ./tutorial worker {address}", flush=True)
 
-    def call(self, function: Callable[..., Any], *arguments: Any) -> Any:
+    def call(self, function: Callable[..., Value], *arguments: object) -> Value:
         """Return what a function of this suite returns on a worker. Raises what it raises, or Gone."""
         try:
-            future = self._client.submit(function, *arguments, pure=False)
-            return future.result()
+            found: Value = self._client.submit(function, *arguments, pure=False).result()
+            return found
         except self._dask.KilledWorker:
             why = f"abandoned: {TRIES} workers have ended while they checked it"
             raise CannotCheck(why) from None
@@ -122,14 +124,12 @@ class Cluster:
             raise Gone(why) from error
 
     def examine(
-        self, workspace: Path, exercises: Sequence[str], course: Path, variant: Mapping[str, Any]
+        self, workspace: Path, exercises: Sequence[str], course: Path, variant: Variant
     ) -> list[Outcome]:
         """Return the Outcomes of a submission, as examination.examine does. Raises CannotCheck."""
         parts = {"submission": workspace, **({} if course == OURS else {"course": course})}
         version = digest_of_checks(read_course(course), exercises, 2)
-        about = _packed(parts), exercises, dict(variant), version
-        found: list[Outcome] = self.call(_examine, *about)
-        return found
+        return self.call(_examine, _packed(parts), exercises, variant, version)
 
     def close(self) -> None:
         """Give up what was not checked yet."""
@@ -173,7 +173,7 @@ def _unpack(packed: bytes, folder: str | Path) -> None:
 
 
 def _examine(
-    packed: bytes, exercises: Sequence[str], variant: Mapping[str, Any], version: str
+    packed: bytes, exercises: Sequence[str], variant: Variant, version: str
 ) -> list[Outcome]:
     """Check a submission on this machine. Raises CannotCheck."""
     _must_isolate()

@@ -112,7 +112,7 @@ def package_of(course: Course) -> str:
     return f"{__package__}.handout" if course.folder == OURS else PACKAGE
 
 
-def read_yaml(file: str | Path, what: str = "") -> Any:
+def read_yaml(file: str | Path, what: str = "") -> object:
     """Return what a YAML file says. Raises CannotCheck; what: added where there is no such file."""
     try:
         return yaml.safe_load(Path(file).read_text(encoding="utf-8"))

@@ -81,7 +81,7 @@ def examine(
     only_first: bool = False,
     own: bool = True,
     course: Path = OURS,
-    variant: Mapping[str, Any] = MappingProxyType({}),
+    variant: Mapping[str, object] = MappingProxyType({}),
 ) -> list[Outcome]:
     """Return the Outcomes of a workspace; call report with each result as soon as it is there.
 
@@ -104,13 +104,13 @@ def examine(
         )  # fmt: skip
         wrapper = bubblewrap.command(folder, order.shown, SUITE)
         order = replace(order, apart=bool(wrapper))
+        must_start_programs(order, is_other=user is not None)
         if user is not None:
-            _must_be_open(order)
             privileges.open_to(user, folder)
         wrapper += privileges.as_user(user)
         outcomes = _examine(order, wrapper, read_course(course), report)
         remark = "" if own else bubblewrap.instead()
-        return [replace(one, place=order.place, remark=remark) for one in outcomes]
+        return [replace(one, place=order.layout.place, remark=remark) for one in outcomes]
     finally:
         if user is not None:
             privileges.end_all_of(user)
@@ -127,7 +127,7 @@ def order_of(
     only_first: bool = False,
     own: bool = True,
     course: Path = OURS,
-    variant: Mapping[str, Any] = MappingProxyType({}),
+    variant: Mapping[str, object] = MappingProxyType({}),
 ) -> Order:
     """Copy a workspace into an empty folder; return the order to check it. Raises CannotCheck."""
     layout, shown = _hand_in(os.path.abspath(workspace), folder, own)
@@ -135,11 +135,8 @@ def order_of(
     underlay = os.path.abspath(underlay)
     kept = _kept(underlay)
     return Order(
-        folder=str(folder), root=str(layout.root), source=str(layout.source), place=layout.place,
-        is_workspace=layout.is_workspace, own=own, exercises=tuple(exercises),
-        only_first=only_first, course=str(checks), variant=dict(variant), underlay=underlay,
-        environment=_environment(underlay), kept=tuple(kept),
-        shown=(*map(str, shown), str(checks), *kept),
+        folder, layout, own, tuple(exercises), only_first, checks, dict(variant), underlay,
+        _environment(underlay), kept, (*shown, checks, *kept),
     )  # fmt: skip
 
 
@@ -159,19 +156,22 @@ def _environment(underlay: str) -> dict[str, str]:
     return {**found, **given(OF_SUITE), "OPENBLAS_NUM_THREADS": "1"}
 
 
-def _kept(underlay: str) -> list[str]:
+def _kept(underlay: str) -> tuple[Path, ...]:
     """Return the folders that the programs need: the underlay and its sources, this package among them."""
     devel = Path(underlay).parent
     names = devel / ".catkin"
     sources = filter(None, names.read_text().split(";") if names.is_file() else [])
     links = [link for source in sources for link in Path(source).glob("*") if link.is_dir()]
-    return [str(devel.parent), *(str(link.resolve()) for link in links)]
+    return (devel.parent, *(link.resolve() for link in links))
 
 
-def _must_be_open(order: Order) -> None:
-    """Raise CannotCheck for a folder that programs of another user need and may not enter."""
-    needed = {Path(each) for each in order.kept}
-    ways = {up for one in (Path(order.folder), *needed) for up in one.parents}
+def must_start_programs(order: Order, is_other: bool) -> None:
+    """Raise CannotCheck where no program can be started. is_other: as another user."""
+    if not order.apart and os.statvfs(order.folder).f_flag & os.ST_NOEXEC:
+        why = "is mounted noexec: set TMPDIR to another folder"
+        raise CannotCheck(f"no program can be started: {order.folder.parent} {why}")
+    needed = set(order.kept) if is_other else set()
+    ways = {up for one in (order.folder, *needed) for up in one.parents} if is_other else set()
     for folder in sorted(needed if order.apart else needed | ways):
         if not folder.stat().st_mode & 0o001:
             # What is below a needed one is as closed; but a home folder is opened no further.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import traceback
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Callable, Iterable, Iterator
 
@@ -101,9 +101,14 @@ class Check:
         """That of the id: 12 of C12."""
         return int(re.sub(r"\D", "", self.id) or 0)
 
-    def result(self, status: str, **more: Any) -> Result:
-        about = {"title": self.title, "section": self.section, "look": self.look}
-        return Result(self.id, status, eager=self.eager, **{**about, **more})
+    def result(self, status: str, found: Wrong | Note | str = "") -> Result:
+        """Return a Result. found: what was seen, or all that is said of it."""
+        one = Note(found) if isinstance(found, str) else found
+        about = self.title, "", one.seen, one.where, one.hint, self.section, self.look
+        result = Result(self.id, status, *about, eager=self.eager)
+        if isinstance(one, Note):
+            return replace(result, empty=one.empty)
+        return replace(result, expected=one.expected, look=one.look or self.look)
 
 
 class Run:
@@ -112,7 +117,7 @@ class Run:
     def __init__(
         self,
         checks: Iterable[Check],
-        session: Any,
+        session: object,
         second_look: Callable[[bool], bool] = lambda explained: False,
         too_busy: Callable[[], bool] = lambda: False,
     ) -> None:
@@ -185,16 +190,13 @@ class Run:
             same = self._same_cause(wrong)
             if same:  # one cause is reported once, at the first check that it keeps from holding
                 return self._unreached(check, same)
-            what = {name: getattr(wrong, name) for name in ("expected", "seen", "where", "hint")}
-            return check.result(WRONG, **what, look=wrong.look or check.look)
+            return check.result(WRONG, wrong)
         except Exception as error:  # also a bug of ours: the other checks are made all the same
             why = self._troubles[check.id] = fault(error)
-            result = check.result(UNREACHED, seen=f"could not be checked: {why}")
+            result = check.result(UNREACHED, f"could not be checked: {why}")
             self._blocked_by[check.id] = [result]
             return result
-        if isinstance(found, Note):
-            return check.result(NOTE, **vars(found))
-        return check.result(OK, seen=found or "")
+        return check.result(NOTE if isinstance(found, Note) else OK, found or "")
 
     def _same_cause(self, wrong: Wrong) -> list[Result]:
         """Return the wrong results about the same cause. "No such file" alone may be said of two files."""
@@ -231,7 +233,7 @@ class Run:
         why = f"first fix {first.id}: {first.title}"
         if first.status == UNREACHED:
             why = f"{first.id} could not be checked"
-        return check.result(UNREACHED, seen=why)
+        return check.result(UNREACHED, why)
 
 
 def passed(results: Iterable[Result]) -> bool:

@@ -7,15 +7,15 @@ import hashlib
 import re
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, Dict, Mapping
+from typing import Any, Mapping
 
 import yaml
 
 from tutorial_check.course import Course, Value, package_of, read_yaml
 from tutorial_check.model import CannotCheck
+from tutorial_check.order import Variant
 
 SHEET = "# {title}: the task of {name}\n\n{tasks}\n\nTo check it yourself keep this as variant.yaml:\n\n{file}"
-Variant = Dict[str, Any]  # {name of a value: what it is}; what is not named is as the course has it
 
 
 class Task:

@@ -19,11 +19,11 @@ import socket
 import sys
 import traceback
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from tutorial_check.isolation import bubblewrap, environment, privileges
 from tutorial_check.model import CannotCheck, CutShort, fault
-from tutorial_check.order import Order
+from tutorial_check.order import Line, Order
 from tutorial_check.record.recording import VERSION, arguments_of, as_json, from_json
 from tutorial_check.source import workspace
 
@@ -54,7 +54,7 @@ def main() -> None:
         shutil.rmtree(order.folder, ignore_errors=True)
 
 
-def _send(line: socket.socket, what: dict[str, Any]) -> None:
+def _send(line: socket.socket, what: Line) -> None:
     with contextlib.suppress(OSError):  # nobody listens
         line.sendall(json.dumps(what).encode() + b"\n")
 
@@ -69,13 +69,13 @@ def _serve(order: Order, line: socket.socket) -> None:
         ground.runner.clear()  # a build, too, is ended; where no namespace is, nothing else does that
 
 
-def answer(ground: Ground, asked: dict[str, Any]) -> dict[str, Any]:
+def answer(ground: Ground, asked: Line) -> Line:
     """Return the answer to a question; both as above."""
     clock, found = ground.runner.clock, _recorded(ground, asked)
     return {"version": VERSION, **found, "strained": clock.strained(), "hopeless": clock.hopeless()}
 
 
-def _recorded(ground: Ground, asked: dict[str, Any]) -> dict[str, Any]:
+def _recorded(ground: Ground, asked: Line) -> Line:
     module, _, name = asked["recorder"].partition(":")
     try:
         recorder = getattr(importlib.import_module(module), name)
@@ -90,8 +90,7 @@ def _recorded(ground: Ground, asked: dict[str, Any]) -> dict[str, Any]:
 
 def _prepared(order: Order, reader: int) -> Ground:
     """Return the ground of an order. reader: see Runner."""
-    scratch = Path(order.folder)
-    layout = workspace.Layout(Path(order.root), Path(order.source), order.is_workspace)
+    scratch = order.folder
     shutil.copytree(scratch / workspace.COPY, scratch / "ws" / "src", symlinks=True)
     # Before ROS, which reads the environment as it loads.
     home = str(scratch / "ours")
@@ -110,18 +109,8 @@ def _prepared(order: Order, reader: int) -> Ground:
     ruleset = landlock.ruleset(shown, own) if landlock.version() and not order.apart else None
     course = read_course(order.course)
     checks_of(course)  # its recorders
-    ground = Ground(
-        scratch,
-        layout,
-        order.exercises,
-        runner.Runner(variables, order.apart, reader, ruleset),
-        underlay=order.underlay,
-        can_have_devices=order.apart,
-        needed=[*order.kept, Path(__file__)],
-        task=variants.task_of(course)(order.variant),
-    )
-    ground.must_start_programs()
-    return ground
+    task = variants.task_of(course)(order.variant)
+    return Ground(order, task, runner.Runner(variables, order.apart, reader, ruleset))
 
 
 if __name__ == "__main__":

@@ -13,11 +13,11 @@ import tempfile
 import threading
 import time
 from pathlib import Path
-from typing import Any, Iterable
+from typing import Iterable
 
 from tutorial_check.isolation import bubblewrap, privileges
 from tutorial_check.model import CannotCheck
-from tutorial_check.order import Order
+from tutorial_check.order import Line, Order
 from tutorial_check.record.recording import as_json
 from tutorial_check.source.workspace import COPY
 
@@ -42,7 +42,7 @@ def given(names: Iterable[str]) -> dict[str, str]:
     return {name: os.environ[name] for name in names if name in os.environ}
 
 
-def as_handed_in(text: str, folder: str) -> str:
+def as_handed_in(text: str, folder: Path) -> str:
     """Return a text with the paths of what was handed in: programs run in ws, a copy of that."""
     return text.replace(f"{folder}/ws/", f"{folder}/{Path(COPY).parent}/")
 
@@ -106,7 +106,7 @@ class Worker:
         if "cannot" in answer:
             raise CannotCheck(str(answer["cannot"]))
 
-    def ask(self, question: dict[str, Any]) -> dict[str, Any]:
+    def ask(self, question: Line) -> Line:
         """Return the answer to a question; see worker. Raises Ended."""
         try:
             self._line.sendall(json.dumps(question).encode() + b"\n")
@@ -114,7 +114,7 @@ class Worker:
             raise Ended(self._last_words()) from None
         return self._answer()
 
-    def _answer(self) -> dict[str, Any]:
+    def _answer(self) -> Line:
         while b"\n" not in self._buffer:
             if _no_more.is_set():
                 raise Ended("it was ended")
@@ -128,7 +128,7 @@ class Worker:
                 self._buffer += data
         line, _, self._buffer = self._buffer.partition(b"\n")
         text = as_handed_in(line.decode(errors="replace"), self._order.folder)
-        found: dict[str, Any] = json.loads(text)
+        found: Line = json.loads(text)
         return found
 
     def _last_words(self) -> str:

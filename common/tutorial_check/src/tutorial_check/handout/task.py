@@ -9,7 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Mapping, Sequence, Tuple, TypeVar
 
-from tutorial_check.variants import Task, Variant
+from tutorial_check.order import Variant
+from tutorial_check.variants import Task
 
 PACKAGE = "joy2twist"
 LB = 4  # the dead-man button of the handout's memo

@@ -22,7 +22,7 @@ class Helper:
     Unlike a pipe, no path in /proc opens it, to which a student's program may plant a link.
     """
 
-    def __init__(self, make: Callable[[], Any], environment: Mapping[str, str]) -> None:
+    def __init__(self, make: Callable[[], object], environment: Mapping[str, str]) -> None:
         """make(): the object, called in the new process, in that environment."""
         self._line, theirs = FORK.Pipe()
         self._trouble = ""  # why it is asked no more
@@ -39,7 +39,7 @@ class Helper:
     def call(
         self,
         method: str,
-        *arguments: Any,
+        *arguments: object,
         deadline_s: float = 60.0,
         in_vain: Callable[[], bool] = lambda: False,
     ) -> Any:

@@ -58,7 +58,7 @@ def find_script(session: Session, package: str, name: str) -> str:
 
 def program_of(session: Session, package: str, name: str) -> str:
     """Return the path of a program that can be run, within its package. Raises Wrong."""
-    if session.package(package) is None:
+    if not session.has(package):
         there = ", ".join(each.name for each in session.packages) or "no package at all"
         raise Wrong(f"a package {package} in src", there, hint=f"catkin_create_pkg {package} rospy")
     script = find_script(session, package, name)

@@ -25,6 +25,7 @@ class Installed:
 class Builds(Protocol):
     """A ground.Ground, as far as it is needed here."""
 
+    @property
     def built(self) -> Built:
         """Build, at the first call."""
 
@@ -34,7 +35,7 @@ class Builds(Protocol):
 
 def built(ground: Builds) -> Built:
     """Build the workspace."""
-    return ground.built()
+    return ground.built
 
 
 def installed(ground: Builds, package: str, script: str) -> Installed:

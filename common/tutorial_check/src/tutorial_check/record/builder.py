@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-import os
 from functools import cached_property
 from pathlib import Path
-from typing import Any, Iterable
 
 from tutorial_check.isolation.environment import environment_of
 from tutorial_check.isolation.program import Program
 from tutorial_check.isolation.runner import Runner
 from tutorial_check.model import CannotCheck
+from tutorial_check.order import Order
 from tutorial_check.record.build import Built
 from tutorial_check.record.session import Session
 from tutorial_check.source import student_files
 from tutorial_check.source.manifests import is_stand_in
-from tutorial_check.source.workspace import Layout
+from tutorial_check.variants import Task
 
 SLOW_S = 120  # [s] for what needs a second, when the machine is very busy
 
@@ -23,23 +22,9 @@ SLOW_S = 120  # [s] for what needs a second, when the machine is very busy
 class Builder(Session):
     """A Session whose programs can be built."""
 
-    def __init__(
-        self,
-        folder: str | Path,
-        layout: Layout,
-        exercises: Iterable[str],
-        runner: Runner,
-        *,
-        underlay: str,
-        can_have_devices: bool,
-        needed: Iterable[str | Path] = (),
-        task: Any = None,
-    ) -> None:
-        """needed: what of the suite the student's launch files lead to."""
-        about = {"underlay": underlay, "underlay_environment": runner.environment, "task": task}
-        super().__init__(folder, layout, exercises, **about)
-        self.runner, self.can_have_devices = runner, can_have_devices
-        self._needed = [Path(each) for each in needed]
+    def __init__(self, order: Order, task: Task, runner: Runner) -> None:
+        super().__init__(order, task)
+        self.runner, self.underlay_environment = runner, runner.environment
         self._siblings = 0
 
     def sibling(self, package: str, script: str, text: str) -> str:
@@ -57,12 +42,9 @@ class Builder(Session):
         self.runner.end(program)
         return program, ended
 
+    @cached_property
     def built(self) -> Built:
         """Build all, or if that fails what the exercises need: others may need what Debian lacks."""
-        found: Built = self.memo("built", self._build)
-        return found
-
-    def _build(self) -> Built:
         code, output = self._made()
         names = [each.name for each in self.needed]
         if code == 0 or len(names) == len(self.packages):
@@ -78,43 +60,12 @@ class Builder(Session):
     def _made(self, *words: str) -> tuple[int | None, str]:
         python = "-DPYTHON_EXECUTABLE=/usr/bin/python3"
         program, ended = self._ended("catkin_make", "-C", str(self.folder / "ws"), python, *words)
-        if program.process.returncode != 0:
-            self.must_reach_underlay()
         return (program.process.returncode if ended else None), program.output
-
-    # As root, this process opens files with the rights of the user that runs the student's programs.
-
-    def must_start_programs(self) -> None:
-        """Raise CannotCheck if no program can be started in this folder."""
-        try:
-            os.stat(f"{self.folder}/.")
-            why = "noexec" if os.statvfs(self.folder).f_flag & os.ST_NOEXEC else ""
-        except OSError as error:
-            why = str(error.strerror)
-        if why:
-            how = "set TMPDIR to a folder that others may enter, and that is not mounted noexec"
-            raise CannotCheck(f"no program can be started in {self.folder.parent} ({why}): {how}")
-
-    def must_reach_underlay(self) -> None:
-        """Raise CannotCheck if the student's programs cannot read what is the suite's."""
-        for folder in (f for one in self._needed for f in (*reversed(one.parents), one)):
-            try:
-                os.stat(f"{folder}/.")
-            except (NotADirectoryError, FileNotFoundError):
-                continue
-            except PermissionError:
-                # What is below a needed one is as closed; but a home folder is opened no further.
-                is_needed = set(self._needed) & {folder, *folder.parents}
-                how = f"{'chmod -R o+rX' if is_needed else 'chmod o+x'} {folder}"
-                raise CannotCheck(
-                    f"{folder} is closed to others, as one of whom the programs run: {how},"
-                    " or keep this suite, and TUTORIAL_WORKSPACE, where others may enter"
-                ) from None
 
     @cached_property
     def environment(self) -> dict[str, str]:
         """In which the student's programs find their packages before all others."""
-        if self.needs_build() and self.built().code == 0:
+        if self.needs_build() and self.built.code == 0:
             found = self._sourced(self.folder / "ws" / "devel" / "setup.bash")
         else:
             found = dict(self.underlay_environment)

@@ -135,26 +135,26 @@ class Driver:
         ours = {"listeners": self._publishers, "publishers": self._subscribers}
         return [method for method, topics in ours.items() if topic in topics]
 
-    def received(self, topic: str, since: int = 0) -> list[tuple[float, str, Any]]:
+    def received(self, topic: str, since: int = 0) -> list[tuple[float, str, object]]:
         return self._received[topic][since:]
 
     def count(self, topic: str) -> int:
         return len(self._received[topic])
 
-    def send(self, topic: str, values: Any) -> float:
+    def send(self, topic: str, values: object) -> float:
         """Publish one message, (axes, buttons), (bumper, state), 6 velocities or text; return when."""
         publisher = self._publishers[topic]
         make = {Joy: _joy, BumperEvent: lambda both: BumperEvent(*both), Twist: _twist}
         publisher.publish(make.get(publisher.data_class, publisher.data_class)(values))
         return time.monotonic()
 
-    def stream(self, topic: str, joys: Sequence[Any], rate: float, repeat: bool) -> None:
+    def stream(self, topic: str, joys: Sequence[object], rate: float, repeat: bool) -> None:
         """Publish these one after the other at a rate [Hz], in a thread; see sent()."""
         self._sent[topic], self._streams[topic] = [], threading.Event()
         _in_thread(self._stream, topic, joys, 1.0 / rate, repeat, self._streams[topic])
 
     def _stream(
-        self, topic: str, joys: Sequence[Any], period: float, repeat: bool, stop: threading.Event
+        self, topic: str, joys: Sequence[object], period: float, repeat: bool, stop: threading.Event
     ) -> None:
         due = time.monotonic()
         for joy in itertools.cycle(joys) if repeat else joys:
@@ -180,10 +180,10 @@ class Driver:
             return dict(self._master.getTopicTypes())
         return {}
 
-    def node_process(self, node: str) -> Any:
+    def node_process(self, node: str) -> int | None:
         """Return the id of a node's process, or None if it does not answer."""
-        answer: Any = self._ask(node, lambda proxy: proxy.getPid(f"/{NAME}"))
-        return answer and answer[2]
+        answer = self._ask(node, lambda proxy: proxy.getPid(f"/{NAME}"))
+        return int(answer[2]) if answer else None
 
     def kill_node(self, node: str) -> None:
         """Do what rosnode kill does, without waiting for the node."""
@@ -194,7 +194,7 @@ class Driver:
         with gone, xmlrpc.client.ServerProxy(self._master.lookupNode(node)) as proxy:
             return question(proxy)
 
-    def set_parameter(self, name: str, value: Any) -> None:
+    def set_parameter(self, name: str, value: object) -> None:
         rospy.set_param(name, value)
 
 

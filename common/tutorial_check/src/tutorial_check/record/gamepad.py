@@ -6,19 +6,20 @@ import contextlib
 import os
 import threading
 import time
-from typing import Any, Callable
+from typing import Callable, Tuple
 
 from gamepad.gamepads import F710
 from gamepad.virtual.pads import StreamPad
 
 MODE = F710["D"]  # as its switch stands
+Position = Tuple[Tuple[float, ...], Tuple[int, ...]]  # (axes, buttons)
 PERIOD_S = 0.02  # how often it looks whether a driver has started to read
 
 
 class Gamepad:
     """Stick and LB are where they were last put."""
 
-    def __init__(self, path: str, arranged: Callable[[Any], Any]) -> None:
+    def __init__(self, path: str, arranged: Callable[[Position], Position]) -> None:
         """path: of the FIFO. arranged: the Joy of a task for one of the handout's."""
         os.makedirs(os.path.dirname(path), exist_ok=True)
         with contextlib.suppress(FileNotFoundError):

@@ -1,14 +1,15 @@
 """What recorders write down, as JSON and back. Pure.
 
 A recording is a frozen dataclass. Its fields are texts, numbers, truth values, None, other such
-dataclasses, or tuples and maps of these, as their annotations say.
+dataclasses, paths, or tuples and maps of these, as their annotations say.
 """
 
 from __future__ import annotations
 
 import dataclasses
 import inspect
-from typing import Any, Dict, List, Tuple, TypeVar, Union, cast, get_type_hints
+from pathlib import Path
+from typing import Any, Callable, Dict, List, Tuple, Type, TypeVar, Union, cast, get_type_hints
 
 VERSION = 1  # raised by each change that an older judge could not read
 Recording = TypeVar("Recording")
@@ -17,7 +18,7 @@ HeardText = Tuple[float, str, str]
 Topics = Dict[str, Tuple[str, ...]]  # {topic: nodes}
 
 
-def as_json(value: Any) -> Any:
+def as_json(value: object) -> object:
     """Return a recording, or a part of it, as what json.dumps takes."""
     if dataclasses.is_dataclass(value):
         names = (field.name for field in dataclasses.fields(value))
@@ -26,13 +27,14 @@ def as_json(value: Any) -> Any:
         return {str(key): as_json(each) for key, each in value.items()}
     if isinstance(value, (list, tuple)):
         return [as_json(each) for each in value]
-    return value
+    return str(value) if isinstance(value, Path) else value
 
 
-def from_json(kind: type[Recording], value: Any) -> Recording:
+def from_json(kind: type[Recording], value: object) -> Recording:
     """Return the recording of a type that as_json() has made. Raises ValueError if it is none."""
     try:
-        return _from_json(kind, value)
+        found: Recording = _from_json(kind, value)
+        return found
     except (AttributeError, KeyError, TypeError) as error:
         raise ValueError(f"no {getattr(kind, '__name__', kind)}: {error}") from None
 
@@ -53,18 +55,18 @@ def _from_json(kind: Any, value: Any) -> Any:
         return {key: _from_json(inner[1], each) for key, each in value.items()}
     if origin in (list, List):
         return [_from_json(inner[0], each) for each in value]
-    return float(value) if kind is float else value
+    return kind(value) if kind in (float, Path) else value
 
 
-def recorded_by(recorder: Any) -> Any:
+def recorded_by(recorder: Callable[..., Recording]) -> type[Recording]:
     """Return the type of what a recorder returns. Raises TypeError if it does not name it."""
-    kind = get_type_hints(recorder).get("return")
+    kind: Any = get_type_hints(recorder).get("return")
     if not dataclasses.is_dataclass(kind):
         raise TypeError(f"{recorder.__name__}() has to name the dataclass that it returns: ->")
-    return kind
+    return cast(Type[Recording], kind)
 
 
-def arguments_of(recorder: Any, values: List[Any]) -> List[Any]:
+def arguments_of(recorder: Callable[..., object], values: List[object]) -> List[object]:
     """Return the arguments of a recorder, after the ground, that as_json() has made."""
     kinds, names = get_type_hints(recorder), list(inspect.signature(recorder).parameters.values())
     found = []

@@ -7,9 +7,9 @@ import re
 import shlex
 from functools import cached_property
 from pathlib import Path
-from typing import Any, Callable, Dict, Iterable, Iterator, Mapping, Tuple, TypeVar
+from typing import Any, Callable, Iterator, Mapping, TypeVar
 
-from tutorial_check.model import Wrong
+from tutorial_check.order import Order
 from tutorial_check.record.build import built
 from tutorial_check.source import student_files
 from tutorial_check.source.manifests import (
@@ -18,7 +18,7 @@ from tutorial_check.source.manifests import (
     unreadable,
 )
 from tutorial_check.source.python_facts import PythonFacts
-from tutorial_check.source.workspace import SOLUTIONS, Layout, Package, packages_below
+from tutorial_check.source.workspace import SOLUTIONS, Package, packages_below
 from tutorial_check.variants import Task
 
 # What of CMakeLists.txt makes a build necessary before anything can run.
@@ -28,42 +28,20 @@ NEEDS_BUILD = re.compile(
     re.MULTILINE | re.IGNORECASE,
 )
 Recorded = TypeVar("Recorded")
+Value = TypeVar("Value")
 Recorder = Callable[..., Recorded]  # called with a ground.Ground and arguments
-Memory = Dict[object, Tuple[Any, Any]]  # {key: (value, what was raised in place of one)}
-
-
-def once(memory: Memory, key: object, make: Callable[[], Any]) -> Any:
-    if key not in memory:
-        try:
-            memory[key] = make(), None
-        except Wrong as wrong:
-            memory[key] = None, wrong
-    value, error = memory[key]
-    if error:
-        raise error
-    return value
 
 
 class Session:
     """One workspace: what its files say, and what its programs were recorded to do."""
 
-    def __init__(
-        self,
-        folder: str | Path,
-        layout: Layout,
-        exercises: Iterable[str],
-        *,
-        underlay: str,
-        underlay_environment: Mapping[str, str],
-        task: Any = None,
-    ) -> None:
-        """folder: its copy is in ws; underlay: its setup.bash; task: of this student, see variants.Task."""
-        self.task: Any = task or Task({})  # the course's own task
-        self.folder, self.layout = Path(folder), layout
+    def __init__(self, order: Order, task: Task) -> None:
+        """task: of this student."""
+        self.order, self.folder, self.layout = order, order.folder, order.layout
+        self.task: Any = task  # the course's own
         self.source = self.folder / "ws" / "src"
-        self.exercises = frozenset(exercises)  # that are asked for
-        self.underlay, self.underlay_environment = underlay, underlay_environment
-        self._memory: Memory = {}
+        self.underlay_environment: Mapping[str, str] = order.environment
+        self._memory: dict[object, Any] = {}
         self._visible = [Path("/")]  # what the student's programs may see, with all below it
 
     def is_own(self, path: str | Path) -> bool:
@@ -75,9 +53,12 @@ class Session:
         real = Path(os.path.realpath(path))
         return any(each == real or each in real.parents for each in self._visible)
 
-    def memo(self, key: object, make: Callable[[], Any]) -> Any:
-        """Return make(), called once; what it raised is raised again. For facts, which do not change."""
-        return once(self._memory, key, make)
+    def memo(self, key: object, make: Callable[[], Value]) -> Value:
+        """Return make(), called once. For facts, which do not change."""
+        if key not in self._memory:
+            self._memory[key] = make()
+        found: Value = self._memory[key]
+        return found
 
     def recording(self, recorder: Recorder[Recorded], *arguments: object) -> Recorded:
         """Return what a recorder writes down; recorded once, unless it is looked at again."""
@@ -105,20 +86,19 @@ class Session:
         """In the order of their paths."""
         return packages_below(self.source)
 
-    def package(self, name: str) -> Any:
-        """Return the package that the checks know by a name, or None."""
-        return next((each for each in self.packages if each.name == self.task.named(name)), None)
+    def has(self, name: str) -> bool:
+        """Return whether there is the package that the checks know by a name."""
+        return any(each.name == self.task.named(name) for each in self.packages)
+
+    def package(self, name: str) -> Package:
+        """Return that package. Raises LookupError."""
+        return {each.name: each for each in reversed(self.packages)}[self.task.named(name)]
 
     def scripts(self, name: str) -> dict[str, PythonFacts]:
         """Return {path within the package: PythonFacts} of the Python programs of a package."""
-        found: dict[str, PythonFacts] = self.memo(
-            ("scripts", name), lambda: dict(self._scripts(self.package(name)))
-        )
-        return found
+        return self.memo(("scripts", name), lambda: dict(self._programs(self.package(name))))
 
-    def _scripts(self, package: Package | None) -> Iterator[tuple[str, PythonFacts]]:
-        if package is None:
-            return
+    def _programs(self, package: Package) -> Iterator[tuple[str, PythonFacts]]:
         for path in sorted(package.folder.rglob("*")):
             inside = path.relative_to(package.folder)
             # What editors and file managers keep for themselves is hidden.
@@ -139,7 +119,7 @@ class Session:
         """Return the text of a script, its line ends as they are."""
         return self.read(self.package(package).folder / script)
 
-    def whole(self, path: str, package: str = "") -> str:
+    def whole(self, path: str | Path, package: str = "") -> str:
         """Return a path of the workspace, or within a package, for a command of a shell in any folder.
 
         It is that of the copy, in whose place Case.as_sent puts the student's own, where it knows that.

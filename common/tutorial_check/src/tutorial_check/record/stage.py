@@ -10,6 +10,7 @@ from typing import Any, Callable, Sequence
 
 from tutorial_check.isolation import helper_process
 from tutorial_check.isolation.program import Program
+from tutorial_check.isolation.runner import Value
 from tutorial_check.model import CANNOT_START, CannotCheck, CutShort
 from tutorial_check.record.builder import Builder
 
@@ -51,7 +52,7 @@ class Stage:
     def start(self, package: str, script: str, *arguments: str) -> Program:
         return self.launch([*self.session.command(package, script), *arguments])
 
-    def help(self, make: Callable[[], Any]) -> helper_process.Helper:
+    def help(self, make: Callable[[], object]) -> helper_process.Helper:
         helper = helper_process.Helper(make, self._ours)
         self.runner.trusted.add(helper.pid)
         self._helpers.append(helper)
@@ -66,7 +67,7 @@ class Stage:
 
     def start_ours(self, package: str, program: str, *arguments: str) -> Program:
         """Start a program of the suite's. Without rosrun, which searches it for half a second."""
-        path = Path(self.session.underlay).parent / "lib" / package / program
+        path = Path(self.session.order.underlay).parent / "lib" / package / program
         renamed = [f"{topic}:={own}" for topic, own in self._topics.items()]
         return self.launch([str(path), *renamed, *arguments], trusted=True)
 
@@ -77,10 +78,10 @@ class Stage:
             seen = f"{Path(command[0]).name}: {error.strerror}"
             raise CutShort(CANNOT_START, seen) from None
 
-    def call(self, method: str, *arguments: Any) -> Any:
+    def call(self, method: str, *arguments: object) -> Any:
         """Call a method of the driver. Stop waiting if the master has ended: rospy would retry without end."""
         if arguments:
-            arguments = (self._topics.get(arguments[0], arguments[0]), *arguments[1:])
+            arguments = (self._topics.get(str(arguments[0]), arguments[0]), *arguments[1:])
         return self._driver.call(method, *arguments, in_vain=lambda: not self.master_lives)
 
     @property
@@ -88,7 +89,7 @@ class Stage:
         """Whether no program has ended the master."""
         return not self._master.ended
 
-    def wait_for_start(self, condition: Callable[[], Any], deadline_s: float = START_S) -> Any:
+    def wait_for_start(self, condition: Callable[[], Value], deadline_s: float = START_S) -> Value:
         """Wait until programs are as far as the condition says, or do nothing more."""
         return self.wait(condition, deadline_s, or_idle=True)
 

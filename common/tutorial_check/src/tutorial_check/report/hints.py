@@ -11,7 +11,7 @@ import os
 import re
 import tempfile
 from pathlib import Path
-from typing import Any, Sequence
+from typing import Any, Dict, Sequence
 
 from tutorial_check.course import OURS, Course
 from tutorial_check.launcher import SUITE, Outcome
@@ -19,6 +19,7 @@ from tutorial_check.model import WRONG, CannotCheck, Result
 
 NEVER, AGAIN, ALWAYS = 0, 1, 2  # --hints
 CACHE = Path(os.environ.get("XDG_CACHE_HOME") or "~/.cache", "ros1_tutorial", "checked.json")
+State = Dict[str, Any]  # {workspace or student: what is kept of it}
 LATER = "check again for one; or with --hints 2"
 
 
@@ -27,7 +28,7 @@ def cause_of(result: Result) -> str:
     return f"{result.id} {re.sub('[0-9.]+', '#', result.seen)}"
 
 
-def read_state(file: Path) -> dict[str, Any]:
+def read_state(file: Path) -> State:
     """Return what write_state has written; empty if it is not there or broken."""
     with contextlib.suppress(OSError, ValueError):
         found = json.loads(file.read_text(encoding="utf-8"))
@@ -36,7 +37,7 @@ def read_state(file: Path) -> dict[str, Any]:
     return {}
 
 
-def write_state(file: Path, state: dict[str, Any]) -> None:
+def write_state(file: Path, state: State) -> None:
     """Write a file in one step, if it can be written."""
     with contextlib.suppress(OSError):
         file.parent.mkdir(parents=True, exist_ok=True)

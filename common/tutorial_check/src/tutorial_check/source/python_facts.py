@@ -43,15 +43,12 @@ class PythonFacts:
             lines = ["", *python_lines(text)]
             if self.error_line < len(lines):
                 self.error_text = lines[self.error_line].strip(" \t")
-        self._top = tree.body
-        self._nodes = list(ast.walk(tree))
+        self._nodes: list[Any] = list(ast.walk(tree))
         self._functions = self._of(ast.FunctionDef)
-        self.functions = {node.name: node.lineno for node in self._functions}
         inner = [node for function in self._functions for node in ast.walk(function)]
         self.inner_names = {name for _, name in _made(inner)}  # that functions make, or are given
         self.has_main = any(map(_is_main, self._nodes))
         self.loops = [node.lineno for node in self._of(ast.While)]
-        self.globals = [node.lineno for node in self._of(ast.Global)]
         self.broad_excepts = list(filter(is_broad, self._of(ast.ExceptHandler)))
         self.bare_names = [  # (line, text) of statements that do nothing, as rospy.spin without ()
             (node.lineno, text_of(node.value))
@@ -66,6 +63,14 @@ class PythonFacts:
 
     def _of(self, *kinds: type[ast.AST]) -> list[Any]:
         return [node for node in self._nodes if isinstance(node, kinds)]
+
+    @property
+    def functions(self) -> dict[str, int]:
+        return {node.name: node.lineno for node in self._functions}
+
+    @property
+    def globals(self) -> list[int]:
+        return [node.lineno for node in self._of(ast.Global)]
 
     @cached_property
     def calls(self) -> dict[str, list[Call]]:
@@ -93,7 +98,7 @@ class PythonFacts:
     @property
     def odd_main(self) -> Place:
         """(line, text) of `if __name__ == ' main ':` and its like."""
-        for node in self._top:
+        for node in self._nodes[0].body:
             if not (isinstance(node, ast.If) and isinstance(node.test, ast.Compare)):
                 continue
             left, right = text_of(node.test.left), text_of(node.test.comparators[0])

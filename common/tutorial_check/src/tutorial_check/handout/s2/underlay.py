@@ -51,7 +51,7 @@ def workspace(session: Session) -> Note | str | None:
 
 def _check_below(session: Session, below: Sequence[str]) -> None:
     """Raise Wrong unless this suite is among the folders that a workspace was built over."""
-    suite = os.path.realpath(Path(session.underlay).parent)
+    suite = os.path.realpath(Path(session.order.underlay).parent)
     if suite in map(os.path.realpath, below):
         return
     other = next(filter(_is_suite, below), None)
@@ -72,7 +72,7 @@ def _is_suite(devel: str | Path) -> bool:
 
 def _check_names(session: Session) -> None:
     """Raise Wrong for a package with the name of one that the exercises need."""
-    share = Path(session.underlay).parent / "share"
+    share = Path(session.order.underlay).parent / "share"
     for each in session.packages:
         is_suite = (share / each.name).is_dir() and not is_stand_in(each.name)
         brings = (each.folder / "msg", each.folder / "src" / each.name)

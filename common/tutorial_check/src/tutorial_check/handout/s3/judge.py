@@ -19,6 +19,7 @@ from tutorial_check.handout.s3.record import (
     second,
     talk,
 )
+from tutorial_check.isolation.program import Ran
 from tutorial_check.judge.causes import with_import
 from tutorial_check.judge.rows import Row, demand
 from tutorial_check.judge.scripts import (
@@ -46,49 +47,67 @@ def other_topic(topics: Iterable[str], asked_for: str, types: Mapping[str, str],
 
 
 class Half:
-    """One of the two programs in a Talk: the facts of the rows below."""
+    """One of the two programs in a Talk: facts of the rows below."""
 
-    def __init__(self, session: Session, is_talker: bool) -> None:
-        """Take it from the recording. Raises Wrong if the master has gone."""
-        self.session = session
-        self.talk = talk = _talk(session)
+    def __init__(self, session: Session, talk: Talk, script: str, program: Ran) -> None:
+        """Raise Wrong if the master has gone."""
         if not talk.master_alive:
             raise master_gone()
-        self.script = script = scripts(session)[0 if is_talker else 1]
-        self.program = program = talk.talker if is_talker else talk.listener
-        self.facts = facts = session.scripts(PACKAGE)[script]
-        line = "rospy.Publisher('chatter', String, queue_size=10)"
-        self.publisher_line = with_import(line, "String", facts)
-        line = "rospy.Subscriber('chatter', String, callback)"
-        self.subscriber_line = with_import(line, "String", facts)
-        made, asked = facts.first("Publisher"), facts.first("Subscriber")
-        self.publisher = f"{script}:{made.line if made else 1}"
-        self.subscriber = f"{script}:{asked.line}" if asked else script
+        self.session, self.talk, self.script, self.program = session, talk, script, program
+        self.facts = session.scripts(PACKAGE)[script]
         self.has_failed = "Traceback" in program.output or program.spins
-        heard_on = other_topic(talk.subscribers, TOPIC, talk.types, KIND)
-        self.heard_on = TOPIC not in talk.subscribers and heard_on
-        # The type that the Subscriber asks for, and that on /chatter, where it is no String.
-        refused = [line for line in talk.warnings if "datatype" in line]
-        kind = asked.words[1].rpartition(".")[2] if asked and len(asked.words) > 1 else "String"
-        other = "another type of message" if any("chatter" in line for line in refused) else ""
-        self.wanted = kind if kind != "String" else other
-        kind = talk.published.get(TOPIC, KIND)
-        self.carried = kind if kind != KIND or (refused and TOPIC in talk.published) else ""
-        self.sent_on = other_topic(talk.published, TOPIC, talk.published, KIND)
-        ends = talk.talker_ended and not self.has_failed
-        self.end, self.goes_on = (", and it ends by itself", f"; and {LOOP}") if ends else ("", "")
-        # With or without colours or a separator.
-        lines = program.output.splitlines()
-        self.times = [sum(text in line for line in lines) for text in STRINGS]
-        self.found, self.total = sum(map(bool, self.times)), len(STRINGS)
+        # rospy says whose types differ.
+        self.refused = [line for line in talk.warnings if "datatype" in line]
 
     def crash(self, expected: str, hint: str = "") -> Wrong:
         wrong = crash(self.session, PACKAGE, self.program, expected, hint)
         return with_end(wrong, self.facts, self.script)
 
-    def silent_talker(self) -> Wrong:
+
+class Talker(Half):
+    """The talker, as it was recorded."""
+
+    def __init__(self, session: Session) -> None:
+        talk = _talk(session)
+        super().__init__(session, talk, scripts(session)[0], talk.talker)
+        line = "rospy.Publisher('chatter', String, queue_size=10)"
+        made = self.facts.first("Publisher")
+        self.place = f"{self.script}:{made.line if made else 1}"
+        kind = talk.published.get(TOPIC, KIND)
+        self.carried = kind if kind != KIND or (self.refused and TOPIC in talk.published) else ""
+        self.sent_on = other_topic(talk.published, TOPIC, talk.published, KIND)
+        ends = talk.talker_ended and not self.has_failed
+        self.end = ", and it ends by itself" if ends else ""
+        self.todo = with_import(line, "String", self.facts) + (f"; and {LOOP}" if ends else "")
+
+    def silent(self) -> Wrong:
         loops = ", and does it loop: while not rospy.is_shutdown()" if self.facts.has_main else ""
         return self.crash(talks(self.session), f"does the last line call talker(){loops}?")
+
+
+class Listener(Half):
+    """The listener, as it was recorded."""
+
+    def __init__(self, session: Session) -> None:
+        talk = _talk(session)
+        super().__init__(session, talk, scripts(session)[1], talk.listener)
+        line = "rospy.Subscriber('chatter', String, callback)"
+        self.todo = with_import(line, "String", self.facts)
+        asked = self.facts.first("Subscriber")
+        self.place = f"{self.script}:{asked.line}" if asked else self.script
+        heard_on = other_topic(talk.subscribers, TOPIC, talk.types, KIND)
+        self.heard_on = TOPIC not in talk.subscribers and heard_on
+        # The type that it asks for, where that is no String.
+        kind = asked.words[1].rpartition(".")[2] if asked and len(asked.words) > 1 else "String"
+        other = any("chatter" in line for line in self.refused) and "another type of message"
+        self.wanted = kind if kind != "String" else other
+        # With or without colours or a separator.
+        lines = self.program.output.splitlines()
+        self.times = [sum(text in line for line in lines) for text in STRINGS]
+
+    @property
+    def found(self) -> int:
+        return sum(map(bool, self.times))
 
     @property
     def second_line(self) -> str:
@@ -101,26 +120,23 @@ class Half:
 
 
 SILENT_TALKER = (
-    Row(lambda h: h.has_failed, lambda h: h.silent_talker()),
-    Row(lambda h: h.carried, "/chatter carries {found}{f.end}", "{f.publisher_line}{f.goes_on}",
-        "{f.publisher}", sure=True),
-    Row(lambda h: h.sent_on, "it publishes on {found}{f.end}", "{f.publisher_line}{f.goes_on}",
-        "{f.publisher}"),
-    Row(lambda h: h.talk.talker_ended, lambda h: h.silent_talker()),
+    Row(lambda h: h.has_failed, lambda h: h.silent()),
+    Row(lambda h: h.carried, "/chatter carries {found}{f.end}", "{f.todo}", "{f.place}", sure=True),
+    Row(lambda h: h.sent_on, "it publishes on {found}{f.end}", "{f.todo}", "{f.place}"),
+    Row(lambda h: h.talk.talker_ended, lambda h: h.silent()),
     Row(lambda h: True, "not one message", "is publish(...) called within the loop?", "{f.script}"),
 )  # fmt: skip
 DEAF_LISTENER = (
     Row(lambda h: h.has_failed, lambda h: crash(h.session, PACKAGE, h.program, LISTENS)),
     Row(lambda h: h.heard_on, "it subscribes to {found}", "the topic is called chatter",
-        "{f.subscriber}", sure=True),
+        "{f.place}", sure=True),
     Row(lambda h: TOPIC not in h.talk.subscribers, "it subscribes to nothing",
-        "{f.subscriber_line}, before rospy.spin()", "{f.subscriber}"),
+        "{f.todo}, before rospy.spin()", "{f.place}"),
     Row(lambda h: not h.found and h.facts.without_callback, "its Subscriber has no callback",
-        "{f.subscriber_line}", "{f.script}:{found.line}", sure=True),
-    Row(lambda h: h.wanted, "it wants {found} on /chatter", "{f.subscriber_line}",
-        "{f.subscriber}"),
-    Row(lambda h: True, "{f.found} of {f.total} displayed",
-        "does callback(data) display data.data, with rospy.loginfo?", "{f.subscriber}"),
+        "{f.todo}", "{f.script}:{found.line}", sure=True),
+    Row(lambda h: h.wanted, "it wants {found} on /chatter", "{f.todo}", "{f.place}"),
+    Row(lambda h: len(h.times), "{f.found} of {found} displayed",
+        "does callback(data) display data.data, with rospy.loginfo?", "{f.place}"),
 )  # fmt: skip
 
 
@@ -149,7 +165,7 @@ def files(session: Session) -> Note | str:
 
 @check("C6", "the talker talks", "3.1", "C5", look="rostopic hz /chatter")
 def talker(session: Session) -> Note | str:
-    half = Half(session, is_talker=True)
+    half = Talker(session)
     seen, facts = half.talk, half.facts
     if not seen.received:
         demand(SILENT_TALKER, half, talks(session))
@@ -182,10 +198,10 @@ def talker(session: Session) -> Note | str:
 @check("C7", "the listener displays what it receives", "3.1", "C5",
        look="rosrun beginner_tutorials listener.py")  # fmt: skip
 def listener(session: Session) -> Note | None:
-    half = Half(session, is_talker=False)
+    half = Listener(session)
     if half.talk.listener_ended:
         raise half.crash(GOES_ON)
-    if half.found < half.total:
+    if half.found < len(STRINGS):
         demand(DEAF_LISTENER, half, LISTENS)
     if min(half.times) < 2:
         return None

@@ -23,8 +23,8 @@ class NoJoy(Wrong):
 @check("C11", "a recording of /joy", "4.2", look="rosbag info joy.bag")
 def recording(session: Session) -> Note | str | None:
     """Take the first of the recordings that can be played to joy2twist; there may be others."""
-    ours = session.package(PACKAGE)
-    bags = session.source.rglob("*.bag") if ours or session.package("beginner_tutorials") else []
+    ours = session.package(PACKAGE).folder if session.has(PACKAGE) else None
+    bags = session.source.rglob("*.bag") if ours or session.has("beginner_tutorials") else []
     bags = sorted(bags, key=lambda each: (each.name != "joy.bag", each))
     if not bags:
         seen = "no bag in the workspace; look at /joy with rosbag play and rostopic echo /joy"
@@ -36,7 +36,7 @@ def recording(session: Session) -> Note | str | None:
         try:
             return f"{name}: {', '.join(check_recording(session, name))}"
         except Wrong as wrong:
-            meant = path.name == "joy.bag" or (ours and ours.folder in path.parents)
+            meant = path.name == "joy.bag" or ours in path.parents
             (damaged if meant and not isinstance(wrong, NoJoy) else others).append(wrong)
     if damaged:
         raise damaged[0]

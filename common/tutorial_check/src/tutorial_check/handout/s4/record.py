@@ -149,7 +149,7 @@ def plug_in(ground: Ground, stage: Stage, device: str = "/dev/input/js0") -> tup
     """Make a virtual F710 behind a device, or a FIFO where that cannot be; (Gamepad, path)."""
     from tutorial_check.record.gamepad import Gamepad  # noqa: PLC0415  judges need no gamepad
 
-    path = Path(device) if ground.can_have_devices else ground.folder / "js0"
+    path = Path(device) if ground.order.apart else ground.folder / "js0"
     gamepad = stage.help(lambda: Gamepad(str(path), ground.task.joy))
     gamepad.call("connected")
     return gamepad, path

@@ -67,7 +67,7 @@ NOT_DISPLAYED = (
         "%.2f for each value", "{f.script}"),
     Row(lambda c: c.found_values(), "a line has {found} of the six values of a message",
         "all six: [%.2f, %.2f, %.2f, %.2f, %.2f, %.2f] % data.axes", "{f.script}"),
-    Row(lambda c: "logdebug" in c.calls and "Publisher" in c.calls,
+    Row(lambda c: {"logdebug", "Publisher"} <= {*c.facts.calls},
         "it logs at the level debug, which is not shown", note=True),
     Row(lambda c: True, "not one value of a message was found in its output",
         "display data.axes in the callback, with rospy.loginfo(...)", "{f.script}"),

@@ -31,7 +31,7 @@ class Facts:
     def __init__(self, session: Session, seen: Drive) -> None:
         self.session, self.seen, self.script = session, seen, seen.script
         self.facts = facts = session.scripts(PACKAGE)[seen.script]
-        self.calls = calls = facts.calls  # by name
+        calls = facts.calls
         self.complaint, self.remark, self.hint = "", "", ""
         self.n, self.a = session.task.names, session.task.answers  # for the texts of the rows
         self.joy, self.cmd_vel = map(session.task.topic, (JOY, CMD_VEL))  # in its program
@@ -55,14 +55,16 @@ class Facts:
     @property
     def loop(self) -> str:
         """Where a loop publishes, or else a Timer or Rate is made."""
-        timers = [call.line for name in ("Timer", "Rate") for call in self.calls.get(name, [])]
+        timers = [
+            call.line for name in ("Timer", "Rate") for call in self.facts.calls.get(name, [])
+        ]
         return self._first(self.facts.publishing_loops or timers)
 
     @property
     def second(self) -> str:
         """Where a second Twist may come from: a second publish in a callback, or a second Subscriber."""
         publishes = self.facts.called_back.get("publish", [])
-        subscribers = [call.line for call in self.calls.get("Subscriber", [])]
+        subscribers = [call.line for call in self.facts.calls.get("Subscriber", [])]
         return self._first([each[1] for each in (publishes, subscribers) if len(each) > 1])
 
     @property
@@ -96,7 +98,9 @@ class Facts:
 
     @property
     def has_latch(self) -> bool:
-        return any(call.names.get("latch") == "True" for call in self.calls.get("Publisher", []))
+        return any(
+            call.names.get("latch") == "True" for call in self.facts.calls.get("Publisher", [])
+        )
 
     @property
     def first_version(self) -> str:
@@ -114,7 +118,7 @@ class Facts:
     @property
     def throttled(self) -> int:
         """The line of a loginfo_throttle that displays Joys now and then; 0 if there is none."""
-        calls = (each[0] for name, each in self.calls.items() if name.endswith("_throttle"))
+        calls = (each[0] for name, each in self.facts.calls.items() if name.endswith("_throttle"))
         return next((call.line for call in calls if self.seen.shows_numbers), 0)
 
     def found_values(self, within: float = probes.ROUNDED) -> int:

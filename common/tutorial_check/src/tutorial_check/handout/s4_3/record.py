@@ -113,7 +113,7 @@ class _Driver:
         output, master_alive = program.output, stage.master_lives
         types, warnings = stage.call("types"), tuple(stage.call("warnings"))
         # Only where its end is asked for it is waited for.
-        grace_s = GRACE_S if "4.3" in self._ground.exercises else 0.5
+        grace_s = GRACE_S if "4.3" in self._ground.order.exercises else 0.5
         taken_s = self._ground.runner.end(program, grace_s)
         self._note(
             connected=connected, publishers={**publishers, **late}, subscribers=subscribers,
@@ -155,7 +155,7 @@ class _Driver:
         self._note(shown=shown())
         seen = self._seen
         goes = seen.answers and not seen.unanswered and not seen.judge_probes()[0]
-        if goes and RATED & self._ground.exercises and not self._program.ended:
+        if goes and RATED.intersection(self._ground.order.exercises) and not self._program.ended:
             self._stream()
             if not self._seen.is_prompt and not self._program.ended:
                 self._stream_beside_ours()

@@ -99,35 +99,67 @@ class Field:
     """One field of the Twists, beside the axis that it should follow."""
 
     def __init__(self, evidence: Evidence, index: int, axis: int) -> None:
-        self.task, self.name, self.axis = evidence.task, FIELDS[index], axis
-        self.n, self.a = self.task.names, self.task.answers  # for the texts of the rows
-        self.just = self.a.rules[axis]
-        self.n_axis, self.n_across = self.n.axes[axis], self.n.axes[1 - axis]
-        self.sides = ("forwards", "backwards") if axis == 1 else ("left", "right")
-        self.values = [twist[index] for _, twist in evidence.samples]
-        self.given = [axes[axis] for axes, _ in evidence.samples]
-        self.across = [axes[1 - axis] for axes, _ in evidence.samples]
+        self.evidence, self.index, self.name, self.axis = evidence, index, FIELDS[index], axis
+        self.task, self.n, self.a = evidence.task, evidence.task.names, evidence.task.answers
         self.axes = [axes for axes, _ in evidence.samples]
-        self.pairs = list(zip(self.given, self.values))
-        self.rule = evidence.rules[index]
-        self.wanted = evidence.factors.get(index)
-        self.is_right = bool(self.rule and self.rule.axis == axis and self.rule.factor > 0)
-        # Rounded to two decimals a value is off by as much as 0.005.
+        self.values = [twist[index] for _, twist in evidence.samples]
+        self.given = [axes[axis] for axes in self.axes]
+        self.rule, self.wanted = evidence.rules[index], evidence.factors.get(index)
+
+    @property
+    def just(self) -> str:
+        return self.a.rules[self.axis]
+
+    @property
+    def n_axis(self) -> str:
+        return self.n.axes[self.axis]
+
+    @property
+    def sides(self) -> tuple[str, str]:
+        return ("forwards", "backwards") if self.axis == 1 else ("left", "right")
+
+    @property
+    def pairs(self) -> list[tuple[float, float]]:
+        return list(zip(self.given, self.values))
+
+    @property
+    def follows_its_axis(self) -> bool:
+        return bool(self.rule and self.rule.axis == self.axis and self.rule.factor > 0)
+
+    @property
+    def is_scaled(self) -> bool:
+        """Whether its factor is not the one that is asked for. Rounded to two decimals it is off by 0.005."""
         near = self.rule and self.wanted and abs(self.rule.factor / self.wanted - 1) < 0.02
-        self.is_scaled = self.is_right and bool(self.wanted and not near)
-        self.is_right = self.is_right and not self.is_scaled
-        self.is_still = index not in evidence.moving
-        other = evidence.rules[ANGULAR if index == LINEAR else LINEAR]
-        crossed = (1 - axis, axis)
-        self.is_swapped = self.rule and other and (self.rule.axis, other.axis) == crossed
-        strange = [each for each in evidence.moving if each not in RIGHT]
-        rules = {FIELDS[each]: evidence.rules[each] for each in strange}
-        self.misplaced = next((n for n, rule in rules.items() if rule and rule.axis == axis), "")
-        self.at_rest = evidence.at_rest[index] if evidence.at_rest else 0.0
-        earlier = {tuple(axes): twist[index] for axes, twist in evidence.again}
-        keys = [tuple(axes) for axes, _ in evidence.samples]
-        both = [(earlier[key], now) for key, now in zip(keys, self.values) if key in earlier]
-        self.other_answer = next((each for each in both if not is_near(*each)), None)
+        return self.follows_its_axis and bool(self.wanted and not near)
+
+    @property
+    def is_still(self) -> bool:
+        return self.index not in self.evidence.moving
+
+    @property
+    def is_swapped(self) -> bool:
+        other = self.evidence.rules[ANGULAR if self.index == LINEAR else LINEAR]
+        crossed = (1 - self.axis, self.axis)
+        return bool(self.rule and other and (self.rule.axis, other.axis) == crossed)
+
+    @property
+    def misplaced(self) -> str:
+        """The other field that follows its axis, or empty."""
+        strange = [each for each in self.evidence.moving if each not in RIGHT]
+        rules = ((FIELDS[each], self.evidence.rules[each]) for each in strange)
+        return next((name for name, rule in rules if rule and rule.axis == self.axis), "")
+
+    @property
+    def at_rest(self) -> float:
+        return self.evidence.at_rest[self.index] if self.evidence.at_rest else 0.0
+
+    @property
+    def other_answer(self) -> tuple[float, float] | None:
+        """What the same Joy gave earlier and now, where that differs."""
+        earlier = {tuple(axes): twist[self.index] for axes, twist in self.evidence.again}
+        known = ((tuple(axes), value) for axes, value in zip(self.axes, self.values))
+        both = ((earlier[axes], now) for axes, now in known if axes in earlier)
+        return next((each for each in both if not is_near(*each)), None)
 
     @property
     def product(self) -> str:
@@ -248,8 +280,8 @@ OF_A_FIELD = (
         ONLY_THIS),
     Row(lambda f: f.has_lost_its_sign, "{f.name} has lost the sign of {f.n_axis}",
         JUST + ", without abs or a square"),
-    Row(lambda f: f.follows(g if a >= 0 else -g for g, a in zip(f.given, f.across)),
-        "{f.name} changes sign when {f.n_across} is negative",
+    Row(lambda f: f.follows(g if axes[1 - f.axis] >= 0 else -g for g, axes in zip(f.given, f.axes))
+        and f.n.axes[1 - f.axis], "{f.name} changes sign when {found} is negative",
         JUST + ", whatever the other axis is"),
     Row(lambda f: len({round(value, 6) for value in f.values}) == 1,
         "{f.name} is always {f.values[0]:.2f}", JUST),
@@ -274,7 +306,11 @@ AFTER = (
 
 def judge(evidence: Evidence) -> tuple[str, str]:
     """Return (complaint, hint), each empty if there is none; a hint without a complaint is a remark."""
-    odd = [find(OF_A_FIELD, each) for each in evidence.fields if not each.is_right]
+    odd = [
+        find(OF_A_FIELD, each)
+        for each in evidence.fields
+        if not each.follows_its_axis or each.is_scaled
+    ]
     all_found = [find(BEFORE, evidence), *odd, find(AFTER, evidence)]
     found = next((each for each in all_found if each), None)
     return (found.seen, found.hint) if found else ("", _remark(evidence))

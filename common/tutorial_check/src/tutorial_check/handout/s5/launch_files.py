@@ -41,7 +41,7 @@ class LaunchFile:
         self.path = find_launch(session, name)
         self.where = shown(session, self.path)
         self.text = read(self.path)
-        self.facts = session.memo("launch facts", lambda: _read(session)).get(name)
+        self.facts = _read(session)[name]
         self.nodes: list[Node] = self.facts["nodes"]  # that it starts
         self.package = session.task.named(PACKAGE)
         self.own = [node for node in self.nodes if node["package"] == self.package]

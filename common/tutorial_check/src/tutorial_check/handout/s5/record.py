@@ -63,7 +63,6 @@ class Run:
 
 def facts_of_files(ground: Ground, *paths: str) -> Facts:
     """Read launch files as roslaunch does, and start nothing. paths: within src."""
-    ground.must_reach_underlay()
     whole = [str(ground.source / path) for path in paths]
     command = ["/usr/bin/python3", launch_facts.__file__, *whole]
     program = ground.runner.start(command, ground.environment)
@@ -182,11 +181,11 @@ def stick_run(ground: Ground, plan: Plan) -> Run:
 
 def plug_in_for(ground: Ground, stage: Stage, plan: Plan) -> Helper:
     """Put a joystick where the joy_node of a launch file will look for it."""
-    if plan.device and not ground.can_have_devices:
+    if plan.device and not ground.order.apart:
         name = Path(plan.path).name
         raise CannotCheck(f"the system grants no {plan.device} to try {name} with")
     gamepad, path = plug_in(ground, stage, *filter(None, [plan.device]))
-    for node in plan.joysticks if not ground.can_have_devices else ():
+    for node in plan.joysticks if not ground.order.apart else ():
         stage.call("set_parameter", f"{node}/dev", str(path))
     return gamepad
 
