@@ -16,7 +16,7 @@ const hello = (robots) => hear("hello", {id: 1, role: "driver", robots, pad});
 const choose = (name) => { look.value = name; look.dispatchEvent(new Event("change")); };
 const drive = () => { take.click(); return sent.at(-1)[1].robot; };
 const rowOf = (name) => document.querySelector(`#robots [data-robot=${name}]`);
-const tab = new tabs.RobotTab(link, watch, {notice: () => {}});
+const tab = new tabs.RobotTab(link, watch, {notice() {}, moved() {}});
 take.disabled = false;
 """
 TWO = ["robot_1", "robot_2"]
