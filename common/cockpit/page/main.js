@@ -9,6 +9,7 @@ import { LogTab } from "./log_tab.js";
 import { PlotTab } from "./plot_tab.js";
 import { RobotTab } from "./robot_tab.js";
 import { makeTabs } from "./tabs.js";
+import { TopicsTab } from "./topics_tab.js";
 
 /**
  * A tab has a title, a panel (its HTML), watches (what the server is asked to send at first), and may
@@ -16,7 +17,7 @@ import { makeTabs } from "./tabs.js";
  * own in the address: place, a text that begins with / or ?, and go(path, query), which shows what an address has.
  * The robots' places are always watched: they show that the server is there.
  */
-const TABS = [RobotTab, GraphTab, BagTab, PlotTab, LogTab, DoctorTab];
+const TABS = [RobotTab, GraphTab, TopicsTab, BagTab, PlotTab, LogTab, DoctorTab];
 const NOTICE_MS = 8000;
 const WORDS = { open: "Connected", lost: "Connection lost – trying again", gone: "No cockpit – trying again" };
 const GONE = `The cockpit has exited, or the network to it is down. Start it again, with the launch file or with
