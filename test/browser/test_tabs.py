@@ -33,18 +33,6 @@ def test_robot_shows_odometry_joy2twist_and_a_kobuki(world, page, ros):
     page.wait_for_text("#kobuki [data-value=sound]", "error")
 
 
-def test_graph_shows_the_nodes_and_their_topics(page, ros):
-    page.tab("Graph")
-    wait_for(lambda: page.all("#graph g.node"), "nodes")
-    nodes = {one.get_attribute("data-item").split()[1] for one in page.all("#graph g.node")}
-    assert {"/fake_turtlebot", "/myjoystick2twist"} <= nodes <= set(ros("rosnode", "list").split())
-    page.one('[data-item="topic /cmd_vel"]').click()
-    page.wait_for_text("[data-value=type]", ros("rostopic", "type", "/cmd_vel").strip())
-    page.wait_for_text("[data-value=subscribers]", "/fake_turtlebot")
-    page.one('[data-item="node /fake_turtlebot"]').click()
-    page.wait_for_text("[data-value=services]", "/fake_turtlebot/reset")
-
-
 def test_bag_shows_the_values_at_its_slider_and_publishes_until_it_is_paused(
     world, page, ros, recording
 ):

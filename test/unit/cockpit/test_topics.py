@@ -52,13 +52,10 @@ def test_page_gets_the_newest_messages_of_its_topic_once_and_the_rates_of_those_
     assert set(rates["rates"]) == {"/x", "/y", "/z"}
 
 
-@pytest.mark.parametrize(
-    ("kind", "data", "shown"),
-    [("std_msgs/String", serialised(String("x" * 19_996)), 'data: "xxx'),
-     ("std_msgs/String", bytes(20_001), "(20001 bytes)"),
-     ("std_msgs/String", b"xy", "(cannot be read: "),
-     ("no_such/Type", b"x", "(1 bytes; the package of no_such/Type is not installed here)")],
-)  # fmt: skip
-def test_message_that_is_long_or_cannot_be_read_is_one_line(kind, data, shown):
-    assert topics.text(data, kind).startswith(shown)
-    assert len(topics.text(data, kind)) < 4010
+def test_long_message_is_shown_by_its_length_and_a_malformed_one_says_so():
+    for data, shown in (
+        (serialised(String("x" * 19_996)), 'data: "xxx'),
+        (bytes(20_001), "(20001 bytes)"),
+        (b"xy", "(cannot be read: "),
+    ):
+        assert topics.text(data, "std_msgs/String").startswith(shown)
