@@ -4,7 +4,6 @@ from urllib.parse import urlsplit
 
 from tutorial_testing.cockpit.hands import Keys
 from tutorial_testing.socket_page import REST, SocketPage
-from tutorial_testing.waiting import wait_for
 
 FULL = "0.35 m/s, 0.00 rad/s"  # at full deflection: config/f710_d.yaml
 
@@ -50,20 +49,3 @@ def test_a_second_page_is_refused_until_the_first_hands_over(world, page):
         second.wait_for("seat", lambda seat: seat["yours"])
         page.wait_for_text("#seat", "drives the robot")
         assert world.stays_at_rest()  # although the first one still holds all
-
-
-def test_a_recording_beside_the_page_is_shown_as_the_driver(world, page, recording):
-    page.tab("Bag")
-    page.wait_for_text("#bag-about", "joy.bag")
-    with world.run("rosbag", "play", "--loop", recording, "__name:=player"):
-        page.wait_for_text("#teleop", "driving")
-        page.wait_for_text("#seat", "/player drives the robot.")
-        why = "layer publishes the joystick topic of this robot: end it first."
-        page.wait_for_text("#ready", why)
-        page.wait_for_text("#bag-state", why)
-        for css in ("#take", "#bag-play", "#stop"):  # Stop: of what pages drive
-            assert not page.one(css).is_enabled(), css
-    page.wait_for_text("#seat", "Nobody drives.")
-    wait_for(lambda: page.one("#take").is_enabled() and page.one("#bag-play").is_enabled(), "leave")
-    wait_for(lambda: page.text("#teleop") != "driving", "joy2twist that drives no longer")
-    world.wait_for_rest()

@@ -4,7 +4,7 @@ import pytest
 
 from tutorial_testing.waiting import wait_for
 
-TABS = ("robot", "graph", "bag", "plot", "log", "doctor")
+TABS = ("robot", "graph", "topics", "bag", "plot", "log", "doctor")
 NARROW = (320, 256)  # 1280 x 1024 at 400 %: WCAG 2.2, 1.4.10
 VIEWS = {"dark": (1280, 800), "light": NARROW}
 WCAG = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22a", "wcag22aa"]
@@ -45,6 +45,10 @@ def test_axe_finds_nothing_and_no_tab_is_scrolled_in_two_directions(world, share
             wait_for(lambda: page.all("#graph .topic"), "topics")
             page.press("#graph .topic")
             wait_for(lambda: page.all("#graph-details dd"), "details")
+        elif name == "topics":
+            wait_for(lambda: page.all("#topics-rows tr"), "topics")
+            page.press("#topics-rows tr")
+            wait_for(lambda: page.all("#topics-fields input"), "form")
         elif name == "plot":
             wait_for(lambda: len(page.all("#plot-fields input")) > 10, "fields")
             page.press("#plot-fields input")

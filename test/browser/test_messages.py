@@ -10,33 +10,16 @@ const hear = (kind, message) => handlers[kind].forEach((one) => one({kind, ...me
 const byId = (id) => document.getElementById(id);
 import('/page/%s').then((tabs) => { %s });"""
 
-ROBOT_TAB = """const look = byId("look"), take = byId("take").cloneNode(), pad = {D: {}, X: {}};
-byId("take").replaceWith(take);
+ROBOT_TAB = """const pad = {D: {}, X: {}};
 const hello = (robots) => hear("hello", {id: 1, role: "driver", robots, pad});
-const choose = (name) => { look.value = name; look.dispatchEvent(new Event("change")); };
-const drive = () => { take.click(); return sent.at(-1)[1].robot; };
 const rowOf = (name) => document.querySelector(`#robots [data-robot=${name}]`);
-const tab = new tabs.RobotTab(link, watch, {notice: () => {}});
-take.disabled = false;
-"""
+const tab = new tabs.RobotTab(link, watch, {notice() {}, moved() {}});"""
 TWO = ["robot_1", "robot_2"]
 
 
 def run(page, module, script):
     """Make a tab of this module; return what the script calls done() with. given: TWO."""
     return page.driver.execute_async_script(TAB % (module, script), TWO)
-
-
-def test_chosen_robot_stays_chosen_while_it_is_gone_and_for_a_new_server(page):
-    script = """const named = (names) => { hear("names", {names}); return drive(); };
-    hello(given);
-    choose("robot_2");
-    const gone = [named(["robot_1"]), look.selectedOptions[0].text];
-    hello([]);
-    done([gone, [named([]), named(given), look.selectedOptions[0].text]]);"""
-    gone, again = run(page, "robot_tab.js", ROBOT_TAB + script)
-    assert gone == ["robot_2", "robot_2 (gone)"]
-    assert again == ["robot_2", "robot_2", "robot_2"]
 
 
 def test_new_connection_opens_the_recording_again_and_publishes_nothing(page):

@@ -33,18 +33,6 @@ def test_robot_shows_odometry_joy2twist_and_a_kobuki(world, page, ros):
     page.wait_for_text("#kobuki [data-value=sound]", "error")
 
 
-def test_graph_shows_the_nodes_and_their_topics(page, ros):
-    page.tab("Graph")
-    wait_for(lambda: page.all("#graph g.node"), "nodes")
-    nodes = {one.get_attribute("data-item").split()[1] for one in page.all("#graph g.node")}
-    assert {"/fake_turtlebot", "/myjoystick2twist"} <= nodes <= set(ros("rosnode", "list").split())
-    page.one('[data-item="topic /cmd_vel"]').click()
-    page.wait_for_text("[data-value=type]", ros("rostopic", "type", "/cmd_vel").strip())
-    page.wait_for_text("[data-value=subscribers]", "/fake_turtlebot")
-    page.one('[data-item="node /fake_turtlebot"]').click()
-    page.wait_for_text("[data-value=services]", "/fake_turtlebot/reset")
-
-
 def test_bag_shows_the_values_at_its_slider_and_publishes_until_it_is_paused(
     world, page, ros, recording
 ):
@@ -116,7 +104,7 @@ def test_plot_shows_the_newest_value_saves_all_and_stays_where_a_person_zooms(
     wait_for(lambda: axis(page)[-1] - axis(page)[0] > 5, "time axis that goes on again")
 
 
-def test_log_shows_what_nodes_log_by_level_and_filter(world, page):
+def test_log_shows_what_nodes_log_by_level_and_filter_and_sets_a_logger(world, page, ros):
     page.tab("Log")
     page.wait_for_text("#log-lines", "/myjoystick2twist")  # before the cockpit was started
     entry = '{level: 4, name: /probe, msg: "look here"}'
@@ -129,3 +117,8 @@ def test_log_shows_what_nodes_log_by_level_and_filter(world, page):
     page.one("#log-level").send_keys("ERROR")
     wait_for(lambda: page.text("#log-lines") == "", "nothing that is an error")
     page.wait_for_text("#log-empty", "passes the filter")
+    wait_for(lambda: "/observer" in page.text("#log-node"), "nodes")
+    page.one("#log-node").send_keys("/observer")
+    page.wait_for_text("#log-logger", "rosout")
+    page.one("#log-logs").send_keys("WARN")
+    wait_for(lambda: '"WARN"' in ros("rosservice", "call", "/observer/get_loggers"), "level")

@@ -38,6 +38,7 @@ TALK = [
     ("2", "rosrun beginner_tutorials talker.py", r"\[INFO\]"),
     ("3", "rosrun beginner_tutorials listener.py", r"\[INFO\].*heard"),
     ("1", "cd /tmp && rqt_graph", "wrote /tmp/rosgraph.png"),
+    ("rqt", "rosrun rqt_console rqt_console", r"see http://127.0.0.1:80\d\d/#log"),
     ("1", "rosnode list", "/talker_"),
 ]
 JOY = [
@@ -152,7 +153,7 @@ def test_the_handout_from_its_first_command_to_its_last_and_its_check(student):
     student.do(PACKAGES)
     assert nothing_of_ours(student)
     student.do(TALK)
-    student.close("2", "3")
+    student.close("2", "3", "rqt")
     student.do(JOY)
     student.close("4", "5", "6", "bag")
     student.do(LAUNCH)

@@ -100,8 +100,9 @@ export class Chart {
       return;
     }
     this.#graph?.destroy();
+    this.#graph = null; // also while the next one is made, which calls #look()
     this.#labels = labels;
-    this.#graph = rows.length ? this.#make(labels, rows, range) : null;
+    if (rows.length) this.#graph = this.#make(labels, rows, range);
     if (this.#graph) this.onRange();
   }
 

@@ -45,7 +45,7 @@ export class GraphTab {
     this.watch = watch;
     this.picture = byId("graph-picture");
     this.details = byId("graph-details");
-    link.on("graph", (graph) => this.#draw(graph));
+    link.on("graph", (graph) => this.#draw((this.#graph = graph)));
     byId("graph-all").onchange = () => this.#draw(this.#graph);
     byId("graph-in").onclick = () => this.#zoom(1.25);
     byId("graph-out").onclick = () => this.#zoom(0.8);
@@ -58,6 +58,7 @@ export class GraphTab {
   }
 
   show(on) {
+    if (on) this.#draw(this.#graph);
     this.watch({ graph: on, ...this.#asked(on ? this.#chosen : null) });
   }
 
@@ -129,7 +130,7 @@ export class GraphTab {
   }
 
   #draw(graph) {
-    this.#graph = graph;
+    if (byId("graph").hidden) return; // the tab Topics has asked for it
     const items = this.#items(graph);
     const wanted = JSON.stringify([items, graph.edges]);
     if (wanted === this.#drawn) return;
@@ -193,14 +194,14 @@ export class GraphTab {
     return [...names].sort(byName).map((name) => element("button", { className: "link", onclick: choose(name) }, name));
   }
 
-  #showTopic({ name, type, rate, publishers, subscribers, last }) {
+  #showTopic({ name, type, rate, publishers, subscribers, echo }) {
     const old = this.details.querySelector("[data-value=last] pre");
     const isSame = this.details.dataset.about === `topic ${name}`;
-    const newest = last || "none yet";
-    const perSecond = last && Number.isFinite(rate) ? `${rate.toFixed(1)} Hz` : "–";
+    const newest = echo.at(-1)?.[1] ?? "none yet";
+    const perSecond = `${rate.toFixed(1)} Hz`;
     if (isSame && old) { // only what changes, so that a link keeps the keyboard
       say(this.details.querySelector("[data-value=rate]"), perSecond);
-      say(old, newest);
+      if (echo.length) say(old, newest);
       return;
     }
     this.#fill("topic", name, [

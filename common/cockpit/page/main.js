@@ -9,13 +9,15 @@ import { LogTab } from "./log_tab.js";
 import { PlotTab } from "./plot_tab.js";
 import { RobotTab } from "./robot_tab.js";
 import { makeTabs } from "./tabs.js";
+import { TopicsTab } from "./topics_tab.js";
 
 /**
  * A tab has a title, a panel (its HTML), watches (what the server is asked to send at first), and may
- * have show(on), called when it is chosen or left, and connect(), when the connection is open or lost. The robots' places are always
- * watched: they show that the server is there.
+ * have show(on), called when it is chosen or left, connect(), when the connection is open or lost, and a place of its
+ * own in the address: place, a text that begins with / or ?, and go(path, query), which shows what an address has.
+ * The robots' places are always watched: they show that the server is there.
  */
-const TABS = [RobotTab, GraphTab, BagTab, PlotTab, LogTab, DoctorTab];
+const TABS = [RobotTab, GraphTab, TopicsTab, BagTab, PlotTab, LogTab, DoctorTab];
 const NOTICE_MS = 8000;
 const WORDS = { open: "Connected", lost: "Connection lost – trying again", gone: "No cockpit – trying again" };
 const GONE = `The cockpit has exited, or the network to it is down. Start it again, with the launch file or with
@@ -56,14 +58,22 @@ for (const { title, panel } of TABS) {
   section.innerHTML = panel;
   document.querySelector("main").append(section);
 }
-const page = { notice, look: () => tabs.robot.look };
+const page = { notice, look: () => tabs.robot.look, moved: (_back) => {} };
 /** @type {Object<string, any>} */
 const tabs = Object.fromEntries(TABS.map((Tab) => [Tab.title.toLowerCase(), new Tab(link, watch, page)]));
 link.on("refused", ({ what, why }) => {
   if (what !== "input") notice(`Not possible: ${why}.`); // the loss of the seat has a message of its own
 });
-makeTabs(tablist, (name) => {
-  for (const [other, tab] of Object.entries(tabs)) if (other !== name) tab.show?.(false);
-  tabs[name].show?.(true);
+page.moved = makeTabs(tablist, {
+  onChoose(name) {
+    for (const [other, tab] of Object.entries(tabs)) if (other !== name) tab.show?.(false);
+    tabs[name].show?.(true);
+  },
+  go(name, path, query) {
+    tabs.robot.goTo(new URLSearchParams(location.search).get("robot"));
+    tabs[name].go?.(path, query);
+  },
+  placeOf: (name) => tabs[name].place ?? "",
+  robot: () => tabs.robot.asked,
 });
 link.connect();

@@ -50,8 +50,9 @@ export class PlotTab {
   #pointed = null; // the time at which the mouse points, or null
   #shown = false;
 
-  constructor(link, watch) {
+  constructor(link, watch, page) {
     this.watch = watch;
+    this.page = page;
     this.chart = new Chart(byId("plot-chart"), {
       onPoint: (t, points) => {
         this.#pointed = t;
@@ -61,6 +62,7 @@ export class PlotTab {
     link.on("fields", ({ fields }) => {
       if (fields.join() === this.#all.join()) return; // a list in use is left alone
       this.#all = fields;
+      this.#open();
       this.#list();
     });
     link.on("plot", ({ samples }) => this.#take(samples));
@@ -80,6 +82,39 @@ export class PlotTab {
     this.#shown = on;
     this.#fresh = on;
     this.watch({ field_list: on, fields: this.fields });
+  }
+
+  get place() {
+    const query = this.fields.map((field) => ["f", field]);
+    if (query.length) query.push(["last", byId("plot-window").value]);
+    return query.length ? `?${new URLSearchParams(query)}`.replaceAll("%2F", "/") : "";
+  }
+
+  go(_path, query) {
+    this.#keep(query.getAll("f").filter((field) => /^[!-~]{1,200}$/.test(field))); // as the server takes it
+    const last = Math.min(KEEP_S, Math.max(1, Math.round(Number(query.get("last")) || 30)));
+    const isListed = WINDOWS.some(([seconds]) => seconds === last);
+    offer(byId("plot-window"), [...WINDOWS, ...(isListed ? [] : [[last, `${last} s`]])]);
+    this.#open();
+    this.#showLast(last);
+    this.#list();
+  }
+
+  #keep(fields) {
+    const all = fields.slice(0, MOST).map((field) => [field, this.#samples[field] ?? new Track()]);
+    this.#samples = Object.fromEntries(all);
+  }
+
+  /** Where the address has a topic in place of a field: choose all fields of that topic. */
+  #open() {
+    const opened = this.fields.flatMap((field) => {
+      const inside = this.#all.includes(field) ? [] : this.#all.filter((one) => one.startsWith(`${field}/`));
+      return inside.length ? inside : [field];
+    });
+    if (opened.join() === this.fields.join()) return;
+    this.#keep(opened);
+    this.watch({ fields: this.fields });
+    this.page.moved();
   }
 
   get fields() {
@@ -153,6 +188,7 @@ export class PlotTab {
     this.watch({ fields: this.fields });
     this.#fresh = true;
     this.#limit();
+    this.page.moved();
   }
 
   /** Show the last seconds, however the chart was zoomed. */
@@ -160,6 +196,7 @@ export class PlotTab {
     byId("plot-window").value = seconds;
     this.chart.wholeRange();
     this.#fresh = true;
+    this.page.moved();
   }
 
   #pause(on) {

@@ -81,15 +81,17 @@ export class RobotTab {
   #teleop = new Map(); // robot -> what its joy2twist reports
   #names = []; // of the robots
   #look = null; // the name of the chosen robot, once there is one
+  asked = null; // the robot that a person has chosen, or the address
   #rows = new Map(); // name -> its row in the table of all; rows stay, as a click takes its time
   #onFloor = ""; // the names of the robots with a place, as JSON
 
   /** link: the Link. watch(fields): what to ask the server for. page: see main.js. */
-  constructor(link, watch, { notice }) {
+  constructor(link, watch, page) {
     this.watch = watch;
+    this.page = page;
     this.floor = new Floor(byId("floor"), () => [...byId("robot").querySelectorAll(ON_FLOOR)]);
     this.picture = new GamepadPicture(byId("pad"));
-    this.seat = new Seat(link, notice, this);
+    this.seat = new Seat(link, page.notice, this);
     link.on("hello", (hello) => this.#meet(hello));
     link.on("names", ({ names }) => this.#showNames(names));
     link.on("robots", ({ robots }) => this.#showRobots(robots));
@@ -121,7 +123,7 @@ export class RobotTab {
     byId("clear-trail").onclick = () => floor.clearTrails();
     byId("follow").onclick = () => floor.setFollow(!floor.follow);
     floor.onFollow = (on) => byId("follow").setAttribute("aria-pressed", on);
-    byId("look").onchange = () => this.lookAt(byId("look").value);
+    byId("look").onchange = () => this.#ask(byId("look").value);
   }
 
   #meet({ id, robots }) {
@@ -146,6 +148,19 @@ export class RobotTab {
     if (isGone) choices.push([this.#look, `${this.#look || "TurtleBot"} (gone)`]);
     offer(byId("look"), choices);
     if (this.#look !== null) byId("look").value = this.#look;
+  }
+
+  #ask(name) {
+    this.asked = name;
+    this.lookAt(name);
+    this.page.moved(true);
+  }
+
+  /** Look at the robot that the address names. */
+  goTo(name) {
+    if (name === null || name === this.#look || this.seat.yours) return;
+    this.asked = name;
+    this.lookAt(name);
   }
 
   lookAt(name) {
@@ -186,7 +201,7 @@ export class RobotTab {
     const line = row(element("button", { className: "link" }, name || "TurtleBot"), "", "", "");
     line.dataset.robot = name;
     line.onclick = () => {
-      if (!this.seat.yours && name !== this.#look) this.lookAt(name); // a driver sees the driven robot
+      if (!this.seat.yours && name !== this.#look) this.#ask(name); // a driver sees the driven robot
     };
     return line;
   }

@@ -1,35 +1,67 @@
-/** Tabs as https://www.w3.org/WAI/ARIA/apg/patterns/tabs/ has them. */
+/**
+ * Tabs as https://www.w3.org/WAI/ARIA/apg/patterns/tabs/ has them, and the address of what they show:
+ * ?robot=robot_7#topics/odom, #plot?f=/odom/pose/pose/position/x&last=30. A reload keeps it, Back goes back.
+ */
 
-/** onChoose(name) is called with the name of the view that is shown: "robot", "graph" ... */
-export function makeTabs(tablist, onChoose) {
+/** The index of the tab to which a key leads from the one that has the focus, or undefined. */
+function nextIndex(tabs, key) {
+  const [now, last] = [tabs.indexOf(document.activeElement), tabs.length - 1];
+  const next = { ArrowRight: now === last ? 0 : now + 1, ArrowLeft: now <= 0 ? last : now - 1, Home: 0, End: last };
+  return now < 0 ? undefined : next[key];
+}
+
+/**
+ * onChoose(name) is called with the name of the view that is shown: "robot", "graph" ...; go(name, path, query)
+ * before it with what an address asks for; placeOf(name) is what follows the name there; robot() that of ?robot=.
+ * Returns moved(back): write the address, as what is shown has changed; back: Back returns to what was before.
+ */
+export function makeTabs(tablist, { onChoose, go, placeOf, robot }) {
   const tabs = [...tablist.querySelectorAll("[role=tab]")];
   const nameOf = (tab) => tab.getAttribute("aria-controls");
+  let shown = tabs[0];
+  let handled = ""; // the address that is shown; null while it is being shown
 
-  function choose(chosen) {
+  function moved(back = false) {
+    if (handled === null) return;
+    const query = new URLSearchParams(location.search);
+    if (robot() !== null) query.set("robot", robot());
+    const address = `${String(query) && `?${query}`}#${nameOf(shown)}${placeOf(nameOf(shown))}`;
+    if (location.search + location.hash === address) return;
+    history[back ? "pushState" : "replaceState"](null, "", address);
+    handled = location.href;
+  }
+
+  function choose(chosen, back) {
+    shown = chosen;
     for (const tab of tabs) {
       tab.setAttribute("aria-selected", tab === chosen);
       tab.tabIndex = tab === chosen ? 0 : -1;
       document.getElementById(nameOf(tab)).hidden = tab !== chosen;
     }
     document.title = `${chosen.textContent} – Cockpit`;
-    history.replaceState(null, "", `${location.pathname}${location.search}#${nameOf(chosen)}`);
     onChoose(nameOf(chosen));
+    moved(back);
   }
 
-  for (const tab of tabs) tab.onclick = () => choose(tab);
+  for (const tab of tabs) tab.onclick = () => choose(tab, true);
   tablist.addEventListener("keydown", (event) => {
-    const [now, last] = [tabs.indexOf(document.activeElement), tabs.length - 1];
-    const next = { ArrowRight: now === last ? 0 : now + 1, ArrowLeft: now <= 0 ? last : now - 1,
-      Home: 0, End: last }[event.key];
-    if (next === undefined || now < 0) return;
+    const next = tabs[nextIndex(tabs, event.key)];
+    if (!next) return;
     event.preventDefault();
-    choose(tabs[next]);
-    tabs[next].focus();
+    choose(next, true);
+    next.focus();
   });
   const chooseByAddress = () => {
-    const name = location.hash.slice(1).toLowerCase();
-    choose(tabs.find((tab) => nameOf(tab) === name) ?? tabs[0]);
+    if (location.href === handled) return; // both events say so
+    const [, name, path, query] = /^#?([^/?]*)([^?]*)\??(.*)$/.exec(location.hash);
+    const tab = tabs.find((one) => nameOf(one) === name.toLowerCase()) ?? tabs[0];
+    handled = null;
+    go(nameOf(tab), path, new URLSearchParams(query));
+    handled = location.href;
+    choose(tab, false);
   };
-  addEventListener("hashchange", chooseByAddress);
+  addEventListener("popstate", chooseByAddress);
+  addEventListener("hashchange", chooseByAddress); // typed in the address bar
   chooseByAddress();
+  return moved;
 }

@@ -51,10 +51,13 @@ class BrowserJoystick(RosTest):
                     self.assertEqual(second.wait(), code)
                     self.assertRegex(second.output, f"^cockpit: {line}\n$")
 
-    def test_rqt_graph_without_a_screen_leads_to_the_page(self):
-        with Program(node_path("tutorial_tools", "rqt_graph"), DISPLAY="") as graph:
-            self.assertEqual(graph.wait(), 0)
-            self.assertEqual(graph.output, f"rqt_graph: see {self.rig.address}#Graph\n")
+    def test_windows_of_rqt_without_a_screen_lead_to_the_page(self):
+        plot = ("rqt_plot", "rqt_plot", "/odom/pose/pose/position/x:y")
+        place = "plot?f=/odom/pose/pose/position/x&f=/odom/pose/pose/position/y"
+        for command, at in ((("rqt_graph",) * 2, "Graph"), (plot, place)):
+            with Program("rosrun", *command, DISPLAY="") as window:
+                self.assertEqual(window.wait(), 0)
+                self.assertEqual(window.output, f"{command[0]}: see {self.rig.address}#{at}\n")
 
 
 if __name__ == "__main__":

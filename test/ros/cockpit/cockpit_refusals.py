@@ -50,6 +50,7 @@ class Refused(WithCockpit):
             (None, {}),
             ("wrong", {}),
             (driver, {"Origin": f"http://127.0.0.1:{port + 1}"}),
+            (driver, {"Origin": "null"}),
             (driver, {"Host": f"evil.example:{port}", "Origin": f"http://evil.example:{port}"}),
         ):
             with SocketPage(port, token=token, **headers) as page:
@@ -63,7 +64,8 @@ class Refused(WithCockpit):
             page.say("drive", robot="", mode="D")
             page.say("reset", robot="")
             page.say("bag_play", topic="/joy", rate=1.0, loop=False, robot="")
-            for what in ("drive", "reset", "bag_play"):
+            page.say("publish", topic="/cmd_vel", type="geometry_msgs/Twist", values={})
+            for what in ("drive", "reset", "bag_play", "publish"):
                 why = page.wait_for("refused", lambda no, what=what: no["what"] == what)["why"]
                 self.assertIn("may only look", why)
             self.assertEqual([seat for seat in page.of("seat") if seat["yours"]], [])

@@ -35,6 +35,9 @@ GOOD = {
     "bag_pause": {},
     "bag_seek": {"position": 3.5},
     "doctor": {},
+    "describe": {"what": "message", "name": "std_msgs/String"},
+    "publish": {"topic": "/x", "type": "std_msgs/String", "values": {"data": "a"}},
+    "call": {"service": "/x/reset", "values": {}},
 }  # fmt: skip
 
 

@@ -24,21 +24,6 @@ def test_names_of_this_machine(hosts, here, lan):
         assert (HERE.is_ours(host), LAN.is_ours(host)) == (here, lan), host
 
 
-@pytest.mark.parametrize(
-    ("origin", "is_same"),
-    [
-        ("http://127.0.0.1:8080", True), ("http://evil.example", False),
-        ("http://127.0.0.1:9090", False), ("http://localhost:8080", False),
-        ("https://127.0.0.1:8080", False), ("null", False), ("", False),
-    ],
-)  # fmt: skip
-def test_the_origin_must_be_the_same(origin, is_same):
-    host = "127.0.0.1:8080"
-    assert HERE.may_connect(host, origin) == HERE.may_request(host, origin) == is_same
-    assert HERE.may_request(host, None)  # a typed address has no origin
-    assert not HERE.may_connect(host, None)
-
-
 def test_a_codespace_has_an_address_of_its_own():
     page, other = Access(origins=(CODESPACE,)), CODESPACE.replace("old", "new")
     ways = (("localhost:8080", CODESPACE), ("localhost:8080", other), ("evil.example", CODESPACE))

@@ -1,18 +1,14 @@
 """The graph as pages get it, what the master is asked for it, and its bad answers."""
 
 import threading
-from types import SimpleNamespace
 
 import pytest
-from std_msgs.msg import String
 
 from cockpit_server import graph_watch
 from cockpit_server.graph import JOY, ODOMETRY, Graph
 from cockpit_server.seat import RefusedError
-from cockpit_server.sources.graph_view import LONGEST_MESSAGE, Topic
 from cockpit_server.sources.resets import reset_service
 from node_kit.ros_api import Answer
-from tutorial_testing.seat_room import serialised
 
 GRAPH = Graph(
     publishers={"/odom": {"/sim"}, "/robot_1/odom": {"/room"}, "/robot_2/odom": {"/room"}},
@@ -30,13 +26,6 @@ def test_reset_is_of_one_robot():
     assert reset_service(GRAPH, "robot_2") == "/robot_2/reset"
     with pytest.raises(RefusedError, match="robot_1 has no service"):
         reset_service(GRAPH, "robot_1")  # the node's own would reset both
-
-
-def test_long_message_is_shown_by_its_length():
-    topic = Topic()
-    for length, text in ((LONGEST_MESSAGE - 4, 'data: "xxx'), (LONGEST_MESSAGE, "(20004 bytes)")):
-        topic.hear(SimpleNamespace(data=serialised(String("x" * length))), "/x")
-        assert topic.text("std_msgs/String").startswith(text)
 
 
 WELL = {

@@ -40,7 +40,7 @@ def test_each_field_is_required_and_others_are_refused(kind):
 @pytest.mark.parametrize(
     "data",
     [
-        b"{}", "", "null", "{", '{"kind": 1}', '{"kind": "publish"}', "[" * 5000,
+        b"{}", "", "null", "{", '{"kind": 1}', '{"kind": "command"}', "[" * 5000,
         say("stop").ljust(8193), '{"kind": ["stop"]}', say("x" * 5000),
     ],
 )  # fmt: skip

@@ -85,22 +85,6 @@ def test_a_page_gets_the_map_the_place_in_it_and_the_scan_when_they_change():
     assert seen.look()["map"] == {"kind": "map"}  # it goes with its last publisher
 
 
-def test_a_scan_is_sent_again_only_if_it_or_a_place_is_another():
-    seen, truth = Seen(), Odometry()
-    seen.hear("/map", grid(1, 1, [0]))
-
-    def kinds(x, distance):
-        truth.pose.pose.position.x = x
-        seen.hear("/ada/base_pose_ground_truth", truth)
-        seen.hear("/ada/scan", scan([distance]))
-        return list(seen.look())
-
-    assert kinds(1.0, 2.0) == ["map", "around", "scan"]
-    assert kinds(1.0, 2.0) == []
-    assert kinds(1.0, 3.0) == ["scan"]
-    assert kinds(2.0, 3.0) == ["around", "scan"]  # along a wall
-
-
 @pytest.mark.parametrize(
     "message", [String("no map"), grid(2, 2, [0]), grid(0, 0, []), grid(1, 1, [0], cell=nan)]
 )

@@ -1,4 +1,5 @@
-"""Numbers inside messages of any type, by names such as pose/position/x or axes[0] (pure).
+"""What is in messages of any type: their definitions, fields, and numbers, by names such as
+pose/position/x or axes[0] (pure).
 
 A message class is one that genpy made: __slots__ and _slot_types say what is in it.
 """
@@ -14,6 +15,8 @@ NUMBERS = {
 }  # fmt: skip
 FIRST_ENTRIES = 12  # entries of an array that are offered; ask for others by name
 DEEPEST = 8
+TIMES = ("time", "duration")
+_CONSTANT = re.compile(r"^\s*(\w+)\s+(\w+)\s*=\s*(.*?)\s*$", re.MULTILINE)
 _PART = re.compile(r"([A-Za-z]\w*)(?:\[(\d{1,6})\])?")
 
 
@@ -38,6 +41,31 @@ def numeric_fields(
             if inner:
                 for inside in numeric_fields(inner, class_of, depth - 1):
                     yield from (f"{one}/{inside}" for one in names)
+
+
+def definition(kind: Any, class_of: Callable[[str], Any], indent: str = "") -> Iterator[str]:
+    """Yield the lines that rosmsg show prints."""
+    for base, name, value in _CONSTANT.findall(kind._full_text.split("=" * 80)[0]):
+        shown = value if base == "string" else value.partition("#")[0].strip()
+        yield f"{indent}{base} {name}={shown}"
+    for name, slot_type in zip(kind.__slots__, kind._slot_types):
+        yield f"{indent}{slot_type} {name}"
+        base = slot_type.partition("[")[0]
+        inner = base not in NUMBERS and class_of(base)
+        if inner:
+            yield from definition(inner, class_of, f"{indent}  ")
+
+
+def form_fields(
+    kind: Any, class_of: Callable[[str], Any], above: str = ""
+) -> Iterator[tuple[str, str]]:
+    """Yield (name, type) of what a form asks for; an array is one field."""
+    for name, slot_type in zip(kind.__slots__, kind._slot_types):
+        inner = slot_type not in NUMBERS and class_of(slot_type)
+        if inner:
+            yield from form_fields(inner, class_of, f"{above}{name}/")
+        elif f"{above}{name}" != "header/seq":  # rospy counts
+            yield f"{above}{name}", slot_type
 
 
 def parts_of(field: str) -> list[tuple[str, int | None]]:

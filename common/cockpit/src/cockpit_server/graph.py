@@ -45,6 +45,7 @@ class Graph:
         return {
             "nodes": [{"name": name, "machine": self.machines.get(name, "")} for name in nodes],
             "topics": [{"name": name, "type": self.types.get(name, "")} for name in topics],
+            "services": sorted(self.services),
             "edges": [edge for topic in topics for edge in self._edges(topic)],
         }
 

@@ -18,13 +18,15 @@ from cockpit_server.hub import TICK_S, Hub
 from cockpit_server.joysticks import Joysticks
 from cockpit_server.sources.bags import Bags
 from cockpit_server.sources.doctor import Doctor
-from cockpit_server.sources.graph_view import GraphView, Topics
+from cockpit_server.sources.forms import Forms
+from cockpit_server.sources.graph_view import GraphView
 from cockpit_server.sources.logs import Logs
 from cockpit_server.sources.plots import Plots
 from cockpit_server.sources.resets import Resets
 from cockpit_server.sources.robots import Pads, Robots
 from cockpit_server.sources.surroundings import Surroundings
 from cockpit_server.sources.teleop import Teleop
+from cockpit_server.sources.topics import Topics
 from cockpit_server.web import server
 from node_kit.log import Log
 
@@ -42,8 +44,8 @@ class Cockpit:
         mobile_base/events/bumper, commands/led1, led2, sound (kobuki_msgs), any topic;
         /map (nav_msgs/OccupancyGrid), /tf_static (tf2_msgs/TFMessage),
         /diagnostics (diagnostic_msgs/DiagnosticArray), /rosout (rosgraph_msgs/Log)
-    Publishes: joy (sensor_msgs/Joy) of a robot that is driven
-    Calls: mobile services of type std_srvs/Empty that end in /reset
+    Publishes: joy (sensor_msgs/Joy) of a robot that is driven; what a driver writes into a form
+    Calls: services of type std_srvs/Empty that end in /reset; what a driver writes into a form
     """
 
     def __init__(self, sockets: list[Any], access: Access) -> None:
@@ -58,8 +60,8 @@ class Cockpit:
         drives = Drives(hub, graphs, teleop, robots)
         sources = (
             robots, pads, teleop, drives, Resets(hub, graphs, drives),
-            GraphView(graphs), Topics(feeds, graphs), Plots(feeds, graphs), Logs(feeds),
-            Doctor(), bags, Surroundings(feeds, graphs),
+            GraphView(graphs), Topics(feeds, graphs), Forms(hub, graphs), Plots(feeds, graphs),
+            Logs(feeds), Doctor(), bags, Surroundings(feeds, graphs),
         )  # fmt: skip
         hub.add(sources, player=bags)
         self._server = server(self._hub, access)

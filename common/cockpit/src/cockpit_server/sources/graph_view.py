@@ -2,24 +2,15 @@
 
 from __future__ import annotations
 
-import math
-import time
-from typing import Any, ClassVar, Sequence
+from typing import ClassVar, Sequence
 
 import rosgraph
 
 from cockpit_server.clients import Client, Source, encoded
-from cockpit_server.feeds import Feeds, later
-from cockpit_server.graph import Graph
+from cockpit_server.feeds import later
 from cockpit_server.graph_watch import GraphWatch
 from cockpit_server.schema import full_name, or_null, switch
-from cockpit_server.sources.plots import class_of
 from node_kit.ros_api import Answer, call
-
-PERIOD_S = 0.5
-LONGEST_TEXT = 4000  # characters of the newest message
-LONGEST_MESSAGE = 20_000  # bytes; the text of a longer one would hold up the driver
-WINDOW_S = 2.0  # over which the rate is counted
 
 
 class GraphView(Source):
@@ -56,81 +47,3 @@ class GraphView(Source):
         if answer is Answer.WELL:
             answer, pid = call(uri, "getPid")
             self._pids[node] = pid if answer is Answer.WELL else None
-
-
-class Topic:
-    """The messages of one topic."""
-
-    def __init__(self) -> None:
-        self.count = 0
-        self.newest: bytes | None = None
-        self.shown_at = -math.inf  # [s]
-        self.shown: dict[str, Any] = {}  # what pages are sent since then
-        self._marks = [(time.monotonic(), 0)]  # (when, count until then)
-
-    def hear(self, message: Any, _topic: str) -> None:
-        self.newest = message.data
-        self.count += 1
-
-    def rate(self, now: float) -> float:
-        """Return messages per second [Hz]; call about once a PERIOD_S."""
-        self._marks.append((now, self.count))
-        while len(self._marks) > 2 and self._marks[1][0] <= now - WINDOW_S:
-            self._marks.pop(0)
-        (since, before) = self._marks[0]
-        return (self.count - before) / (now - since) if now > since else 0.0
-
-    def text(self, type_name: str) -> str:
-        """Return the newest message as text."""
-        data = self.newest
-        if data is None:
-            return ""
-        kind = class_of(type_name)
-        if kind is None:
-            return f"({len(data)} bytes; the package of {type_name} is not installed here)"
-        if len(data) > LONGEST_MESSAGE:
-            return f"({len(data)} bytes)"
-        try:
-            text = str(kind().deserialize(data))
-        except Exception as error:  # whatever the bytes made a message class do
-            return f"(cannot be read: {error})"
-        return text if len(text) <= LONGEST_TEXT else f"{text[:LONGEST_TEXT]}\n..."
-
-
-class Topics(Source):
-    """The topics that pages show; a page shows one."""
-
-    watches: ClassVar = {"topic": (or_null(full_name), None)}
-
-    def __init__(self, feeds: Feeds, graph_watch: GraphWatch) -> None:
-        self._feeds, self._graphs = feeds, graph_watch
-        self._topics: dict[str, Topic] = {}
-
-    def prepare(self, clients: Sequence[Client], now: float) -> None:
-        looked_at = {client.watch.topic for client in clients} - {None}
-        self._topics = {name: self._topics.get(name) or Topic() for name in looked_at}
-        types = self._graphs.graph.types
-        there = {name: one.hear for name, one in self._topics.items() if name in types}
-        self._feeds.want(self, there, every=True)
-
-    def give(self, client: Client, now: float) -> None:
-        name = client.watch.topic
-        topic = self._topics.get(name)
-        if topic is None:
-            return
-        if now - topic.shown_at >= PERIOD_S:
-            topic.shown_at, topic.shown = now, _about(self._graphs.graph, name, topic, now)
-        if client.lacks("topic", (name, topic.shown_at)):
-            client.send("topic", **topic.shown)
-
-
-def _about(graph: Graph, name: str, topic: Topic, now: float) -> dict[str, Any]:
-    type_name = graph.types.get(name, "")
-    return {
-        "name": name,
-        "type": type_name,
-        "rate": round(topic.rate(now), 2),
-        "publishers": sorted(graph.publishers.get(name, ())),
-        "subscribers": sorted(graph.subscribers.get(name, ())),
-        "last": topic.text(type_name),
-    }

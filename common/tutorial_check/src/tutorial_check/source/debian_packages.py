@@ -58,7 +58,7 @@ arbotix* rbx1* rbx2*: fake_turtlebot.launch of rbx1_bringup is here, and needs n
 map_server: fake_turtlebot_sim with world:=MAP.yaml publishes /map
 move_base amcl gmapping *navigation* costmap_2d navfn dwa_*: there is no navigation stack here
 robot_pose_ekf robot_localization: take /odom
-rqt*: rqt_graph and rqt_bag are here; `./tutorial cockpit` shows topics, curves, the log
+rqt*: rqt_plot, rqt_console, rqt_graph and others are here; `./tutorial cockpit` shows the same
 openni* freenect* astra* depthimage_to_laserscan *_cam: with a world:= there is /scan, but no camera
 teleop_twist_joy joystick_drivers: joy2twist and joy_node of the package joy are here
 teleop_twist_keyboard: copy its one file into your package

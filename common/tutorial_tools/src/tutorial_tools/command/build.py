@@ -18,6 +18,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 from node_kit.manifests import broken_manifests, manifests
+from tutorial_tools.command.rqt_packages import RQT, make_rqt
 from tutorial_tools.hidden import hidden_stand_ins
 from tutorial_tools.system.apt import SetUpError, say
 
@@ -27,14 +28,13 @@ PREFIX = os.environ.get("TUTORIAL_ROS", "")
 SHARE = Path(PREFIX or "/usr", "share")  # where its packages are
 OVERLAY = ("beginner_tutorials", "joy2twist", "test")  # the solutions
 # Commands of the shell, under these names.
-SCRIPTS = "common/tutorial_tools/scripts"
-COMMANDS = (f"{SCRIPTS}/rqt_graph", f"{SCRIPTS}/rqt_bag", f"{SCRIPTS}/2to3", "tutorial")
+COMMANDS = ("common/tutorial_tools/scripts/2to3", "tutorial")
 WRONG = re.compile("rror|invalid|mismatched|not found")
 
 
 def stamp() -> str:
     """Return a checksum of what catkin reads; the Python files themselves are used in place."""
-    found = hashlib.sha1(f"{sys.version} {PREFIX} {COMMANDS}".encode())
+    found = hashlib.sha1(f"{sys.version} {PREFIX} {COMMANDS} {RQT}".encode())
     for depth in ("*", "common/*", "common/stand_ins/*"):
         for name in ("CMakeLists.txt", "package.xml", "setup.py"):
             for path in sorted(REPOSITORY.glob(f"{depth}/{name}")):
@@ -119,11 +119,13 @@ def build_both(workspace: Path) -> None:
     common = [one for one in common if one.parent.name != "stand_ins" or one not in there]
     with contextlib.suppress(FileNotFoundError):
         (workspace / "built").unlink()  # what it stands for changes from here on
-    link_packages(lower, [REPOSITORY / "fake_turtlebot_sim", *common])
+    rqt = list(make_rqt(REPOSITORY, SHARE, workspace / "rqt"))
+    made = [program.parents[1] for program in rqt]
+    link_packages(lower, [REPOSITORY / "fake_turtlebot_sim", *common, *made])
     if not (lower / "devel").exists():
         remove_built(workspace)  # a package may have moved between the two
     link_packages(workspace, OVERLAY)
-    link(workspace / "bin", COMMANDS)
+    link(workspace / "bin", [*COMMANDS, *rqt])
     with contextlib.suppress(FileExistsError):  # for programs with "env python"
         (workspace / "bin" / "python").symlink_to("/usr/bin/python3")
     log.write_text("")

@@ -1,0 +1,269 @@
+/** The tab Topics: how often messages come, the newest of one, and forms that publish one or call a service. */
+
+import { byId, byName, element, offer, row, say } from "./dom.js";
+
+const LISTED = 200; // of the names that are found
+const MOST_RATES = 40, LONGEST_RATES = 3000; // topics, and characters of their names, as the server takes them
+const LOOK_MS = 500; // between two looks at which topics are in sight
+const ECHOED = 100; // messages that are kept
+const RATES = [[0, "once"], [1, "1 Hz"], [10, "10 Hz"]];
+
+const PANEL = `
+  <div class="wide">
+    <div class="card row">
+      <label>Show <select id="topics-kind"></select></label>
+      <label class="grow">Search <input type="search" id="topics-search" placeholder="name or type" autocomplete="off"></label>
+      <label><input type="checkbox" id="topics-measure" checked> Measure rates</label>
+      <span id="topics-count" class="hint" role="status"></span>
+    </div>
+    <div class="scroll" id="topics-scroll" role="region" tabindex="0" aria-label="Topics or services">
+      <table><thead><tr><th>Name</th><th>Type</th><th>Publishers</th><th>Subscribers</th><th>Hz</th><th>bytes/s</th></tr></thead>
+        <tbody id="topics-rows"></tbody></table></div>
+  </div>
+  <div class="panel">
+    <div class="card"><h2 id="topics-title" aria-live="polite">Choose a name.</h2>
+      <p id="topics-about" class="hint"></p>
+      <p class="row" id="topics-plots" hidden><label>Plot <select id="topics-plot"></select></label></p>
+      <details><summary>Definition</summary><pre id="topics-definition"></pre></details></div>
+    <div class="card" id="topics-echoes" hidden><h2>Messages</h2>
+      <div class="row"><button id="topics-pause" aria-pressed="false">Pause</button>
+        <button id="topics-copy">Copy</button> <span id="topics-missed" class="hint"></span></div>
+      <pre id="topics-echo" tabindex="0" role="region" aria-label="Messages"></pre></div>
+    <form class="card" id="topics-form" hidden><h2 id="topics-do"></h2>
+      <div id="topics-fields"></div>
+      <div class="row"><button id="topics-send" class="primary"></button>
+        <label id="topics-often">How often <select id="topics-rate"></select></label></div>
+      <pre id="topics-answer" role="status" hidden></pre></form>
+  </div>`;
+
+export class TopicsTab {
+  static title = "Topics";
+  static panel = PANEL;
+  static watches = { rates: [] };
+
+  #shown = false;
+  #drives = false; // whether this page may publish and call
+  #graph = { topics: [], services: [], edges: [] };
+  #chosen = null; // the name
+  #type = ""; // of the chosen topic
+  #rows = new Map(); // name -> its row
+  #described = ""; // what the server was asked to describe last
+  #newest = 0; // the number of the newest message
+  #missed = 0;
+  #repeats = null; // the timer that publishes
+
+  constructor(link, watch, page) {
+    this.link = link;
+    this.watch = watch;
+    this.page = page;
+    link.on("hello", ({ role }) => (this.#drives = role === "driver"));
+    link.on("graph", (graph) => {
+      this.#graph = graph;
+      this.#list();
+    });
+    link.on("rates", ({ rates }) => this.#showRates(rates));
+    link.on("topic", (topic) => this.#shown && topic.name === this.#chosen && this.#showTopic(topic));
+    link.on("form", (form) => [this.#type, this.#chosen].includes(form.name) && this.#showForm(form));
+    link.on("answer", ({ name, text }) => name === this.#chosen && this.#answer(text || "(an empty answer)"));
+    link.on("refused", ({ what, why }) => what === "call" && this.#answer(why));
+    link.on("refused", ({ what }) => what === "publish" && this.#stop());
+    offer(byId("topics-kind"), [["topics"], ["services"]]);
+    offer(byId("topics-rate"), RATES);
+    byId("topics-kind").onchange = () => this.#choose(null);
+    byId("topics-search").oninput = () => this.#list();
+    byId("topics-plot").onchange = () => (location.hash = `#plot?f=${this.#chosen}${byId("topics-plot").value}`);
+    byId("topics-pause").onclick = () => this.#pause(!this.#isPaused);
+    byId("topics-copy").onclick = () => {
+      getSelection().selectAllChildren(byId("topics-echo"));
+      document.execCommand("copy"); // navigator.clipboard is not there over http from elsewhere
+    };
+    byId("topics-form").onsubmit = (event) => {
+      event.preventDefault();
+      this.#send();
+    };
+    document.addEventListener("visibilitychange", () => document.hidden && this.#stop());
+    setInterval(() => this.#shown && this.watch({ rates: this.#inSight }), LOOK_MS);
+  }
+
+  get place() {
+    return `${this.#chosen ?? ""}${this.#services ? "?kind=services" : ""}`;
+  }
+
+  go(path, query) {
+    byId("topics-kind").value = query.get("kind") === "services" ? "services" : "topics";
+    this.#choose(path || null);
+  }
+
+  show(on) {
+    this.#shown = on;
+    if (!on) this.#stop();
+    this.watch({ graph: on, rates: [], topic: on && !this.#services ? this.#chosen : null });
+    if (!on) return;
+    this.#list();
+    this.#describe();
+  }
+
+  connect() {
+    this.#described = "";
+    if (this.link.isOpen) this.#describe();
+    else this.#stop();
+  }
+
+  get #services() {
+    return byId("topics-kind").value === "services";
+  }
+
+  get #isPaused() {
+    return byId("topics-pause").getAttribute("aria-pressed") === "true";
+  }
+
+  /** The topics whose rows are seen. */
+  get #inSight() {
+    if (!byId("topics-measure").checked || this.#services) return [];
+    const { top, bottom } = byId("topics-scroll").getBoundingClientRect();
+    const names = [...this.#rows].filter(([, line]) => {
+      const box = line.getBoundingClientRect();
+      return box.bottom > top && box.top < bottom && box.top < innerHeight;
+    }).map(([name]) => name).slice(0, MOST_RATES);
+    while (names.join().length > LONGEST_RATES) names.pop();
+    return names;
+  }
+
+  #list() {
+    if (!this.#shown) return;
+    const { topics, services, edges } = this.#graph;
+    const users = { to: new Map(), from: new Map() }; // how many edges lead to a topic, and from it
+    for (const edge of edges) {
+      for (const [side, counts] of Object.entries(users)) counts.set(edge[side], (counts.get(edge[side]) ?? 0) + 1);
+    }
+    const all = this.#services ? services.map((name) => ({ name, type: "" })) : topics;
+    const words = byId("topics-search").value.toLowerCase().split(/\s+/).filter(Boolean);
+    const found = all.filter(({ name, type }) => words.every((word) => `${name} ${type}`.toLowerCase().includes(word)));
+    const listed = found.sort((a, b) => byName(a.name, b.name)).slice(0, LISTED);
+    this.#rows = new Map(listed.map(({ name, type }) => {
+      const line = this.#rows.get(name) ?? this.#rowOf(name);
+      const counts = Object.values(users).map((side) => side.get(`topic ${name}`) ?? 0);
+      [type, ...counts].forEach((text, i) => say(line.cells[i + 1], String(text)));
+      line.classList.toggle("chosen", name === this.#chosen);
+      return [name, line];
+    }));
+    byId("topics-rows").replaceChildren(...this.#rows.values());
+    const rest = found.length - listed.length;
+    say(byId("topics-count"), `${found.length} of ${all.length}${rest ? `: the first ${LISTED} are listed` : ""}`);
+    const type = topics.find(({ name }) => name === this.#chosen)?.type ?? "";
+    if (type !== this.#type && !this.#services) { // also once a topic is there
+      this.#type = type;
+      this.#describe();
+    }
+  }
+
+  #rowOf(name) {
+    const line = row(element("button", { className: "link" }, name), "", "", "", "", "");
+    line.onclick = () => this.#choose(name);
+    return line;
+  }
+
+  #showRates(rates) {
+    for (const [name, line] of this.#rows) {
+      const [hertz, bytes] = rates[name] ?? [];
+      say(line.cells[4], hertz === undefined ? "" : hertz.toFixed(hertz < 100 ? 2 : 0));
+      say(line.cells[5], bytes === undefined ? "" : String(bytes));
+    }
+  }
+
+  #choose(name) {
+    this.#stop();
+    this.#chosen = name;
+    this.#type = this.#described = "";
+    this.#missed = 0;
+    byId("topics").dataset.kind = byId("topics-kind").value;
+    byId("topics-echo").replaceChildren();
+    this.#pause(false);
+    say(byId("topics-title"), name ?? "Choose a name.");
+    say(byId("topics-about"), "");
+    say(byId("topics-definition"), "");
+    say(byId("topics-missed"), "");
+    for (const part of ["plots", "form", "answer"]) byId(`topics-${part}`).hidden = true;
+    byId("topics-echoes").hidden = this.#services || !name;
+    if (this.#shown) this.watch({ topic: this.#services ? null : name });
+    this.#list();
+    this.#describe();
+    this.page.moved(true);
+  }
+
+  #describe() {
+    const [what, name] = this.#services ? ["service", this.#chosen] : ["message", this.#type];
+    if (this.#shown && name && name !== this.#described && this.link.send("describe", { what, name })) {
+      this.#described = name;
+    }
+  }
+
+  #showTopic({ type, rate, publishers, subscribers, echo }) {
+    const names = (nodes) => nodes.join(", ") || "none";
+    say(byId("topics-about"), `${type}, ${rate.toFixed(2)} Hz. Publishers: ${names(publishers)}.`
+      + ` Subscribers: ${names(subscribers)}.`);
+    if (this.#isPaused || !echo.length) return;
+    if (this.#newest) this.#missed += echo[0][0] - this.#newest - 1;
+    this.#newest = echo.at(-1)[0];
+    const pre = byId("topics-echo");
+    const atEnd = pre.scrollHeight - pre.scrollTop - pre.clientHeight < 40;
+    pre.append(...echo.map(([, text]) => `${text}\n---\n`));
+    while (pre.childNodes.length > ECHOED) pre.firstChild.remove();
+    if (atEnd) pre.scrollTop = pre.scrollHeight;
+    say(byId("topics-missed"), this.#missed ? `${this.#missed} more came in between.` : "");
+  }
+
+  #pause(on) {
+    byId("topics-pause").setAttribute("aria-pressed", String(on));
+    say(byId("topics-pause"), on ? "Resume" : "Pause");
+    this.#newest = 0; // what comes meanwhile is not counted
+  }
+
+  #showForm({ definition, fields, numbers }) {
+    say(byId("topics-definition"), definition);
+    byId("topics-plots").hidden = !numbers.length;
+    offer(byId("topics-plot"), [["", "choose a field"], ...numbers.map((field) => [`/${field}`])]);
+    const act = this.#services ? "Call" : "Publish";
+    say(byId("topics-do"), this.#services ? "Call this service" : "Publish a message");
+    say(byId("topics-send"), act);
+    byId("topics-send").disabled = !this.#drives;
+    byId("topics-send").title = this.#drives ? "" : "This page may only look.";
+    byId("topics-often").hidden = this.#services;
+    byId("topics-fields").replaceChildren(...fields.map(([name, type]) =>
+      element("label", { className: "long" }, `${name} `, element("input", { name, placeholder: type, autocomplete: "off" }))));
+    byId("topics-form").hidden = false;
+  }
+
+  /** Publish or call what the form has; publish it again and again if so chosen. */
+  #send() {
+    if (this.#repeats !== null) {
+      this.#stop();
+      return;
+    }
+    const inputs = [...byId("topics-fields").querySelectorAll("input")].filter(({ value }) => value !== "");
+    const values = Object.fromEntries(inputs.map(({ name, value }) => [name, value]));
+    if (this.#services) {
+      this.link.send("call", { service: this.#chosen, values });
+      return;
+    }
+    const publish = () => this.link.send("publish", { topic: this.#chosen, type: this.#type, values });
+    const rate = Number(byId("topics-rate").value);
+    publish();
+    if (!rate) return;
+    this.#repeats = setInterval(publish, 1000 / rate);
+    say(byId("topics-send"), "Stop publishing");
+  }
+
+  /** Publish no more: a page that is not looked at publishes nothing. */
+  #stop() {
+    if (this.#repeats === null) return;
+    clearInterval(this.#repeats);
+    this.#repeats = null;
+    say(byId("topics-send"), "Publish");
+  }
+
+  #answer(text) {
+    byId("topics-answer").hidden = false;
+    say(byId("topics-answer"), text);
+  }
+}

@@ -1,0 +1,196 @@
+"""Messages that a driver publishes, and services that one calls, from a form of the page."""
+
+from __future__ import annotations
+
+import json
+import threading
+import time
+from io import BytesIO
+from typing import Any, Callable, ClassVar, Mapping, Sequence, Tuple
+
+import rosgraph
+import rospy
+import rosservice
+from genpy.message import fill_message_args
+from rosgraph.names import is_legal_name
+
+from cockpit_server.clients import Client, Source
+from cockpit_server.feeds import later
+from cockpit_server.fields import TIMES, definition, form_fields
+from cockpit_server.graph import JOY
+from cockpit_server.graph_watch import GraphWatch
+from cockpit_server.schema import full_name, one_of, require, text
+from cockpit_server.seat import RefusedError
+from cockpit_server.sources.logs import without_folders
+from cockpit_server.sources.plots import class_of, fields_of
+from node_kit.ros_api import Answer
+from node_kit.ros_api import call as ask_node
+
+MOST_FIELDS = 60  # of a form
+LONGEST_VALUE = 2000  # characters
+LONGEST_ANSWER, LONGEST_LINE = 4000, 200  # characters
+MOST_PUBLISHERS = 20
+UNUSED_S = 5.0  # after which a publisher ends
+CONNECT_S = 1.0  # that a new publisher waits for its subscribers
+LOOK_S = 0.02
+Key = Tuple[str, str]  # topic, type
+
+TEXTS = require(
+    lambda v: isinstance(v, dict) and len(v) <= MOST_FIELDS
+    and all(isinstance(one, str) and len(one) <= LONGEST_VALUE for one in v.values()),
+    f"be at most {MOST_FIELDS} texts of at most {LONGEST_VALUE} characters",
+)  # fmt: skip
+
+
+def form_of(kind: Any) -> dict[str, Any]:
+    """Return what a page needs for a form of a message class."""
+    asked = list(form_fields(kind, class_of))[:MOST_FIELDS]
+    return {"definition": "\n".join(definition(kind, class_of)), "fields": asked}
+
+
+def one_line(error: Exception) -> str:
+    return " ".join(str(error).split())[:LONGEST_LINE] or type(error).__name__
+
+
+def filled(kind: Any, texts: Mapping[str, str]) -> Any:
+    """Return a message with what a form has; a field without a text is zero or empty.
+
+    Raises ValueError, one line.
+    """
+    types, message = dict(form_fields(kind, class_of)), kind()
+    tree: dict[str, Any] = {}
+    for name, written in texts.items():
+        if name not in types:
+            raise ValueError(f"{kind._type} has no field {name[:60]!r}")
+        part = tree
+        *above, last = name.split("/")
+        for step in above:
+            part = part.setdefault(step, {})
+        part[last] = read(name, types[name], written)
+    try:
+        fill_message_args(message, [tree], {"now": rospy.Time.now()})
+        message.serialize(BytesIO())
+    except Exception as error:  # whatever genpy makes of it
+        raise ValueError(one_line(error)) from None
+    return message
+
+
+def read(name: str, slot_type: str, written: str) -> Any:
+    """Return the text of a field as fill_message_args() takes it. Raises ValueError, one line."""
+    if slot_type == "string" or written == "now":
+        return written
+    try:
+        value = json.loads(written)
+        if slot_type in TIMES and isinstance(value, (int, float)):
+            return {"secs": int(value // 1), "nsecs": int(value % 1 * 1e9)}
+    except (ValueError, OverflowError, RecursionError):
+        raise ValueError(f"{name}: {slot_type} must be as 0.5, true or [1, 2]") from None
+    return value
+
+
+class Forms(Source):
+    """Publishes and calls for pages that may drive, unless another page does."""
+
+    messages: ClassVar = {
+        "describe": {"what": one_of("message", "service"), "name": text},
+        "publish": {"topic": full_name, "type": text, "values": TEXTS},
+        "call": {"service": full_name, "values": TEXTS},
+    }
+
+    def __init__(self, hub: Any, graph_watch: GraphWatch) -> None:
+        self._hub, self._graphs = hub, graph_watch
+        self._asked: set[str] = set()  # services that have not answered yet
+        self._publishers: dict[Key, Any] = {}  # Publisher, or None until it is connected
+        self._used: dict[Key, float] = {}  # when [s]
+
+    def prepare(self, clients: Sequence[Client], now: float) -> None:
+        for key, publisher in list(self._publishers.items()):
+            if publisher and now - self._used[key] > UNUSED_S:
+                del self._publishers[key]
+                later(publisher.unregister)
+
+    def on_describe(self, client: Client, _now: float, what: str, name: str) -> None:
+        if what == "service":
+            self._ask(client, name, describe_service)
+            return
+        kind = class_of(name)
+        if kind is None:
+            raise RefusedError(f"the package of {name} is not installed here")
+        client.send("form", what=what, name=name, numbers=fields_of(name), **form_of(kind))
+
+    def on_publish(
+        self, client: Client, now: float, *, topic: str, type: str, values: Mapping[str, str]
+    ) -> None:
+        self._must_be_free(client)
+        kind, known = class_of(type), self._graphs.graph.types.get(topic, type)
+        if kind is None or known != type or not is_legal_name(topic):
+            raise RefusedError(f"{topic}: no topic of the type {type}")
+        if type == JOY and topic.endswith("/joy"):
+            raise RefusedError("a joystick is moved in the tab Robot, where a loss stops the robot")
+        key, message = (topic, type), filled(kind, values)
+        if key not in self._publishers:
+            if len(self._publishers) >= MOST_PUBLISHERS:
+                raise RefusedError(f"at most {MOST_PUBLISHERS} topics in {UNUSED_S:g} s")
+            self._publishers[key] = None
+            threading.Thread(target=self._begin, args=(key, kind, message), daemon=True).start()
+        elif self._publishers[key]:
+            self._publishers[key].publish(message)
+        self._used[key] = now
+
+    def on_call(self, client: Client, _now: float, service: str, values: Mapping[str, str]) -> None:
+        self._ask(client, service, lambda name: call(name, values))
+
+    def _must_be_free(self, client: Client) -> None:
+        client.must_drive()
+        if self._hub.seat.driver not in (None, client.number):
+            raise RefusedError("another page drives: until it ends, only that page may do this")
+
+    def _begin(self, key: Key, kind: Any, message: Any) -> None:
+        """Publish a first message once the subscribers are connected."""
+        publisher = rospy.Publisher(key[0], kind, queue_size=10)
+        answer, state = ask_node(rosgraph.get_master_uri(), "getSystemState")
+        subscribers = dict(state[1]) if answer is Answer.WELL else {}
+        wanted, end = len(subscribers.get(key[0], ())), time.monotonic() + CONNECT_S
+        while publisher.get_num_connections() < wanted and time.monotonic() < end:
+            time.sleep(LOOK_S)
+        publisher.publish(message)
+        self._publishers[key] = publisher
+
+    def _ask(self, client: Client, name: str, ask: Callable[[str], dict[str, Any]]) -> None:
+        self._must_be_free(client)
+        if name not in self._graphs.graph.services:
+            raise RefusedError(f"there is no service {name}")
+        if name in self._asked:
+            raise RefusedError(f"{name} was called and has not answered yet")
+        self._asked.add(name)
+        # A thread of its own: a service may take its time.
+        arguments = (client.number, name, ask)
+        threading.Thread(target=self._answer, args=arguments, daemon=True).start()
+
+    def _answer(self, number: int, name: str, ask: Callable[[str], dict[str, Any]]) -> None:
+        try:
+            answer = ask(name)
+        except Exception as error:  # whatever the service, its package or the master brings about
+            why = without_folders(one_line(error))
+            answer = {"kind": "refused", "what": "call", "why": why}
+        finally:
+            self._asked.discard(name)
+        self._hub.soon(lambda: self._send(number, **answer))
+
+    def _send(self, number: int, kind: str, **answer: Any) -> None:
+        if number in self._hub.clients:
+            self._hub.clients[number].send(kind, **answer)
+
+
+def describe_service(name: str) -> dict[str, Any]:
+    kind = rosservice.get_service_class_by_name(name)
+    form = form_of(kind._request_class)
+    answer = definition(kind._response_class, class_of)
+    form["definition"] = "\n".join([form["definition"], "---", *answer])
+    return {"kind": "form", "what": "service", "name": name, "numbers": [], **form}
+
+
+def call(name: str, values: Mapping[str, str]) -> dict[str, Any]:
+    kind = rosservice.get_service_class_by_name(name)
+    answer = str(rospy.ServiceProxy(name, kind)(filled(kind._request_class, values)))
+    return {"kind": "answer", "name": name, "text": answer[:LONGEST_ANSWER]}

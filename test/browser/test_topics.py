@@ -1,0 +1,52 @@
+"""The tab Topics, and links to what a tab shows."""
+
+from tutorial_testing.waiting import wait_for
+
+X = "/odom/pose/pose/position/x"
+
+
+def test_a_link_shows_what_it_names_reload_keeps_it_and_back_goes_back(world, page):
+    def at(place):
+        wait_for(lambda: page.driver.current_url == f"{world.address}{place}", place)
+
+    page.driver.get(f"{world.address}?robot=robot_7#plot?f={X}&f=/odom/twist/twist&last=60")
+    page.wait_for_text("#plot-values", "/odom/twist/twist/angular/z")  # all numbers below it
+    assert page.one("#plot-window").get_property("value") == "60"
+    page.press("#plot-fields input")
+    names = [f"{part}/{axis}" for part in ("linear", "angular") for axis in "xyz"]
+    fields = "&".join(f"f=/odom/twist/twist/{name}" for name in names)
+    plot = f"?robot=robot_7#plot?{fields}&last=60"
+    at(plot)
+    page.driver.refresh()
+    page.wait_for_text("#look", "robot_7 (gone)")
+    page.wait_for_text("#plot-values", "angular/z")
+    page.tab("Log")
+    at("?robot=robot_7#log")
+    page.driver.back()
+    at(plot)
+    assert page.text("#plot-values").count("/odom") == 6
+
+
+def test_topics_shows_rates_and_messages_publishes_and_calls(world, page):
+    page.driver.get(f"{world.address}#topics/probe")
+    page.one("#topics-search").send_keys("probe")
+    with world.run("rostopic", "pub", "-r", "20", "/probe", "std_msgs/String", "a"):
+        cells = "[...document.querySelectorAll('#topics-rows tr td')].map((one) => one.textContent)"
+        wait_for(lambda: len(page.ask(cells)) == 6, "the only row")
+        assert page.ask(cells)[:3] == ["/probe", "std_msgs/String", "1"]
+        wait_for(lambda: abs(float(page.ask(cells)[4] or 0) - 20) < 0.4, "rate within 2 %")
+        wait_for(lambda: abs(float(page.ask(cells)[5]) - 100) < 2, "bytes per second within 2 %")
+        page.wait_for_text("#topics-echo", 'data: "a"\n---\ndata: "a"')
+        page.wait_for_text("#topics-definition", "string data")
+    page.click("Pause")
+    page.one("#topics-fields input").send_keys("b")
+    with world.run("rostopic", "echo", "-n1", "/probe") as echo:
+        wait_for(lambda: page.ask(cells)[3] == "1", "its subscriber")
+        page.click("Publish")
+        echo.wait()
+        assert 'data: "b"' in echo.output
+    assert "b" not in page.text("#topics-echo")
+    page.driver.get(f"{world.address}#topics/rosout/get_loggers?kind=services")
+    page.wait_for_text("#topics-definition", "roscpp/Logger[] loggers")
+    page.click("Call")
+    page.wait_for_text("#topics-answer", "ros.rosout")

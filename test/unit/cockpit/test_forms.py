@@ -1,0 +1,62 @@
+"""Messages from what a person writes into a form, and who may publish them."""
+
+from types import SimpleNamespace
+
+import pytest
+import rospy
+from roslib.message import get_message_class
+
+from cockpit_server.clients import LOOKS_ONLY
+from cockpit_server.graph import Graph
+from cockpit_server.seat import RefusedError
+from cockpit_server.sources import forms
+from tutorial_testing.seat_room import page
+
+
+@pytest.fixture
+def filled(monkeypatch):
+    """A function that fills a form of a type at the time 7."""
+    monkeypatch.setattr(forms.rospy.Time, "now", lambda: rospy.Time(7))
+    return lambda kind, **texts: forms.filled(get_message_class(kind), texts)
+
+
+def test_message_has_what_the_form_has_and_zeros(filled):
+    joy = filled("sensor_msgs/Joy", **{"header/stamp": "now", "axes": "[1, 0.5]"})
+    assert (joy.header.stamp.secs, joy.axes, joy.buttons) == (7, [1, 0.5], [])
+    assert filled("std_msgs/Time", data="12.5").data == rospy.Time(12, 500_000_000)
+    moved = filled("tf2_msgs/TFMessage", transforms='[{"transform": {"translation": {"x": 1}}}]')
+    assert moved.transforms[0].transform.translation.x == 1
+
+
+@pytest.mark.parametrize(
+    ("kind", "name", "text"),
+    [("UInt8", "data", "256"), ("Int32", "data", "0.5"), ("Float64", "data", "now"),
+     ("Float64", "data", "9" * 1999), ("Float32", "data", "1e39"), ("Time", "data", "-1"),
+     ("Float64MultiArray", "data", "[" * 1999), ("Float64MultiArray", "data", '["a"]'),
+     ("String", "data", "\ud800"), ("String", "__class__", "a"), ("Time", "data", "NaN")],
+)  # fmt: skip
+def test_hostile_value_is_one_line(filled, kind, name, text):
+    with pytest.raises(ValueError, match=r"^[^\n]{5,250}$"):
+        filled(f"std_msgs/{kind}", **{name: text})
+
+
+@pytest.mark.parametrize(
+    ("role", "driver", "topic", "kind", "why"),
+    [
+        ("viewer", None, "/x", "std_msgs/String", LOOKS_ONLY),
+        ("driver", 3, "/x", "std_msgs/String", "another page drives"),
+        ("driver", 7, "/x", "std_msgs/Bool", "/x: no topic of the type std_msgs/Bool"),
+        ("driver", None, "/a b", "std_msgs/Bool", "/a b: no topic"),
+        ("driver", None, "/y", "no_such/Type", "/y: no topic of the type"),
+        ("driver", 7, "/r/joy", "sensor_msgs/Joy", "a joystick is moved in"),
+    ],
+)
+def test_who_may_publish_what(role, driver, topic, kind, why):
+    graph = Graph(services={"/x/reset": {"/x"}}, types={"/x": "std_msgs/String"})
+    hub = SimpleNamespace(seat=SimpleNamespace(driver=driver))
+    source, (client, _) = forms.Forms(hub, SimpleNamespace(graph=graph)), page(role)
+    with pytest.raises(RefusedError, match=f"^{why}"):
+        source.on_publish(client, 0.0, topic=topic, type=kind, values={})
+    if kind == "std_msgs/String":
+        with pytest.raises(RefusedError, match=f"^{why}"):
+            source.on_call(client, 0.0, "/x/reset", {})
