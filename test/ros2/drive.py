@@ -85,10 +85,6 @@ class Stick:
         self.end()
         self._publisher.unregister()
 
-    def wait_for_listener(self):
-        wait_for(self._publisher.get_num_connections, "a subscriber of /joy")
-        return self
-
     def begin(self):
         self._thread.start()
         return self

@@ -57,6 +57,8 @@ class Row(NamedTuple):
 
 ROWS = [
     Row("timed_out_and_back.py", "rbx1", "sender /cmd_vel 50 2,0.2,0 1,0,1 2,0.2,0", 0.68, 0.9),
+    Row("voice_nav.py", "rbx1", "voice", 0.3,
+        beside="rostopic pub -r 2 recognizer/output std_msgs/String forward"),
     Row("odom_out_and_back.py nav_square.py", "rbx1", "by_tf", 0.38, 0.95),
     Row("calibrate_linear.py calibrate_angular.py static_transform_publisher tf_echo"
         " simple_action_client.py simple_action_server.py", "rbx1", "imports", prints="all there"),
