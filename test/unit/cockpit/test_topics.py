@@ -42,13 +42,13 @@ def test_page_gets_the_newest_messages_of_its_topic_once_and_the_rates_of_those_
         sent = look(source, *pages, now=now)
         return [[text for _, text in one["echo"]] for part in sent for one in part[1:]]
 
-    assert shown(first, now=1.0) == [[]]
+    assert shown(first, now=1.0) == []
     assert set(feeds.handlers) == {"/x", "/y"}
     for text in "abcd":
         feeds.hear("/x", String(text))
     assert shown(first, now=2.0) == [['data: "b"', 'data: "c"', 'data: "d"']]
-    assert shown(first, second, now=3.0) == [[], ['data: "b"', 'data: "c"', 'data: "d"']]
-    [rates, _] = look(source, first, now=4.0)[0]
+    assert shown(first, second, now=3.0) == [['data: "b"', 'data: "c"', 'data: "d"']]
+    [rates] = look(source, first, now=4.0)[0]
     assert set(rates["rates"]) == {"/x", "/y", "/z"}
 
 

@@ -16,7 +16,7 @@ from rosgraph.names import is_legal_name
 
 from cockpit_server.clients import Client, Source
 from cockpit_server.feeds import later
-from cockpit_server.fields import TIMES, definition, form_fields
+from cockpit_server.fields import definition, form_fields
 from cockpit_server.graph import JOY
 from cockpit_server.graph_watch import GraphWatch
 from cockpit_server.schema import full_name, one_of, require, text
@@ -80,12 +80,9 @@ def read(name: str, slot_type: str, written: str) -> Any:
     if slot_type == "string" or written == "now":
         return written
     try:
-        value = json.loads(written)
-        if slot_type in TIMES and isinstance(value, (int, float)):
-            return {"secs": int(value // 1), "nsecs": int(value % 1 * 1e9)}
-    except (ValueError, OverflowError, RecursionError):
+        return json.loads(written)
+    except (ValueError, RecursionError):
         raise ValueError(f"{name}: {slot_type} must be as 0.5, true or [1, 2]") from None
-    return value
 
 
 class Forms(Source):

@@ -80,7 +80,7 @@ def text(data: bytes, type_name: str) -> str:
 
 
 class Topics(Source):
-    """Sends the rates of the topics that a page has in sight, and all about the chosen one."""
+    """Sends the rates of the topics that a page has in sight, and messages of the chosen one."""
 
     watches: ClassVar = {
         "topic": (or_null(full_name), None),
@@ -113,17 +113,7 @@ class Topics(Source):
         topic = self._topics.get(name)
         known = client.seen.get("echo", (name, 0))
         client.seen["echo"] = (name, known[1] if known[0] == name else 0)
-        if topic and client.lacks("topic", (name, topic.looked_at)):
-            echo = [one for one in topic.echo if one[0] > client.seen["echo"][1]]
-            client.seen["echo"] = (name, echo[-1][0]) if echo else client.seen["echo"]
-            client.send("topic", **self._about(name, topic), echo=echo)
-
-    def _about(self, name: str, topic: Topic) -> dict[str, Any]:
-        graph = self._graphs.graph
-        return {
-            "name": name,
-            "type": graph.types.get(name, ""),
-            "rate": round(topic.rate, 2),
-            "publishers": sorted(graph.publishers.get(name, ())),
-            "subscribers": sorted(graph.subscribers.get(name, ())),
-        }
+        echo = [one for one in topic.echo if one[0] > client.seen["echo"][1]] if topic else []
+        if echo:
+            client.seen["echo"] = (name, echo[-1][0])
+            client.send("topic", name=name, echo=echo)
