@@ -2,7 +2,7 @@
 
 import { byId, byName, element, offer, row, say } from "./dom.js";
 
-const LISTED = 200; // of the names that are found
+const LISTED = 100; // of the names that are found
 const MOST_RATES = 40, LONGEST_RATES = 3000; // topics, and characters of their names, as the server takes them
 const LOOK_MS = 500; // between two looks at which topics are in sight
 const ECHOED = 100; // messages that are kept
