@@ -1,4 +1,4 @@
-"""A world: rays of the laser, contact, and a class that scans in the maze."""
+"""A world: contact, and a class that scans in the maze."""
 
 import time
 from random import Random
@@ -7,7 +7,6 @@ from statistics import median
 import numpy as np
 from live import FAKE_TURTLEBOT, lost_periods, master, observe, topics_of
 
-from fake_turtlebot_sim.simulator.laser import Scanner
 from fake_turtlebot_sim.simulator.parameters import Parameters
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot, meet
 from fake_turtlebot_sim.simulator.world import World
@@ -15,7 +14,7 @@ from fake_turtlebot_sim.simulator.world import World
 WALLS, BEAMS = 100, 640
 PERIOD_NS = 20_000_000
 ROBOTS, SECONDS = 30, 20
-LEAST_MILLION, MOST_STEP_S, MOST_LOAD = 2.0, 1e-3, 0.3
+MOST_STEP_S, MOST_LOAD = 1e-3, 0.3
 
 
 def walls(seed=1):
@@ -26,20 +25,6 @@ def walls(seed=1):
         if max(abs(x - 20), abs(y - 20)) > 3:
             found.append([x, y, x + draw.uniform(-2, 2), y + draw.uniform(-2, 2)])
     return np.array(found)
-
-
-def test_rays_a_second(figure):
-    scanner, times = Scanner(-3.14, 6.28 / (BEAMS - 1), BEAMS), []
-    segments = walls()
-    for _ in range(200):
-        began = time.perf_counter()
-        ranges = scanner.ranges((20.0, 20.0, 0.0), segments, np.empty((0, 3)))
-        times.append(time.perf_counter() - began)
-    assert np.isfinite(ranges).sum() > BEAMS / 10
-    million = BEAMS / median(times) / 1e6
-    what = f"rays a second, {BEAMS} beams among {WALLS} walls"
-    figure(what, f"{million:.1f} million", f"≥ {LEAST_MILLION}")
-    assert million >= LEAST_MILLION
 
 
 def test_a_step_of_a_hundred_robots_with_contact(figure):
