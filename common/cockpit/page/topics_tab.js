@@ -83,7 +83,7 @@ export class TopicsTab {
 
   go(path, query) {
     byId("topics-kind").value = query.get("kind") === "services" ? "services" : "topics";
-    this.#choose(path || null);
+    this.#choose(/^\/[\w/]{1,199}$/.test(path) ? path : null); // as the server takes it
   }
 
   show(on) {

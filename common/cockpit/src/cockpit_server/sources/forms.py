@@ -110,7 +110,8 @@ class Forms(Source):
         if what == "service":
             self._ask(client, name, describe_service)
             return
-        kind = class_of(name)
+        # Of what is there: class_of() remembers each name.
+        kind = class_of(name) if name in self._graphs.graph.types.values() else None
         if kind is None:
             raise RefusedError(f"the package of {name} is not installed here")
         client.send("form", what=what, name=name, numbers=fields_of(name), **form_of(kind))
@@ -144,7 +145,12 @@ class Forms(Source):
 
     def _begin(self, key: Key, kind: Any, message: Any) -> None:
         """Publish a first message once the subscribers are connected."""
-        publisher = rospy.Publisher(key[0], kind, queue_size=10)
+        try:
+            publisher = rospy.Publisher(key[0], kind, queue_size=10)
+        except Exception as error:  # whatever rospy or the master answers
+            del self._publishers[key]
+            rospy.logwarn("cockpit: %s: %s", key[0], one_line(error))
+            return
         answer, state = ask_node(rosgraph.get_master_uri(), "getSystemState")
         subscribers = dict(state[1]) if answer is Answer.WELL else {}
         wanted, end = len(subscribers.get(key[0], ())), time.monotonic() + CONNECT_S
