@@ -94,8 +94,3 @@ def ros(world):
             return re.sub(r"\x1b\[[0-9;]*m", "", program.output)
 
     return ask
-
-
-@pytest.fixture
-def recording():
-    return str(Path(__file__).resolve().parents[2] / "common/gamepad/bag/joy.bag")

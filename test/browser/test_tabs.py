@@ -1,10 +1,12 @@
 """Every tab shows what ROS' own commands say."""
 
 import re
+from pathlib import Path
 
 from tutorial_testing.cockpit.hands import Keys
 from tutorial_testing.waiting import wait_for
 
+RECORDING = str(Path(__file__).resolve().parents[2] / "common/gamepad/bag/joy.bag")
 POSITION = "/odom/pose/pose/position/x"
 
 
@@ -33,11 +35,9 @@ def test_robot_shows_odometry_joy2twist_and_a_kobuki(world, page, ros):
     page.wait_for_text("#kobuki [data-value=sound]", "error")
 
 
-def test_bag_shows_the_values_at_its_slider_and_publishes_until_it_is_paused(
-    world, page, ros, recording
-):
+def test_bag_shows_the_values_at_its_slider_and_publishes_until_it_is_paused(world, page, ros):
     page.tab("Bag")
-    info = ros("rosbag", "info", "-y", recording)
+    info = ros("rosbag", "info", "-y", RECORDING)
     duration, messages = (re.search(rf"{key}: (\S+)", info)[1] for key in ("duration", "messages"))
     page.wait_for_text("#bag-about", f"joy.bag: {float(duration):.1f} s")
     page.wait_for_text("#bag-topics", messages)

@@ -33,7 +33,7 @@ const PANEL = `
 export class GraphTab {
   static title = "Graph";
   static panel = PANEL;
-  static watches = { graph: false, topic: null, node: null };
+  static watches = { graph: false, node: null };
 
   #chosen = null; // "node /a" or "topic /b"
   #drawn = "";
@@ -53,18 +53,17 @@ export class GraphTab {
     byId("graph-search").oninput = () => this.#find(false);
     byId("graph-search").addEventListener("keydown", ({ key }) => key === "Enter" && this.#find(true));
     new ResizeObserver(() => this.#resize()).observe(this.picture);
-    link.on("topic", (topic) => this.#chosen === `topic ${topic.name}` && this.#showTopic(topic));
     link.on("node", (node) => this.#chosen === `node ${node.name}` && this.#showNode(node));
   }
 
   show(on) {
     if (on) this.#draw(this.#graph);
-    this.watch({ graph: on, ...this.#asked(on ? this.#chosen : null) });
+    this.watch({ graph: on, node: on ? this.#node : null });
   }
 
-  #asked(item) {
-    const [kind, name] = item?.split(" ") ?? [];
-    return { topic: null, node: null, ...(kind && { [kind]: name }) };
+  /** The chosen node, or null. */
+  get #node() {
+    return this.#chosen?.startsWith("node ") ? this.#chosen.slice(5) : null;
   }
 
   #choose(item) {
@@ -72,7 +71,8 @@ export class GraphTab {
     say(byId("graph-title"), item.replace(/^./, (letter) => letter.toUpperCase()));
     this.details.replaceChildren(element("p", { className: "hint" }, "…"));
     this.#mark();
-    this.watch(this.#asked(item));
+    if (!this.#node) this.#showTopic(item.slice(6));
+    this.watch({ node: this.#node });
   }
 
   #mark() {
@@ -194,21 +194,15 @@ export class GraphTab {
     return [...names].sort(byName).map((name) => element("button", { className: "link", onclick: choose(name) }, name));
   }
 
-  #showTopic({ name, type, rate, publishers, subscribers, echo }) {
-    const old = this.details.querySelector("[data-value=last] pre");
-    const isSame = this.details.dataset.about === `topic ${name}`;
-    const newest = echo.at(-1)?.[1] ?? "none yet";
-    const perSecond = `${rate.toFixed(1)} Hz`;
-    if (isSame && old) { // only what changes, so that a link keeps the keyboard
-      say(this.details.querySelector("[data-value=rate]"), perSecond);
-      if (echo.length) say(old, newest);
-      return;
-    }
+  #showTopic(name) {
+    const { topics, edges } = this.#graph;
+    const item = `topic ${name}`;
+    const nodes = (near, far) => edges.filter((edge) => edge[near] === item).map((edge) => edge[far].replace("node ", ""));
     this.#fill("topic", name, [
-      ["Type", "type", type], ["Rate", "rate", perSecond],
-      ["Publishers", "publishers", this.#links("node", publishers)],
-      ["Subscribers", "subscribers", this.#links("node", subscribers)],
-      ["Last message", "last", element("pre", { tabIndex: 0, role: "region", "aria-label": "Last message" }, newest)],
+      ["Type", "type", topics.find((topic) => topic.name === name)?.type || "–"],
+      ["Publishers", "publishers", this.#links("node", nodes("to", "from"))],
+      ["Subscribers", "subscribers", this.#links("node", nodes("from", "to"))],
+      ["Rate and messages", "messages", element("a", { href: `#topics${name}` }, "in the tab Topics")],
     ]);
   }
 

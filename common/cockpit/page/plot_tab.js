@@ -62,7 +62,6 @@ export class PlotTab {
     link.on("fields", ({ fields }) => {
       if (fields.join() === this.#all.join()) return; // a list in use is left alone
       this.#all = fields;
-      this.#open();
       this.#list();
     });
     link.on("plot", ({ samples }) => this.#take(samples));
@@ -91,30 +90,14 @@ export class PlotTab {
   }
 
   go(_path, query) {
-    this.#keep(query.getAll("f").filter((field) => /^[!-~]{1,200}$/.test(field))); // as the server takes it
+    const fields = query.getAll("f").filter((field) => /^[!-~]{1,200}$/.test(field)); // as the server takes it
+    const tracks = fields.slice(0, MOST).map((field) => [field, this.#samples[field] ?? new Track()]);
+    this.#samples = Object.fromEntries(tracks);
     const last = Math.min(KEEP_S, Math.max(1, Math.round(Number(query.get("last")) || 30)));
     const isListed = WINDOWS.some(([seconds]) => seconds === last);
     offer(byId("plot-window"), [...WINDOWS, ...(isListed ? [] : [[last, `${last} s`]])]);
-    this.#open();
     this.#showLast(last);
     this.#list();
-  }
-
-  #keep(fields) {
-    const all = fields.slice(0, MOST).map((field) => [field, this.#samples[field] ?? new Track()]);
-    this.#samples = Object.fromEntries(all);
-  }
-
-  /** Where the address has a topic in place of a field: choose all fields of that topic. */
-  #open() {
-    const opened = this.fields.flatMap((field) => {
-      const inside = this.#all.includes(field) ? [] : this.#all.filter((one) => one.startsWith(`${field}/`));
-      return inside.length ? inside : [field];
-    });
-    if (opened.join() === this.fields.join()) return;
-    this.#keep(opened);
-    this.watch({ fields: this.fields });
-    this.page.moved();
   }
 
   get fields() {

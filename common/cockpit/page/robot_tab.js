@@ -158,7 +158,7 @@ export class RobotTab {
 
   /** Look at the robot that the address names. */
   goTo(name) {
-    if (name === null || name === this.#look || this.seat.yours) return;
+    if (name === null || name === this.#look || this.seat.yours || !/^[\w/]{0,200}$/.test(name)) return;
     this.asked = name;
     this.lookAt(name);
   }

@@ -2,11 +2,10 @@
 
 import { byId, byName, element, offer, row, say } from "./dom.js";
 
-const LISTED = 200; // of the names that are found
+const LISTED = 100; // of the names that are found
 const MOST_RATES = 40, LONGEST_RATES = 3000; // topics, and characters of their names, as the server takes them
 const LOOK_MS = 500; // between two looks at which topics are in sight
 const ECHOED = 100; // messages that are kept
-const RATES = [[0, "once"], [1, "1 Hz"], [10, "10 Hz"]];
 
 const PANEL = `
   <div class="wide">
@@ -25,21 +24,20 @@ const PANEL = `
       <p id="topics-about" class="hint"></p>
       <p class="row" id="topics-plots" hidden><label>Plot <select id="topics-plot"></select></label></p>
       <details><summary>Definition</summary><pre id="topics-definition"></pre></details></div>
-    <div class="card" id="topics-echoes" hidden><h2>Messages</h2>
+    <div class="card" id="topics-echoes" hidden><h2>Messages <small>at most 12 in a second</small></h2>
       <div class="row"><button id="topics-pause" aria-pressed="false">Pause</button>
-        <button id="topics-copy">Copy</button> <span id="topics-missed" class="hint"></span></div>
+        <button id="topics-copy">Copy</button></div>
       <pre id="topics-echo" tabindex="0" role="region" aria-label="Messages"></pre></div>
     <form class="card" id="topics-form" hidden><h2 id="topics-do"></h2>
       <div id="topics-fields"></div>
-      <div class="row"><button id="topics-send" class="primary"></button>
-        <label id="topics-often">How often <select id="topics-rate"></select></label></div>
+      <button id="topics-send" class="primary"></button>
       <pre id="topics-answer" role="status" hidden></pre></form>
   </div>`;
 
 export class TopicsTab {
   static title = "Topics";
   static panel = PANEL;
-  static watches = { rates: [] };
+  static watches = { rates: [], topic: null };
 
   #shown = false;
   #drives = false; // whether this page may publish and call
@@ -48,9 +46,6 @@ export class TopicsTab {
   #type = ""; // of the chosen topic
   #rows = new Map(); // name -> its row
   #described = ""; // what the server was asked to describe last
-  #newest = 0; // the number of the newest message
-  #missed = 0;
-  #repeats = null; // the timer that publishes
 
   constructor(link, watch, page) {
     this.link = link;
@@ -62,13 +57,11 @@ export class TopicsTab {
       this.#list();
     });
     link.on("rates", ({ rates }) => this.#showRates(rates));
-    link.on("topic", (topic) => this.#shown && topic.name === this.#chosen && this.#showTopic(topic));
+    link.on("topic", ({ name, echo }) => name === this.#chosen && !this.#isPaused && this.#showEcho(echo));
     link.on("form", (form) => [this.#type, this.#chosen].includes(form.name) && this.#showForm(form));
     link.on("answer", ({ name, text }) => name === this.#chosen && this.#answer(text || "(an empty answer)"));
     link.on("refused", ({ what, why }) => what === "call" && this.#answer(why));
-    link.on("refused", ({ what }) => what === "publish" && this.#stop());
     offer(byId("topics-kind"), [["topics"], ["services"]]);
-    offer(byId("topics-rate"), RATES);
     byId("topics-kind").onchange = () => this.#choose(null);
     byId("topics-search").oninput = () => this.#list();
     byId("topics-plot").onchange = () => (location.hash = `#plot?f=${this.#chosen}${byId("topics-plot").value}`);
@@ -81,7 +74,6 @@ export class TopicsTab {
       event.preventDefault();
       this.#send();
     };
-    document.addEventListener("visibilitychange", () => document.hidden && this.#stop());
     setInterval(() => this.#shown && this.watch({ rates: this.#inSight }), LOOK_MS);
   }
 
@@ -91,12 +83,11 @@ export class TopicsTab {
 
   go(path, query) {
     byId("topics-kind").value = query.get("kind") === "services" ? "services" : "topics";
-    this.#choose(path || null);
+    this.#choose(/^\/[\w/]{1,199}$/.test(path) ? path : null); // as the server takes it
   }
 
   show(on) {
     this.#shown = on;
-    if (!on) this.#stop();
     this.watch({ graph: on, rates: [], topic: on && !this.#services ? this.#chosen : null });
     if (!on) return;
     this.#list();
@@ -105,8 +96,7 @@ export class TopicsTab {
 
   connect() {
     this.#described = "";
-    if (this.link.isOpen) this.#describe();
-    else this.#stop();
+    this.#describe();
   }
 
   get #services() {
@@ -150,11 +140,18 @@ export class TopicsTab {
     byId("topics-rows").replaceChildren(...this.#rows.values());
     const rest = found.length - listed.length;
     say(byId("topics-count"), `${found.length} of ${all.length}${rest ? `: the first ${LISTED} are listed` : ""}`);
-    const type = topics.find(({ name }) => name === this.#chosen)?.type ?? "";
-    if (type !== this.#type && !this.#services) { // also once a topic is there
-      this.#type = type;
-      this.#describe();
-    }
+    if (this.#chosen && !this.#services) this.#showTopic();
+  }
+
+  /** What is known of the chosen topic, also once it is there. */
+  #showTopic() {
+    const { topics, edges } = this.#graph;
+    const item = `topic ${this.#chosen}`;
+    const nodes = (near, far) => edges.filter((edge) => edge[near] === item).map((edge) => edge[far].slice(5)).join(", ");
+    this.#type = topics.find(({ name }) => name === this.#chosen)?.type ?? "";
+    say(byId("topics-about"), `${this.#type || "No such topic now"}. Publishers: ${nodes("to", "from") || "none"}.`
+      + ` Subscribers: ${nodes("from", "to") || "none"}.`);
+    this.#describe();
   }
 
   #rowOf(name) {
@@ -172,17 +169,14 @@ export class TopicsTab {
   }
 
   #choose(name) {
-    this.#stop();
     this.#chosen = name;
     this.#type = this.#described = "";
-    this.#missed = 0;
     byId("topics").dataset.kind = byId("topics-kind").value;
     byId("topics-echo").replaceChildren();
     this.#pause(false);
     say(byId("topics-title"), name ?? "Choose a name.");
     say(byId("topics-about"), "");
     say(byId("topics-definition"), "");
-    say(byId("topics-missed"), "");
     for (const part of ["plots", "form", "answer"]) byId(`topics-${part}`).hidden = true;
     byId("topics-echoes").hidden = this.#services || !name;
     if (this.#shown) this.watch({ topic: this.#services ? null : name });
@@ -198,25 +192,17 @@ export class TopicsTab {
     }
   }
 
-  #showTopic({ type, rate, publishers, subscribers, echo }) {
-    const names = (nodes) => nodes.join(", ") || "none";
-    say(byId("topics-about"), `${type}, ${rate.toFixed(2)} Hz. Publishers: ${names(publishers)}.`
-      + ` Subscribers: ${names(subscribers)}.`);
-    if (this.#isPaused || !echo.length) return;
-    if (this.#newest) this.#missed += echo[0][0] - this.#newest - 1;
-    this.#newest = echo.at(-1)[0];
+  #showEcho(echo) {
     const pre = byId("topics-echo");
     const atEnd = pre.scrollHeight - pre.scrollTop - pre.clientHeight < 40;
     pre.append(...echo.map(([, text]) => `${text}\n---\n`));
     while (pre.childNodes.length > ECHOED) pre.firstChild.remove();
     if (atEnd) pre.scrollTop = pre.scrollHeight;
-    say(byId("topics-missed"), this.#missed ? `${this.#missed} more came in between.` : "");
   }
 
   #pause(on) {
     byId("topics-pause").setAttribute("aria-pressed", String(on));
     say(byId("topics-pause"), on ? "Resume" : "Pause");
-    this.#newest = 0; // what comes meanwhile is not counted
   }
 
   #showForm({ definition, fields, numbers }) {
@@ -228,38 +214,16 @@ export class TopicsTab {
     say(byId("topics-send"), act);
     byId("topics-send").disabled = !this.#drives;
     byId("topics-send").title = this.#drives ? "" : "This page may only look.";
-    byId("topics-often").hidden = this.#services;
     byId("topics-fields").replaceChildren(...fields.map(([name, type]) =>
       element("label", { className: "long" }, `${name} `, element("input", { name, placeholder: type, autocomplete: "off" }))));
     byId("topics-form").hidden = false;
   }
 
-  /** Publish or call what the form has; publish it again and again if so chosen. */
   #send() {
-    if (this.#repeats !== null) {
-      this.#stop();
-      return;
-    }
     const inputs = [...byId("topics-fields").querySelectorAll("input")].filter(({ value }) => value !== "");
     const values = Object.fromEntries(inputs.map(({ name, value }) => [name, value]));
-    if (this.#services) {
-      this.link.send("call", { service: this.#chosen, values });
-      return;
-    }
-    const publish = () => this.link.send("publish", { topic: this.#chosen, type: this.#type, values });
-    const rate = Number(byId("topics-rate").value);
-    publish();
-    if (!rate) return;
-    this.#repeats = setInterval(publish, 1000 / rate);
-    say(byId("topics-send"), "Stop publishing");
-  }
-
-  /** Publish no more: a page that is not looked at publishes nothing. */
-  #stop() {
-    if (this.#repeats === null) return;
-    clearInterval(this.#repeats);
-    this.#repeats = null;
-    say(byId("topics-send"), "Publish");
+    if (this.#services) this.link.send("call", { service: this.#chosen, values });
+    else this.link.send("publish", { topic: this.#chosen, type: this.#type, values });
   }
 
   #answer(text) {

@@ -23,7 +23,7 @@ def filled(monkeypatch):
 def test_message_has_what_the_form_has_and_zeros(filled):
     joy = filled("sensor_msgs/Joy", **{"header/stamp": "now", "axes": "[1, 0.5]"})
     assert (joy.header.stamp.secs, joy.axes, joy.buttons) == (7, [1, 0.5], [])
-    assert filled("std_msgs/Time", data="12.5").data == rospy.Time(12, 500_000_000)
+    assert filled("std_msgs/Time", data='{"secs": 12}').data == rospy.Time(12)
     moved = filled("tf2_msgs/TFMessage", transforms='[{"transform": {"translation": {"x": 1}}}]')
     assert moved.transforms[0].transform.translation.x == 1
 

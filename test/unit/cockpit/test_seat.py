@@ -66,12 +66,6 @@ def test_the_end_of_a_drive_leaves_the_robot_at_rest(room, case):
     assert room.lost == [(ANNA, why) for why in lost]
 
 
-def test_a_seat_that_has_ended_cannot_be_taken(room):
-    room.seat.end()
-    with pytest.raises(RefusedError, match="shut down"):
-        room.seat.take(ANNA, "ada", PAGE, room.now)
-
-
 @pytest.mark.parametrize("other", [0, BOB])
 def test_other_clients_change_nothing(room, other):
     room.drive()

@@ -10,25 +10,18 @@ from cockpit_server.sources import topics
 from tutorial_testing.seat_room import Topics, look, page, serialised
 
 
-@pytest.fixture
-def clock(monkeypatch):
-    """The time at which messages come; a test sets it."""
-    one = SimpleNamespace(now=0.0)
-    monkeypatch.setattr(topics.time, "monotonic", lambda: one.now)
-    return one
-
-
 @pytest.mark.parametrize("rate", [0.5, 3.0, 10.0, 1000.0])
-def test_rate_is_right_while_messages_come_and_0_once_they_do_not(clock, rate):
+def test_rate_is_right_while_messages_come_and_0_once_they_do_not(monkeypatch, rate):
     topic, message, looked_at = topics.Topic(), SimpleNamespace(data=bytes(100)), 0.0
+    monkeypatch.setattr(topics.time, "monotonic", lambda: now)
     for n in range(int(8 * rate) + 2):
-        clock.now = 50 + n / rate
+        now = 50 + n / rate
         topic.hear(message, "/x")
-        if clock.now - looked_at > topics.PERIOD_S:
-            looked_at = clock.now
-            topic.measure(clock.now)
+        if now - looked_at > topics.PERIOD_S:
+            looked_at = now
+            topic.measure(now)
     assert (topic.rate, topic.bytes_per_s) == pytest.approx((rate, 100 * rate), rel=0.001)
-    topic.measure(clock.now + max(2.0, 3 / rate) + 0.1)
+    topic.measure(now + max(2.0, 3 / rate) + 0.1)
     assert topic.rate == 0
 
 
@@ -42,20 +35,16 @@ def test_page_gets_the_newest_messages_of_its_topic_once_and_the_rates_of_those_
         sent = look(source, *pages, now=now)
         return [[text for _, text in one["echo"]] for part in sent for one in part[1:]]
 
-    assert shown(first, now=1.0) == [[]]
+    assert shown(first, now=1.0) == []
     assert set(feeds.handlers) == {"/x", "/y"}
     for text in "abcd":
         feeds.hear("/x", String(text))
     assert shown(first, now=2.0) == [['data: "b"', 'data: "c"', 'data: "d"']]
-    assert shown(first, second, now=3.0) == [[], ['data: "b"', 'data: "c"', 'data: "d"']]
-    [rates, _] = look(source, first, now=4.0)[0]
+    assert shown(first, second, now=3.0) == [['data: "b"', 'data: "c"', 'data: "d"']]
+    [rates] = look(source, first, now=4.0)[0]
     assert set(rates["rates"]) == {"/x", "/y", "/z"}
 
 
-def test_long_message_is_shown_by_its_length_and_a_malformed_one_says_so():
-    for data, shown in (
-        (serialised(String("x" * 19_996)), 'data: "xxx'),
-        (bytes(20_001), "(20001 bytes)"),
-        (b"xy", "(cannot be read: "),
-    ):
-        assert topics.text(data, "std_msgs/String").startswith(shown)
+def test_long_message_is_shown_by_its_length():
+    for length, text in ((19_996, 'data: "xxx'), (20_000, "(20004 bytes)")):
+        assert topics.text(serialised(String("x" * length)), "std_msgs/String").startswith(text)

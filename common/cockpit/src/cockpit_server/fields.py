@@ -15,7 +15,6 @@ NUMBERS = {
 }  # fmt: skip
 FIRST_ENTRIES = 12  # entries of an array that are offered; ask for others by name
 DEEPEST = 8
-TIMES = ("time", "duration")
 _CONSTANT = re.compile(r"^\s*(\w+)\s+(\w+)\s*=\s*(.*?)\s*$", re.MULTILINE)
 _PART = re.compile(r"([A-Za-z]\w*)(?:\[(\d{1,6})\])?")
 

@@ -16,7 +16,7 @@ from rosgraph.names import is_legal_name
 
 from cockpit_server.clients import Client, Source
 from cockpit_server.feeds import later
-from cockpit_server.fields import TIMES, definition, form_fields
+from cockpit_server.fields import definition, form_fields
 from cockpit_server.graph import JOY
 from cockpit_server.graph_watch import GraphWatch
 from cockpit_server.schema import full_name, one_of, require, text
@@ -80,12 +80,9 @@ def read(name: str, slot_type: str, written: str) -> Any:
     if slot_type == "string" or written == "now":
         return written
     try:
-        value = json.loads(written)
-        if slot_type in TIMES and isinstance(value, (int, float)):
-            return {"secs": int(value // 1), "nsecs": int(value % 1 * 1e9)}
-    except (ValueError, OverflowError, RecursionError):
+        return json.loads(written)
+    except (ValueError, RecursionError):
         raise ValueError(f"{name}: {slot_type} must be as 0.5, true or [1, 2]") from None
-    return value
 
 
 class Forms(Source):
@@ -113,7 +110,8 @@ class Forms(Source):
         if what == "service":
             self._ask(client, name, describe_service)
             return
-        kind = class_of(name)
+        # Of what is there: class_of() remembers each name.
+        kind = class_of(name) if name in self._graphs.graph.types.values() else None
         if kind is None:
             raise RefusedError(f"the package of {name} is not installed here")
         client.send("form", what=what, name=name, numbers=fields_of(name), **form_of(kind))
@@ -147,7 +145,12 @@ class Forms(Source):
 
     def _begin(self, key: Key, kind: Any, message: Any) -> None:
         """Publish a first message once the subscribers are connected."""
-        publisher = rospy.Publisher(key[0], kind, queue_size=10)
+        try:
+            publisher = rospy.Publisher(key[0], kind, queue_size=10)
+        except Exception as error:  # whatever rospy or the master answers
+            del self._publishers[key]
+            rospy.logwarn("cockpit: %s: %s", key[0], one_line(error))
+            return
         answer, state = ask_node(rosgraph.get_master_uri(), "getSystemState")
         subscribers = dict(state[1]) if answer is Answer.WELL else {}
         wanted, end = len(subscribers.get(key[0], ())), time.monotonic() + CONNECT_S

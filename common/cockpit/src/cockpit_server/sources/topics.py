@@ -19,6 +19,7 @@ LONGEST_MESSAGE = 20_000  # bytes; the text of a longer one would hold up the dr
 WINDOW_S = 5.0  # over which the rate is counted
 SILENT_S, SILENT_PERIODS = 2.0, 3.0  # without a message, of the mean period: the rate is 0
 MOST_RATES = 40  # topics, as many as a page has in sight
+MOST_TOPICS = 100  # of all pages together
 ECHOED = 3  # messages that are written in a look; others are only counted
 
 
@@ -28,7 +29,6 @@ class Topic:
     def __init__(self) -> None:
         self.is_echoed = False
         self.echo: list[tuple[int, str]] = []  # number and text of the newest
-        self.looked_at = -math.inf  # [s]
         self.rate = self.bytes_per_s = 0.0
         self._last = (0.0, 0, 0)  # when the newest came [s], how many came, of how many bytes
         self._marks: deque[tuple[float, int, int]] = deque()  # of these some
@@ -42,7 +42,6 @@ class Topic:
 
     def look(self, type_name: str, now: float) -> None:
         """Count and write what has come; call about once in PERIOD_S."""
-        self.looked_at = now
         self.measure(now)
         newest, self._newest = self._newest, deque(maxlen=ECHOED)
         self.echo += [(number, text(data, type_name)) for number, data in newest]
@@ -80,7 +79,7 @@ def text(data: bytes, type_name: str) -> str:
 
 
 class Topics(Source):
-    """Sends the rates of the topics that a page has in sight, and all about the chosen one."""
+    """Sends the rates of the topics that a page has in sight, and messages of the chosen one."""
 
     watches: ClassVar = {
         "topic": (or_null(full_name), None),
@@ -90,40 +89,33 @@ class Topics(Source):
     def __init__(self, feeds: Feeds, graph_watch: GraphWatch) -> None:
         self._feeds, self._graphs = feeds, graph_watch
         self._topics: dict[str, Topic] = {}
+        self._looked_at = -math.inf  # [s]
 
     def prepare(self, clients: Sequence[Client], now: float) -> None:
         shown = {client.watch.topic for client in clients} - {None}
-        names = shown.union(*(client.watch.rates for client in clients))
+        rates = {name for client in clients for name in client.watch.rates}
+        names = [*sorted(shown), *sorted(rates - shown)][:MOST_TOPICS]
         self._topics = {name: self._topics.get(name) or Topic() for name in names}
         types = self._graphs.graph.types
         there = {name: one.hear for name, one in self._topics.items() if name in types}
         self._feeds.want(self, there, every=True)
+        is_due = now - self._looked_at >= PERIOD_S
+        self._looked_at = now if is_due else self._looked_at
         for name, topic in self._topics.items():
             topic.is_echoed = name in shown
-            if now - topic.looked_at >= PERIOD_S:
+            if is_due:
                 topic.look(types.get(name, ""), now)
 
     def give(self, client: Client, now: float) -> None:
-        looks = [(name, self._topics[name].looked_at) for name in client.watch.rates]
-        if client.lacks("rates", looks) and looks:
-            topics = {name: self._topics[name] for name in client.watch.rates}
+        if client.watch.rates and client.lacks("rates", self._looked_at):
+            topics = {n: self._topics[n] for n in client.watch.rates if n in self._topics}
             rates = {n: [round(t.rate, 2), round(t.bytes_per_s)] for n, t in topics.items()}
             client.send("rates", rates=rates)
         name = client.watch.topic
         topic = self._topics.get(name)
         known = client.seen.get("echo", (name, 0))
         client.seen["echo"] = (name, known[1] if known[0] == name else 0)
-        if topic and client.lacks("topic", (name, topic.looked_at)):
-            echo = [one for one in topic.echo if one[0] > client.seen["echo"][1]]
-            client.seen["echo"] = (name, echo[-1][0]) if echo else client.seen["echo"]
-            client.send("topic", **self._about(name, topic), echo=echo)
-
-    def _about(self, name: str, topic: Topic) -> dict[str, Any]:
-        graph = self._graphs.graph
-        return {
-            "name": name,
-            "type": graph.types.get(name, ""),
-            "rate": round(topic.rate, 2),
-            "publishers": sorted(graph.publishers.get(name, ())),
-            "subscribers": sorted(graph.subscribers.get(name, ())),
-        }
+        echo = [one for one in topic.echo if one[0] > client.seen["echo"][1]] if topic else []
+        if echo:
+            client.seen["echo"] = (name, echo[-1][0])
+            client.send("topic", name=name, echo=echo)
