@@ -217,10 +217,7 @@ def _examine(order: Order, wrapper: list[str], course: Course, report: Report) -
 
 
 def judge(
-    order: Order,
-    course: Course,
-    ask: Ask,
-    report: Report = lambda outcome, result: None,
+    order: Order, course: Course, ask: Ask, report: Report = lambda outcome, result: None
 ) -> list[Outcome]:
     """Make the checks of an order from what a worker answers. Raises CannotCheck."""
     checks, known = checks_of(course), course.exercises  # the task's class is among the checks
