@@ -39,8 +39,10 @@ class Worker:
         """Start it. wrapper: the words before its command that isolate it."""
         if not order.apart:
             privileges.keep_to_itself()  # and the end of the socket
-        own = {name: os.environ[name] for name in ("HOME", "LANG") if name in os.environ}
-        environment = {**order.environment, **own}
+        environment = {**order.environment, "LANG": os.environ.get("LANG", "C.UTF-8")}
+        # ROS reads these as it loads.
+        own = str(order.folder / "ours")
+        environment.update(HOME=own, ROS_HOME=own, ROS_LOG_DIR=own, ROS_IP="127.0.0.1")
         environment.update(PATH="/usr/bin:/bin:/usr/sbin:/sbin", PYTHONDONTWRITEBYTECODE="1")
         self._order, self._buffer = order, b""
         self._end_s = time.monotonic() + LONGEST_S
