@@ -38,6 +38,7 @@ def end(program):
     if not program.ended:
         program.interrupt()
         program.wait()
+    print(program.output)  # pytest shows it if the test fails
 
 
 start = pytest.fixture(starting, name="start")

@@ -52,6 +52,8 @@ class Room:
         self._hear = callback
 
     def _made(self, _topic, kind, _depth, is_latched):
+        if kind == "no/Answer":
+            raise TimeoutError
         said = [kind, is_latched]
         self.publishers.append(said)
         return SimpleNamespace(publish=said.append, end=lambda: said.append("ended"))
@@ -105,9 +107,11 @@ def test_what_has_an_age_limit_is_not_latched_and_not_carried_with_an_unknown_ag
     assert made.carried() == []  # nothing to forget
 
 
-def test_a_publisher_is_made_anew_when_its_type_or_latching_changes(room):
+def test_a_publisher_is_made_again_when_its_type_or_latching_changes(room):
+    """A master that does not answer ends nothing."""
     made = room()
     made.connect()
+    made.other.sendall(Frame("/note", "no/msg/Answer", b"1", time.monotonic()).packed())
     for kind, is_latched in (("a/msg/B", True), ("a/msg/B", False), ("a/msg/C", False)):
         frame = Frame("/note", kind, b"1", time.monotonic(), is_latched)
         made.other.sendall(frame.packed() * 2)

@@ -12,8 +12,9 @@ from pathlib import Path
 PYTHON = "TUTORIAL_ROS2"  # environment variable: the Python of the wheels
 # What belongs to ROS 1: a path of its packages would hide those of ROS 2.
 HIDDEN = ("PYTHONPATH", "CMAKE_PREFIX_PATH", "ROS_DISTRO", "ROS_VERSION", "ROS_PACKAGE_PATH")
-# As far as nodes of ROS 2 find each other, unless the user says more.
-RANGE = "ROS_AUTOMATIC_DISCOVERY_RANGE"
+# Unless the user says more: nodes of ROS 2 find each other here alone, and over UDP. A process
+# that is killed leaves its shared memory, half a megabyte, and locks that later ones wait for.
+DEFAULTS = {"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST", "FASTDDS_BUILTIN_TRANSPORTS": "UDPv4"}
 
 
 def installed() -> str:
@@ -25,8 +26,9 @@ def installed() -> str:
 def command(words: list[str], python: str = "") -> list[str]:
     """Return the command line of Python with these words. python: that of the wheels, if known."""
     environment = [word for name in HIDDEN for word in ("-u", name)]
-    if not os.environ.get(RANGE):
-        environment.append(f"{RANGE}=LOCALHOST")
+    environment += [
+        f"{name}={value}" for name, value in DEFAULTS.items() if not os.environ.get(name)
+    ]
     setup = installed()
     if setup:
         inner = f". {shlex.quote(setup)}; exec python3 {shlex.join(words)}"

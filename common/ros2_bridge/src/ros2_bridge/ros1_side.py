@@ -36,7 +36,7 @@ class Ros1Side:
         # By topic, with the type and whether it is latched.
         self._publishers: dict[str, tuple[tuple[str, bool], RawPublisher | None]] = {}
         self._lock = threading.Lock()
-        self._unknown: dict[str, str] = {}  # by topic: which of its types is not known here
+        self._not_carried: dict[str, str] = {}  # by topic: why it is not carried
         self._sign_s, self._wrong = -SILENT_S, ""  # last sign of life of the other side; its lines
         Path(path).unlink(missing_ok=True)
         self._socket = socket.socket(socket.AF_UNIX)
@@ -73,7 +73,7 @@ class Ros1Side:
         lines = [(NAME, "carries between ROS 1 and ROS 2", DiagnosticStatus.OK)]
         if time.monotonic() - self._sign_s > SILENT_S:
             lines = [(NAME, "the side of ROS 2 is missing", DiagnosticStatus.ERROR)]
-        wrong = [*self._wrong.splitlines(), *self._unknown.values()]
+        wrong = [*self._wrong.splitlines(), *self._not_carried.values()]
         lines += [(f"{NAME}: topic", line, DiagnosticStatus.WARN) for line in wrong]
         array = DiagnosticArray()
         array.header.stamp = rospy.Time.now()
@@ -125,7 +125,7 @@ class Ros1Side:
                 self._sender = sender
             for frame in frames(connection):
                 if frame.topic:
-                    self._publish(frame)
+                    self._publish_or_warn(frame)
                 else:
                     self._sign_s, self._wrong = frame.stamp_s, frame.data.decode()
             with self._lock:
@@ -133,12 +133,26 @@ class Ros1Side:
             sender.end()
             connection.close()
 
+    def _publish_or_warn(self, frame: Frame) -> None:
+        try:
+            self._publish(frame)
+        except Exception as error:  # such as a master that does not answer; the next may pass
+            self._warn_of(frame.topic, str(error) or type(error).__name__)
+
+    def _warn_of(self, topic: str, why: str) -> None:
+        """Report why a topic is not carried, once for each reason."""
+        line = f"{topic}: {why}; it is not carried"
+        if self._not_carried.get(topic) != line:
+            self._not_carried[topic] = line
+            self._warn(line)
+
     def _publish(self, frame: Frame) -> None:
         route = self._routes.get(frame.topic)
         if route and route.to_ros1 and not is_late(frame, route.longest_s):
             publisher = self._publisher(route, frame)
             if publisher and not frame.announces:
                 publisher.publish(frame.data)
+                self._not_carried.pop(frame.topic, None)
 
     def _publisher(self, route: Route, frame: Frame) -> RawPublisher | None:
         (kind, is_latched), publisher = self._publishers.get(frame.topic, (("", False), None))
@@ -149,12 +163,11 @@ class Ros1Side:
                 self._warn(f"{frame.topic} is now {frame.type} in ROS 2, and no more {kind}")
             publisher.end()
             publisher = None
-        self._unknown.pop(frame.topic, None)
+        self._not_carried.pop(frame.topic, None)
         try:
             name = frame.type.replace("/msg/", "/")
             publisher = RawPublisher(frame.topic, name, route.depth, frame.is_latched)
         except LookupError as error:
-            self._unknown[frame.topic] = f"{frame.topic}: {error}; it is not carried"
-            self._warn(self._unknown[frame.topic])
+            self._warn_of(frame.topic, str(error))
         self._publishers[frame.topic] = (frame.type, frame.is_latched), publisher
         return publisher
