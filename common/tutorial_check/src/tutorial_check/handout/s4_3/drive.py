@@ -7,7 +7,8 @@ from dataclasses import dataclass, field, replace
 from typing import Dict, Optional, Tuple
 
 from tutorial_check.handout.s4_3 import probes
-from tutorial_check.handout.s4_3.rules import FIELDS, Evidence, judge
+from tutorial_check.handout.s4_3.evidence import FIELDS, Evidence
+from tutorial_check.handout.s4_3.rules import judge
 from tutorial_check.handout.task import HANDOUT, Joy, JoystickTask
 from tutorial_check.isolation.program import Ran
 from tutorial_check.record.recording import Topics

@@ -10,7 +10,7 @@ from typing import Any, Callable, Sequence
 
 from tutorial_check.handout.s4_3 import probes
 from tutorial_check.handout.s4_3.drive import Drive
-from tutorial_check.handout.s4_3.rules import FIELDS, LINEAR, RIGHT, rule_of
+from tutorial_check.handout.s4_3.evidence import FIELDS, LINEAR, RIGHT, rule_of
 from tutorial_check.handout.task import PACKAGE, Joy
 from tutorial_check.isolation.runner import GRACE_S
 from tutorial_check.record.ground import Ground
