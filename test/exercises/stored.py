@@ -18,7 +18,7 @@ BEFORE_A_STATEMENT = (tokenize.ENCODING, tokenize.NEWLINE, tokenize.INDENT, toke
 IMPORT = re.compile(
     r"^ *from (tutorial_check\.(?:record|handout)[\w.]*) import (\([^)]+\)|.+)", re.M
 )
-RULES = "tutorial_check.handout.s4_3.rules"  # A judge's, which only decides how much is tried.
+RULES = [f"tutorial_check.handout.s4_3.{name}" for name in ("rules", "evidence")]  # Of a judge.
 
 
 def path_of(test):
@@ -91,7 +91,7 @@ def code_hash(module):
 def imported_by(module, found):
     """Add a module of recorders to those found, with all that it works with; return them."""
     spec = importlib.util.find_spec(module)
-    if spec.submodule_search_locations is None and module not in (*found, RULES):
+    if spec.submodule_search_locations is None and module not in (*found, *RULES):
         found.add(module)
         for base, names in IMPORT.findall(Path(spec.origin).read_text()):
             is_package = importlib.util.find_spec(base).submodule_search_locations

@@ -164,14 +164,6 @@ def _packed(parts: Mapping[str, Path]) -> bytes:
     return data.getvalue()
 
 
-def _unpack(packed: bytes, folder: str | Path) -> None:
-    """Unpack what _packed returned. The client packed it, and a worker runs whatever its client sends."""
-    with tarfile.open(fileobj=io.BytesIO(packed)) as archive:
-        # As it was, links that lead out among it; Python 3.14 would refuse those.
-        archive.extraction_filter = lambda member, _: member
-        archive.extractall(folder)
-
-
 def _examine(
     packed: bytes, exercises: Sequence[str], variant: Variant, version: str
 ) -> list[Outcome]:
@@ -179,7 +171,11 @@ def _examine(
     _must_isolate()
     underlay = os.environ["TUTORIAL_UNDERLAY"]
     with tempfile.TemporaryDirectory(prefix="tutorial_worker_") as folder:
-        _unpack(packed, folder)
+        with tarfile.open(fileobj=io.BytesIO(packed)) as archive:
+            # As it was, links that lead out among it, which Python 3.14 would refuse. A worker runs
+            # whatever its client sends, anyway.
+            archive.extraction_filter = lambda member, _: member
+            archive.extractall(folder)
         (submission,) = Path(folder).glob("submission*")
         own = Path(folder, "course")
         course = own if own.is_dir() else OURS

@@ -28,9 +28,7 @@ KINDS: dict[str, tuple[type, ...]] = {
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 _checks: list[Check] = []  # all loaded courses
-_loaded: dict[object, list[Check]] = {}  # by folder, files and when these have changed
 _loading = threading.Lock()
-MOST_LOADED = 8
 
 
 @dataclass(frozen=True)
@@ -71,8 +69,8 @@ class Course:
     title: str = ""
     document: str = "task"
     sheet: str = ""  # what a task sheet is made from, if not variants.SHEET
-    exercises: dict[str, Exercise] = field(default_factory=dict)
-    variants: dict[str, Value] = field(default_factory=dict)
+    exercises: dict[str, Exercise] = field(default_factory=dict, hash=False)
+    variants: dict[str, Value] = field(default_factory=dict, hash=False)
 
     @property
     def by_default(self) -> list[str]:
@@ -169,16 +167,12 @@ def checks_of(course: Course) -> list[Check]:
     Several threads may ask. Files that have not changed are loaded once.
     """
     files = sorted(course.folder.rglob("*.py"))
-    key = course.folder, tuple((path, path.stat().st_mtime_ns) for path in files)
     with _loading:
-        if key not in _loaded:
-            if len(_loaded) > MOST_LOADED:
-                _loaded.clear()
-            _loaded[key] = _load(course)
-        return _loaded[key]
+        return _load(course, tuple((path, path.stat().st_mtime_ns) for path in files))
 
 
-def _load(course: Course) -> list[Check]:
+@functools.lru_cache(maxsize=8)
+def _load(course: Course, _: tuple[tuple[Path, int], ...]) -> list[Check]:
     package = package_of(course)
     if course.folder != OURS:
         for name in [each for each in sys.modules if f"{each}.".startswith(f"{PACKAGE}.")]:

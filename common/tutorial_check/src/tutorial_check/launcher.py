@@ -23,7 +23,7 @@ from tutorial_check.model import WRONG, CannotCheck, Result, Run, passed
 from tutorial_check.order import Order
 from tutorial_check.source import workspace as workspaces
 from tutorial_check.variants import task_of
-from tutorial_check.worker_process import Ended, Worker, given, is_ended
+from tutorial_check.worker_process import Ended, Worker, no_more
 
 # Of a shell of the suite: its roscore.xml, with which each roslaunch starts sooner, and what CMake 4
 # needs to read catkin's files.
@@ -107,10 +107,13 @@ def examine(
         must_start_programs(order, is_other=user is not None)
         if user is not None:
             privileges.open_to(user, folder)
-        wrapper += privileges.as_user(user)
-        outcomes = _examine(order, wrapper, read_course(course), report)
+        with Worker(order, [*wrapper, *privileges.as_user(user)]) as worker:
+            worker.begin()
+            outcomes = judge(order, read_course(course), worker.ask, report)
         remark = "" if own else bubblewrap.instead()
         return [replace(one, place=order.layout.place, remark=remark) for one in outcomes]
+    except Ended as error:  # before a first result
+        raise CannotCheck(str(error)) from None
     finally:
         if user is not None:
             privileges.end_all_of(user)
@@ -153,7 +156,8 @@ def _environment(underlay: str) -> dict[str, str]:
         raise CannotCheck(f"{underlay} cannot be sourced: {why}") from None
     # rospy loads numpy, which starts a thread for each processor; none is needed here.
     found = environment_of(done.stdout.split("\0"))
-    return {**found, **given(OF_SUITE), "OPENBLAS_NUM_THREADS": "1"}
+    own = {name: os.environ[name] for name in OF_SUITE if name in os.environ}
+    return {**found, **own, "OPENBLAS_NUM_THREADS": "1"}
 
 
 def _kept(underlay: str) -> tuple[Path, ...]:
@@ -207,20 +211,8 @@ def _hand_in(workspace: str, folder: Path, own: bool) -> tuple[workspaces.Layout
     return layout, [each for each in shown if each.resolve() not in (home, *home.parents)]
 
 
-def _examine(order: Order, wrapper: list[str], course: Course, report: Report) -> list[Outcome]:
-    try:
-        with Worker(order, wrapper) as worker:
-            worker.begin()
-            return judge(order, course, worker.ask, report)
-    except Ended as error:  # before a first result
-        raise CannotCheck(str(error)) from None
-
-
 def judge(
-    order: Order,
-    course: Course,
-    ask: Ask,
-    report: Report = lambda outcome, result: None,
+    order: Order, course: Course, ask: Ask, report: Report = lambda outcome, result: None
 ) -> list[Outcome]:
     """Make the checks of an order from what a worker answers. Raises CannotCheck."""
     checks, known = checks_of(course), course.exercises  # the task's class is among the checks
@@ -240,7 +232,7 @@ def judge(
                 break
     except Ended as error:
         ending = str(error)
-    if ending and (is_ended() or not any(outcome.results for outcome in outcomes)):
+    if ending and (no_more.is_set() or not any(outcome.results for outcome in outcomes)):
         raise CannotCheck(ending)
     for outcome in outcomes:
         outcome.trouble = outcome.trouble if outcome.done else ending

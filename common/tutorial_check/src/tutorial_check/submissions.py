@@ -18,7 +18,7 @@ from tutorial_check.report.formats import as_json, clear, keep, without_hints, w
 from tutorial_check.report.last_run import LastRun, digest_of, digest_of_checks
 from tutorial_check.report.text import summary, text_of
 from tutorial_check.variants import variant_of
-from tutorial_check.worker_process import end_all
+from tutorial_check.worker_process import no_more
 
 ARCHIVES = (".zip", ".tar", ".tgz", ".gz", ".bz2", ".xz", ".7z", ".rar")
 TABLES = ("table.csv", "table.html")
@@ -36,7 +36,9 @@ def find_students(folder: str | Path, out: str | Path, tasks: str = "") -> list[
     except OSError as error:
         raise CannotCheck(f"{folder}: {error.strerror}") from None
     entries = [path for path in entries if not (tasks and path.resolve() == Path(tasks).resolve())]
-    paths = [path for path in entries if _is_handed_in(path) and not _has_results(path, out)]
+    archives = [path for path in entries if path.suffix.lower() in ARCHIVES or not path.exists()]
+    folders = [path for path in entries if path.is_dir() and not _has_results(path, out)]
+    paths = sorted({*archives, *folders})
     if not paths:
         raise CannotCheck(f"{folder}: no workspace and no zip in it")
     short = [path.stem if path.suffix.lower() == ".zip" else path.name for path in paths]
@@ -44,10 +46,6 @@ def find_students(folder: str | Path, out: str | Path, tasks: str = "") -> list[
     return [
         Student(name if claims[name] == 1 else path.name, path) for name, path in zip(short, paths)
     ]
-
-
-def _is_handed_in(path: Path) -> bool:
-    return path.is_dir() or path.suffix.lower() in ARCHIVES or not path.exists()
 
 
 def _has_results(path: Path, out: str | Path) -> bool:
@@ -121,7 +119,7 @@ class Check:
             except (KeyboardInterrupt, Gone):  # the pool would go on to the last student
                 for check in checks:
                     check.cancel()
-                end_all()
+                no_more.set()
                 if self._cluster:
                     self._cluster.close()
                 raise

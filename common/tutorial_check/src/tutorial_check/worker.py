@@ -19,16 +19,16 @@ import socket
 import sys
 import traceback
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from tutorial_check.isolation import bubblewrap, environment, privileges
+from tutorial_check.course import checks_of, read_course
+from tutorial_check.isolation import bubblewrap, environment, landlock, privileges
+from tutorial_check.isolation.runner import Runner
 from tutorial_check.model import CannotCheck, CutShort, fault
 from tutorial_check.order import Line, Order
+from tutorial_check.record.ground import Ground
 from tutorial_check.record.recording import VERSION, arguments_of, as_json, from_json
 from tutorial_check.source import workspace
-
-if TYPE_CHECKING:
-    from tutorial_check.record.ground import Ground
+from tutorial_check.variants import task_of
 
 
 def main() -> None:
@@ -92,16 +92,6 @@ def _prepared(order: Order, reader: int) -> Ground:
     """Return the ground of an order. reader: see Runner."""
     scratch = order.folder
     shutil.copytree(scratch / workspace.COPY, scratch / "ws" / "src", symlinks=True)
-    # Before ROS, which reads the environment as it loads.
-    home = str(scratch / "ours")
-    os.environ.update(HOME=home, ROS_HOME=home, ROS_LOG_DIR=home, ROS_IP="127.0.0.1")
-    os.environ.pop("ROS_HOSTNAME", None)
-
-    from tutorial_check import variants  # noqa: PLC0415
-    from tutorial_check.course import checks_of, read_course  # noqa: PLC0415
-    from tutorial_check.isolation import landlock, runner  # noqa: PLC0415
-    from tutorial_check.record.ground import Ground  # noqa: PLC0415
-
     environment.prepare(scratch)
     variables = environment.variables(scratch, order.environment)
     shown: list[str | Path] = [scratch, *order.shown, *bubblewrap.SYSTEM, "/proc"]
@@ -109,8 +99,8 @@ def _prepared(order: Order, reader: int) -> Ground:
     ruleset = landlock.ruleset(shown, own) if landlock.version() and not order.apart else None
     course = read_course(order.course)
     checks_of(course)  # its recorders
-    task = variants.task_of(course)(order.variant)
-    return Ground(order, task, runner.Runner(variables, order.apart, reader, ruleset))
+    task = task_of(course)(order.variant)
+    return Ground(order, task, Runner(variables, order.apart, reader, ruleset))
 
 
 if __name__ == "__main__":

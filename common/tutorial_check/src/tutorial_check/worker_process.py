@@ -13,7 +13,6 @@ import tempfile
 import threading
 import time
 from pathlib import Path
-from typing import Iterable
 
 from tutorial_check.isolation import bubblewrap, privileges
 from tutorial_check.model import CannotCheck
@@ -25,26 +24,8 @@ from tutorial_check.source.workspace import COPY
 # than a seventh of the time, there is no verdict anyway (cpu_clock.HOPELESS), and a student waits.
 LONGEST_S = 900.0
 END_S = 10.0  # a worker whose result is not wanted has this long to end what it started
-_no_more = threading.Event()
-
-
-def end_all() -> None:
-    """End the workers of all threads, and those that have just started; each raises CannotCheck."""
-    _no_more.set()
-
-
-def is_ended() -> bool:
-    return _no_more.is_set()
-
-
-def given(names: Iterable[str]) -> dict[str, str]:
-    """Return the variables of these names that this process has."""
-    return {name: os.environ[name] for name in names if name in os.environ}
-
-
-def as_handed_in(text: str, folder: Path) -> str:
-    """Return a text with the paths of what was handed in: programs run in ws, a copy of that."""
-    return text.replace(f"{folder}/ws/", f"{folder}/{Path(COPY).parent}/")
+# Set to end the workers of all threads, and those that have just started; each raises CannotCheck.
+no_more = threading.Event()
 
 
 class Ended(BaseException):
@@ -58,7 +39,10 @@ class Worker:
         """Start it. wrapper: the words before its command that isolate it."""
         if not order.apart:
             privileges.keep_to_itself()  # and the end of the socket
-        environment = {**order.environment, **given(("HOME", "LANG"))}
+        environment = {**order.environment, "LANG": os.environ.get("LANG", "C.UTF-8")}
+        # ROS reads these as it loads.
+        own = str(order.folder / "ours")
+        environment.update(HOME=own, ROS_HOME=own, ROS_LOG_DIR=own, ROS_IP="127.0.0.1")
         environment.update(PATH="/usr/bin:/bin:/usr/sbin:/sbin", PYTHONDONTWRITEBYTECODE="1")
         self._order, self._buffer = order, b""
         self._end_s = time.monotonic() + LONGEST_S
@@ -116,7 +100,7 @@ class Worker:
 
     def _answer(self) -> Line:
         while b"\n" not in self._buffer:
-            if _no_more.is_set():
+            if no_more.is_set():
                 raise Ended("it was ended")
             if time.monotonic() > self._end_s:
                 why = "the machine has too much else to do"
@@ -127,8 +111,9 @@ class Worker:
                     raise Ended(self._last_words())
                 self._buffer += data
         line, _, self._buffer = self._buffer.partition(b"\n")
-        text = as_handed_in(line.decode(errors="replace"), self._order.folder)
-        found: Line = json.loads(text)
+        # Programs run in ws, a copy of what was handed in.
+        text, folder = line.decode(errors="replace"), self._order.folder
+        found: Line = json.loads(text.replace(f"{folder}/ws/", f"{folder}/{Path(COPY).parent}/"))
         return found
 
     def _last_words(self) -> str:

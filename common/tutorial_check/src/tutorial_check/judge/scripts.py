@@ -11,7 +11,7 @@ from tutorial_check.isolation.program import Ran
 from tutorial_check.judge.causes import NO_KEYBOARD, explain, hider, syntax_hint, traced
 from tutorial_check.judge.rows import Row, find
 from tutorial_check.model import Note, Wrong
-from tutorial_check.record.build import installed
+from tutorial_check.record.build import built, installed
 from tutorial_check.record.session import Session
 from tutorial_check.source import student_files
 from tutorial_check.source.python_facts import Call, PythonFacts
@@ -212,7 +212,8 @@ def cause_of(session: Session, package: str, name: str, trace: Traceback) -> tup
     file, hides = hider(trace.error, script, session.scripts(package))
     if hides:
         return file or f"{script}:{line}", hides
-    if re.match("ImportError|ModuleNotFoundError", trace.error) and session.lacks_build:
+    is_import = re.match("ImportError|ModuleNotFoundError", trace.error)
+    if is_import and session.needs_build() and session.recording(built).code != 0:
         fails = "catkin_make, which may have to make it, fails: run it, it says why"
         hint = "; ".join(filter(None, (hint, fails)))
     return f"{script}:{line}" if line else "", hint

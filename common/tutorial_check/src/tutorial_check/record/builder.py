@@ -2,21 +2,31 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from typing import Optional
 
 from tutorial_check.isolation.environment import environment_of
 from tutorial_check.isolation.program import Program
 from tutorial_check.isolation.runner import Runner
 from tutorial_check.model import CannotCheck
 from tutorial_check.order import Order
-from tutorial_check.record.build import Built
 from tutorial_check.record.session import Session
 from tutorial_check.source import student_files
 from tutorial_check.source.manifests import is_stand_in
 from tutorial_check.variants import Task
 
 SLOW_S = 120  # [s] for what needs a second, when the machine is very busy
+
+
+@dataclass(frozen=True)
+class Built:
+    """A build of all, or of what the exercises need if all cannot be built."""
+
+    code: Optional[int]  # catkin_make's exit code; None: it did not end
+    output: str
+    unbuilt: str = ""  # what it printed of packages that the exercises do not need
 
 
 class Builder(Session):

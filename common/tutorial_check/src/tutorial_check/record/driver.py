@@ -37,10 +37,6 @@ def _joy(values: tuple[Sequence[float], Sequence[int]]) -> Joy:
     return joy
 
 
-def _twist(velocity: Sequence[float]) -> Twist:
-    return Twist(Vector3(*velocity[:3]), Vector3(*velocity[3:]))
-
-
 def _plain(message: Any) -> Any:
     if isinstance(message, Twist):
         return tuple(getattr(v, axis) for v in (message.linear, message.angular) for axis in "xyz")
@@ -144,7 +140,11 @@ class Driver:
     def send(self, topic: str, values: object) -> float:
         """Publish one message, (axes, buttons), (bumper, state), 6 velocities or text; return when."""
         publisher = self._publishers[topic]
-        make = {Joy: _joy, BumperEvent: lambda both: BumperEvent(*both), Twist: _twist}
+        make = {
+            Joy: _joy,
+            BumperEvent: lambda both: BumperEvent(*both),
+            Twist: lambda six: Twist(Vector3(*six[:3]), Vector3(*six[3:])),
+        }
         publisher.publish(make.get(publisher.data_class, publisher.data_class)(values))
         return time.monotonic()
 

@@ -10,13 +10,8 @@ from pathlib import Path
 from typing import Any, Callable, Iterator, Mapping, TypeVar
 
 from tutorial_check.order import Order
-from tutorial_check.record.build import built
 from tutorial_check.source import student_files
-from tutorial_check.source.manifests import (
-    first_broken,
-    must_be_launchable,
-    unreadable,
-)
+from tutorial_check.source.manifests import first_broken, must_be_launchable, unreadable
 from tutorial_check.source.python_facts import PythonFacts
 from tutorial_check.source.workspace import SOLUTIONS, Package, packages_below
 from tutorial_check.variants import Task
@@ -71,14 +66,10 @@ class Session:
         """A package whose package.xml keeps every node from starting."""
         return first_broken(self.source, self.packages)
 
-    def must_be_startable(self) -> None:
-        """Raise Wrong for a package.xml that keeps every node from starting."""
-        if self.broken:
-            raise unreadable(self.broken)
-
     def must_be_launchable(self) -> None:
         """Raise Wrong for a package.xml that keeps roslaunch from starting anything."""
-        self.must_be_startable()
+        if self.broken:
+            raise unreadable(self.broken)
         must_be_launchable(self.packages)
 
     @cached_property
@@ -139,8 +130,3 @@ class Session:
     def needs_build(self) -> bool:
         """Return whether something has to be made before a program can run."""
         return any(NEEDS_BUILD.search(each.cmake or "") for each in self.packages)
-
-    @property
-    def lacks_build(self) -> bool:
-        """Whether the programs run without what catkin_make should have made for them."""
-        return self.needs_build() and self.recording(built).code != 0

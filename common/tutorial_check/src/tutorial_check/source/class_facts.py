@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from dataclasses import dataclass, replace
 
-from tutorial_check.source.python_text import text_of
+from tutorial_check.source.python_text import last_name, text_of
 
 
 @dataclass
@@ -17,7 +17,6 @@ class ClassFacts:
     methods: list[str]
     instantiated: bool
     is_node: bool
-    attributes_called: set[str]
     attributes: set[str]  # that an object has, besides methods
     bases: set[str]  # but object
 
@@ -25,8 +24,7 @@ class ClassFacts:
 def class_facts(node: ast.ClassDef, called: set[str]) -> ClassFacts:
     """Return the ClassFacts of a ClassDef. called: the names of all that the file calls."""
     parts = list(ast.walk(node))
-    inside = {text_of(part.func) for part in parts if isinstance(part, ast.Call)}
-    words = {name.rsplit(".", 1)[-1] for name in inside}
+    words = {last_name(part) for part in parts if isinstance(part, ast.Call)}
     bases = {text_of(base) for base in node.bases}
     stored = [part for part in parts if isinstance(getattr(part, "ctx", None), ast.Store)]
     return ClassFacts(
@@ -37,7 +35,6 @@ def class_facts(node: ast.ClassDef, called: set[str]) -> ClassFacts:
         # A message or an exception of its own is no node.
         is_node=bool(words & {"Subscriber", "Publisher", "init_node", "publish"})
         and not any(base.endswith(("Exception", "Error")) for base in bases),
-        attributes_called={name for name in inside if name.startswith("self.")},
         attributes={getattr(part, "attr", getattr(part, "id", "")) for part in stored},
         bases=bases - {"object"},
     )
@@ -57,7 +54,6 @@ def with_bases(classes: list[ClassFacts]) -> list[ClassFacts]:
                 one,
                 methods=[*one.methods, *parent.methods],
                 is_node=one.is_node or parent.is_node,
-                attributes_called=one.attributes_called | parent.attributes_called,
                 attributes=one.attributes | parent.attributes,
                 bases=(one.bases - {base}) | parent.bases,
             )

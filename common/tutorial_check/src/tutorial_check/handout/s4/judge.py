@@ -6,8 +6,8 @@ import shlex
 
 from tutorial_check.course import check
 from tutorial_check.handout.s4.record import agree, bag, follow, stick
+from tutorial_check.handout.s4_3.evidence import ANGULAR, LINEAR
 from tutorial_check.handout.s4_3.judge import main_script
-from tutorial_check.handout.s4_3.rules import ANGULAR, LINEAR
 from tutorial_check.handout.task import PACKAGE
 from tutorial_check.judge.scripts import crash
 from tutorial_check.model import Note, Wrong

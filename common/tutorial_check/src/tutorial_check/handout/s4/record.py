@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Optional, Tuple
 
+from tutorial_check.handout.s4_3.evidence import ANGULAR, LINEAR
 from tutorial_check.handout.s4_3.record import CMD_VEL, JOY, NEUTRAL
-from tutorial_check.handout.s4_3.rules import ANGULAR, LINEAR
 from tutorial_check.handout.task import LB, PACKAGE, Joy
 from tutorial_check.isolation.helper_process import Helper
 from tutorial_check.isolation.program import Program, Ran

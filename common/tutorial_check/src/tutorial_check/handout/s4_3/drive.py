@@ -7,7 +7,8 @@ from dataclasses import dataclass, field, replace
 from typing import Dict, Optional, Tuple
 
 from tutorial_check.handout.s4_3 import probes
-from tutorial_check.handout.s4_3.rules import FIELDS, Evidence, judge
+from tutorial_check.handout.s4_3.evidence import FIELDS, Evidence
+from tutorial_check.handout.s4_3.rules import judge
 from tutorial_check.handout.task import HANDOUT, Joy, JoystickTask
 from tutorial_check.isolation.program import Ran
 from tutorial_check.record.recording import Topics
@@ -20,26 +21,33 @@ Sample = Tuple[Tuple[float, ...], Twist]
 
 
 @dataclass(frozen=True)
-class Drive:
-    """A recording; Joys have the axes and buttons of the handout's task."""
+class Asked:
+    """A program, and what its text and the task say."""
 
     script: str
     program: Ran = Ran("", "", None, False, False)  # noqa: RUF009  frozen
-    # What the text and the task say.
     sleep_lines: Tuple[int, ...] = ()  # in a callback
     enough: float = 0.95  # so many of the Joys of a stream have to be answered
-    factors: Dict[str, float] = field(
-        default_factory=dict
-    )  # those asked for, by the name of the field
+    factors: Dict[str, float] = field(default_factory=dict)  # by the name of the field
     needs_button: bool = False
-    # The graph.
+
+
+@dataclass(frozen=True)
+class Graph:
+    """Where it is in the graph."""
+
     connected: bool = False
     publishers: Topics = field(default_factory=dict)
     subscribers: Topics = field(default_factory=dict)
     types: Dict[str, str] = field(default_factory=dict)
     warnings: Tuple[str, ...] = ()
     master_alive: bool = True
-    # The numbered Joys, one at a time.
+
+
+@dataclass(frozen=True)
+class Numbered:
+    """The numbered Joys, one at a time."""
+
     asked: int = 0
     samples: Tuple[Sample, ...] = ()
     first_samples: Tuple[Sample, ...] = ()  # from an earlier pass
@@ -52,16 +60,40 @@ class Drive:
     has_clock: bool = False  # more come unasked
     repeats: bool = False  # and move the robot
     shown: int = 0  # how many Joys were displayed
-    # The probes.
-    answers: Tuple[Tuple[Joy, Twist], ...] = ()
-    unanswered: Optional[Tuple[Joy, Joy]] = None  # (Joy, the one before) without a Twist
-    # The stream.
+
+    @property
+    def all_shown(self) -> bool:
+        return self.shown >= min(5, max(1, self.asked))
+
+
+@dataclass(frozen=True)
+class Streamed:
+    """The stream of Joys."""
+
     sent: int = 0
     answered: int = 0
     strays: int = 0  # zeros between the answers
     delays: Tuple[float, ...] = ()
     possible: Optional[int] = None  # what our own Echo answered beside it
     unavoidable_s: Optional[float] = None
+
+    @property
+    def delay_s(self) -> float | None:
+        return statistics.median(self.delays) if self.delays else None
+
+    @property
+    def rate(self) -> str:
+        late = f", {1000 * self.delay_s:.1f} ms late" if self.delay_s is not None else ""
+        return f"{self.answered} Twists for {self.sent} Joys{late}"
+
+
+@dataclass(frozen=True)
+class Drive(Streamed, Numbered, Graph, Asked):
+    """A recording; Joys have the axes and buttons of the handout's task."""
+
+    # The probes.
+    answers: Tuple[Tuple[Joy, Twist], ...] = ()
+    unanswered: Optional[Tuple[Joy, Joy]] = None  # (Joy, the one before) without a Twist
     # The end.
     ended_early: bool = False
     output: str = ""  # before Ctrl-C
@@ -90,15 +122,6 @@ class Drive:
         return probes.Silence(*self.unanswered, last, task) if self.unanswered else None
 
     @property
-    def delay_s(self) -> float | None:
-        return statistics.median(self.delays) if self.delays else None
-
-    @property
-    def rate(self) -> str:
-        late = f", {1000 * self.delay_s:.1f} ms late" if self.delay_s is not None else ""
-        return f"{self.answered} Twists for {self.sent} Joys{late}"
-
-    @property
     def is_prompt(self) -> bool:
         """Whether enough Joys were answered, and soon, as far as the machine allows."""
         if self.answered < self.enough * min(self.sent, self.possible or self.sent):
@@ -110,10 +133,6 @@ class Drive:
         """Whether its callback sleeps, and so long that each Joy waits for the one before."""
         is_slow = len(self.waits) > 2 and statistics.median(self.waits[:5]) > NAP_S
         return bool(self.sleep_lines) and is_slow
-
-    @property
-    def all_shown(self) -> bool:
-        return self.shown >= min(5, max(1, self.asked))
 
     @property
     def shows_numbers(self) -> bool:

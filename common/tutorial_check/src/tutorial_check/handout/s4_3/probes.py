@@ -8,7 +8,7 @@ import re
 from typing import Iterable, NamedTuple, Sequence, Tuple
 
 from tutorial_check.handout.s4_3 import rules
-from tutorial_check.handout.s4_3.rules import RIGHT, SMALL
+from tutorial_check.handout.s4_3.evidence import FIELDS, RIGHT, SMALL, Evidence, is_near, no_number
 from tutorial_check.handout.task import AXES, HANDOUT, LB, Joy, JoystickTask
 from tutorial_check.judge.rows import Row, find
 
@@ -147,13 +147,13 @@ class Reply(NamedTuple):
 
     @property
     def differs(self) -> bool:
-        return not rules.is_near(self.value, self.again)
+        return not is_near(self.value, self.again)
 
     @property
     def drives_on(self) -> str:
         """Return how the robot moves where it should not; empty if it does not."""
         given = self.joy[0][self.axis]
-        keeps = rules.is_near(self.value, self.before) and abs(self.value) > SMALL
+        keeps = is_near(self.value, self.before) and abs(self.value) > SMALL
         # A button may turn the direction while it is held, but at rest the robot stands.
         against = self.value * given < 0 and not self.other
         if abs(self.value) <= SMALL or not (not given or against or (keeps and self.differs)):
@@ -182,7 +182,7 @@ REPLIES = (
 
 
 def judge_probes(
-    evidence: rules.Evidence, answers: Iterable[Answer], needs_button: bool = False
+    evidence: Evidence, answers: Iterable[Answer], needs_button: bool = False
 ) -> tuple[str, str]:
     """Return (complaint, hint), as rules.judge() does, about the answers to the probes.
 
@@ -190,7 +190,7 @@ def judge_probes(
     needs_button: whether LB must be held to drive.
     """
     answers, samples, task = list(answers), evidence.samples, evidence.task
-    odd = rules.no_number([(axes, twist) for (axes, _), twist in answers])
+    odd = no_number([(axes, twist) for (axes, _), twist in answers])
     if odd:
         return odd, "look at what it is calculated from"
     known = {(tuple(axes), _pressed(LB)): twist for axes, twist in samples}
@@ -200,7 +200,7 @@ def judge_probes(
         last_button = _other_button(task, joy[1]) or last_button
         for field, axis in RIGHT.items():
             values = twist[field], before[field], again[field]
-            wrong = find(REPLIES, Reply(rules.FIELDS[field], axis, joy, *values, last_button, task))
+            wrong = find(REPLIES, Reply(FIELDS[field], axis, joy, *values, last_button, task))
             if wrong:
                 return wrong.seen, wrong.hint
         before = twist
@@ -211,13 +211,13 @@ def judge_probes(
     ]
     for field, axis in RIGHT.items():
         if any(axes[axis] and not axes[1 - axis] and not any(twist) for axes, twist in held):
-            seen = f"{rules.FIELDS[field]} is 0 when {task.names.axes[axis]} alone is moved"
-            hint = f"{rules.FIELDS[field]} = {task.answers.rules[axis]}, whatever the other axis is"
+            seen = f"{FIELDS[field]} is 0 when {task.names.axes[axis]} alone is moved"
+            hint = f"{FIELDS[field]} = {task.answers.rules[axis]}, whatever the other axis is"
             return seen, hint
     if needs_button and any(any(twist) for (_, buttons), twist in answers if not buttons[LB]):
         hint = f"publish Twist(), all zero, unless {task.answers.lb} is held"
         return f"the robot drives with {task.names.lb} released", hint
-    whole = rules.Evidence([*samples, *held], factors=evidence.factors, task=task)
+    whole = Evidence([*samples, *held], factors=evidence.factors, task=task)
     complaint, hint = rules.judge(whole)
     return (complaint, hint) if complaint else ("", "")
 

@@ -10,7 +10,7 @@ from typing import Any, Callable, Sequence
 
 from tutorial_check.handout.s4_3 import probes
 from tutorial_check.handout.s4_3.drive import Drive
-from tutorial_check.handout.s4_3.rules import FIELDS, LINEAR, RIGHT, rule_of
+from tutorial_check.handout.s4_3.evidence import FIELDS, LINEAR, RIGHT, rule_of
 from tutorial_check.handout.task import PACKAGE, Joy
 from tutorial_check.isolation.runner import GRACE_S
 from tutorial_check.record.ground import Ground
@@ -104,7 +104,7 @@ class _Driver:
         stage.wait_for_start(lambda: stage.call("listeners", JOY) or program.ended)
         connected = bool(stage.call("listeners", JOY)) and not program.ended
         if connected and wants_twist:
-            self._wait(lambda: stage.call("publishers", CMD_VEL), 1.5)
+            self._wait(1.5, lambda: stage.call("publishers", CMD_VEL))
         publishers, subscribers = stage.call("state")
         if connected:
             self._converse(wants_twist)
@@ -123,11 +123,8 @@ class _Driver:
         )  # fmt: skip
         return self._seen
 
-    def _wait(self, condition: Callable[[], Any], longest_s: float) -> None:
+    def _wait(self, longest_s: float, condition: Callable[[], Any] = lambda: False) -> None:
         self._stage.wait(lambda: self._program.ended or condition(), longest_s)
-
-    def _pause(self, longest_s: float) -> None:
-        self._wait(lambda: False, longest_s)
 
     def _count(self) -> int:
         return int(self._stage.call("count", CMD_VEL))
@@ -151,14 +148,14 @@ class _Driver:
             """Return how many of the Joys were displayed, all six axes in a line."""
             return len(probes.displayed(sent, COLOUR.sub("", self._program.output)))
 
-        self._wait(lambda: shown() >= min(5, self._seen.asked), 0.7)
+        self._wait(0.7, lambda: shown() >= min(5, self._seen.asked))
         self._note(shown=shown())
         seen = self._seen
         goes = seen.answers and not seen.unanswered and not seen.judge_probes()[0]
         if goes and RATED.intersection(self._ground.order.exercises) and not self._program.ended:
             self._stream()
             if not self._seen.is_prompt and not self._program.ended:
-                self._stream_beside_ours()
+                self._stream(beside_ours=True)
 
     def _ask_numbered(self, joys: Sequence[Joy]) -> None:
         self._one_by_one(joys, 0.0)
@@ -180,7 +177,7 @@ class _Driver:
         low = [] if self._seen.missing else probes.low_joys()
         first = self._seen.samples
         self._note(samples=(), missing=0)
-        self._pause(SETTLE_S)  # late ones belong to the first pass
+        self._wait(SETTLE_S)  # late ones belong to the first pass
         before = self._count()
         self._one_by_one([*joys, *low], SETTLE_S)
         twists = tuple(twist for _, _, twist in self._received(before))
@@ -197,7 +194,7 @@ class _Driver:
         """See whether Twists come without a Joy. The last one moves the robot."""
         begun_s, before = time.monotonic(), self._count()
         usual_s = statistics.median(self._seen.waits)
-        self._pause(max(QUIET_S, 2.5 * min(ANSWER_S, usual_s)))
+        self._wait(max(QUIET_S, 2.5 * min(ANSWER_S, usual_s)))
         unasked = self._received(before)
         has_clock = len(unasked) > 1
         late = [twist for when, _, twist in unasked if when > begun_s + SAME_S]
@@ -229,9 +226,9 @@ class _Driver:
         """Return (when a Joy was sent, what came then). often: how many Twists are waited for."""
         before = self._count()
         sent_s = self._stage.call("send", JOY, self._task.joy(joy))
-        self._wait(lambda: self._count() - before >= often, longest_s if often == 1 else SETTLE_S)
+        self._wait(longest_s if often == 1 else SETTLE_S, lambda: self._count() - before >= often)
         if settle_s:
-            self._pause(settle_s)
+            self._wait(settle_s)
         return sent_s, self._received(before)
 
     def _one_by_one(self, joys: Sequence[Joy], settle_s: float) -> None:
@@ -257,16 +254,13 @@ class _Driver:
                 self._ask(joy, 0.0, longest_s=SAME_S)
         self._note(came=self._count() - before)
 
-    def _stream_beside_ours(self) -> None:
-        stage = self._stage
-        before = stage.call("listeners", JOY)
-        echo, answers = stage.echo(self._task.axes[RIGHT[LINEAR]])
-        stage.call("listen", answers, "Twist")
-        stage.wait(lambda: echo.call("ready") and stage.call("listeners", JOY) > before, START_S)
-        self._stream(beside=answers)
-
-    def _stream(self, beside: str | None = None) -> None:
+    def _stream(self, beside_ours: bool = False) -> None:
         stage, count = self._stage, int(RATE * STREAM_S)
+        if beside_ours:
+            known = stage.call("listeners", JOY)
+            echo, answers = stage.echo(self._task.axes[RIGHT[LINEAR]])
+            stage.call("listen", answers, "Twist")
+            stage.wait(lambda: echo.call("ready") and stage.call("listeners", JOY) > known, START_S)
         before = self._count()
         joys = [self._task.joy(joy) for joy in probes.rising_joys(count)]
         stage.call("stream", JOY, joys, RATE, False)
@@ -277,7 +271,7 @@ class _Driver:
         delays = probes.delays(sent, received, rule.factor if rule else None)
         strays = probes.strays([any(twist) for _, _, twist in received])
         self._note(sent=len(sent), answered=len(received), delays=tuple(delays), strays=strays)
-        if beside:
-            echoed, sign = stage.call("received", beside), self._task.signs[RIGHT[LINEAR]]
+        if beside_ours:
+            echoed, sign = stage.call("received", answers), self._task.signs[RIGHT[LINEAR]]
             ours = statistics.median(probes.delays(sent, echoed, sign) or [0.0])
             self._note(possible=len(echoed), unavoidable_s=ours)

@@ -2,249 +2,8 @@
 
 from __future__ import annotations
 
-import itertools
-import math
-from dataclasses import dataclass, field
-from typing import Iterable, Mapping, NamedTuple, Sequence, Tuple
-
-from tutorial_check.handout.task import AXES, HANDOUT, JoystickTask
+from tutorial_check.handout.s4_3.evidence import RIGHT, SMALL, Evidence, Field, factor_of, no_number
 from tutorial_check.judge.rows import Row, find
-
-Sample = Tuple[Sequence[float], Sequence[float]]  # (axes, six values of the Twist)
-
-FIELDS = ("linear.x", "linear.y", "linear.z", "angular.x", "angular.y", "angular.z")
-LINEAR, ANGULAR = 0, 5  # the two fields that a robot in the plane obeys
-RIGHT = {LINEAR: 1, ANGULAR: 0}  # the axis that each of them follows
-SMALL = 1e-4
-
-
-class Rule(NamedTuple):
-    """field = factor * axes[axis], of all samples."""
-
-    axis: int
-    factor: float
-
-
-def is_near(one: float, other: float) -> bool:
-    return abs(one - other) <= SMALL + 0.01 * abs(other)
-
-
-def factor_of(values: Sequence[float], inputs: Sequence[float]) -> float | None:
-    """Return the constant of proportion, or None. Zeros (dead zone) and a limit may be among the values."""
-    pairs = [(value, given) for value, given in zip(values, inputs) if abs(given) > SMALL]
-    moving = [(value, given) for value, given in pairs if abs(value) > SMALL]
-    ratios = sorted((value / given for value, given in moving), key=abs)
-    if len(ratios) < max(2, 0.5 * len(pairs)):
-        return None
-    limit = max(abs(value) for value, _ in pairs)
-    dead_zone = min(abs(given) for _, given in moving)
-    # Beyond a limit the ratio is less than the factor.
-    for factor, enough in ((sorted(ratios)[len(ratios) // 2], 0.5 * len(pairs)), (ratios[-1], 3)):
-        fits = limited = 0
-        for value, given in pairs:
-            wanted = factor * given
-            if abs(value - wanted) <= 0.02 * abs(wanted) + SMALL:
-                fits += 1
-            elif abs(value) <= SMALL:
-                limited += abs(given) < dead_zone
-            else:
-                at_limit = abs(abs(value) - limit) < SMALL and limit < abs(wanted)
-                limited += at_limit and value * wanted > 0
-        if fits + limited == len(pairs) and fits >= enough:
-            return factor
-    return None
-
-
-def rule_of(index: int, samples: Iterable[Sample]) -> Rule | None:
-    samples = list(samples)
-    values = [twist[index] for _, twist in samples]
-    for axis in range(AXES):
-        factor = factor_of(values, [axes[axis] for axes, _ in samples])
-        if factor is not None:
-            return Rule(axis, factor)
-    return None
-
-
-@dataclass
-class Evidence:
-    """What a program answered; `again` to the same Joys sent earlier, `at_rest` to one with all axes 0.
-
-    factors: those that are asked for, by the index of the field; without one any is right.
-    """
-
-    samples: list[Sample]
-    again: list[Sample] = field(default_factory=list)
-    at_rest: Sequence[float] | None = None
-    factors: Mapping[int, float] = field(default_factory=dict)
-    task: JoystickTask = HANDOUT  # for the words
-
-    def __post_init__(self) -> None:
-        twists = [twist for _, twist in self.samples]
-        self.rules = {index: rule_of(index, self.samples) for index in range(6)}
-        self.moving = [i for i in range(6) if any(abs(twist[i]) > SMALL for twist in twists)]
-        self.fields = [Field(self, index, axis) for index, axis in RIGHT.items()]
-
-    @property
-    def extra(self) -> str:
-        """Return what is said of a field that should stay 0; empty if all do."""
-        index = next((each for each in self.moving if each not in RIGHT), None)
-        if index is None:
-            return ""
-        rule = self.rules[index]
-        follows = rule and f"follows {self.task.names.axes[rule.axis]}"
-        return f"{FIELDS[index]} {follows or 'is not 0'}"
-
-
-class Field:
-    """One field of the Twists, beside the axis that it should follow."""
-
-    def __init__(self, evidence: Evidence, index: int, axis: int) -> None:
-        self.evidence, self.index, self.name, self.axis = evidence, index, FIELDS[index], axis
-        self.task, self.n, self.a = evidence.task, evidence.task.names, evidence.task.answers
-        self.axes = [axes for axes, _ in evidence.samples]
-        self.values = [twist[index] for _, twist in evidence.samples]
-        self.given = [axes[axis] for axes in self.axes]
-        self.rule, self.wanted = evidence.rules[index], evidence.factors.get(index)
-
-    @property
-    def just(self) -> str:
-        return self.a.rules[self.axis]
-
-    @property
-    def n_axis(self) -> str:
-        return self.n.axes[self.axis]
-
-    @property
-    def sides(self) -> tuple[str, str]:
-        return ("forwards", "backwards") if self.axis == 1 else ("left", "right")
-
-    @property
-    def pairs(self) -> list[tuple[float, float]]:
-        return list(zip(self.given, self.values))
-
-    @property
-    def follows_its_axis(self) -> bool:
-        return bool(self.rule and self.rule.axis == self.axis and self.rule.factor > 0)
-
-    @property
-    def is_scaled(self) -> bool:
-        """Whether its factor is not the one that is asked for. Rounded to two decimals it is off by 0.005."""
-        near = self.rule and self.wanted and abs(self.rule.factor / self.wanted - 1) < 0.02
-        return self.follows_its_axis and bool(self.wanted and not near)
-
-    @property
-    def is_still(self) -> bool:
-        return self.index not in self.evidence.moving
-
-    @property
-    def is_swapped(self) -> bool:
-        other = self.evidence.rules[ANGULAR if self.index == LINEAR else LINEAR]
-        crossed = (1 - self.axis, self.axis)
-        return bool(self.rule and other and (self.rule.axis, other.axis) == crossed)
-
-    @property
-    def misplaced(self) -> str:
-        """The other field that follows its axis, or empty."""
-        strange = [each for each in self.evidence.moving if each not in RIGHT]
-        rules = ((FIELDS[each], self.evidence.rules[each]) for each in strange)
-        return next((name for name, rule in rules if rule and rule.axis == self.axis), "")
-
-    @property
-    def at_rest(self) -> float:
-        return self.evidence.at_rest[self.index] if self.evidence.at_rest else 0.0
-
-    @property
-    def other_answer(self) -> tuple[float, float] | None:
-        """What the same Joy gave earlier and now, where that differs."""
-        earlier = {tuple(axes): twist[self.index] for axes, twist in self.evidence.again}
-        known = ((tuple(axes), value) for axes, value in zip(self.axes, self.values))
-        both = ((earlier[axes], now) for axes, now in known if axes in earlier)
-        return next((each for each in both if not is_near(*each)), None)
-
-    @property
-    def product(self) -> str:
-        return self.task.product(self.rule.factor, self.axis) if self.rule else ""
-
-    def follows(self, inputs: Iterable[float]) -> bool:
-        return bool(factor_of(self.values, list(inputs)))
-
-    @property
-    def has_lost_its_sign(self) -> bool:
-        """Return whether it grows with the axis to either side: abs(), or a square."""
-        if self.follows(map(abs, self.given)):
-            return True
-        values = [value for _, value in sorted((abs(given), value) for given, value in self.pairs)]
-        varies = len({round(value, 6) for value in values}) > 0.6 * len(values)
-        return values[0] > SMALL and _rises(values) and varies
-
-    @property
-    def mixture(self) -> str:
-        """The two axes whose sum, or difference, it is, each with its factor; or empty."""
-        order = sorted(range(AXES), key=lambda axis: axis != self.axis)
-        for i, j in itertools.combinations(order if len(self.values) > 3 else (), 2):
-            (a, b), (c, d) = ((axes[i], axes[j]) for axes in self.axes[:2])
-            one, other = self.values[:2]
-            whole = a * d - b * c or math.inf
-            p, q = (one * d - other * b) / whole, (other * a - one * c) / whole
-            both = zip(self.axes, self.values)
-            fits = all(abs(p * axes[i] + q * axes[j] - value) < 1e-3 for axes, value in both)
-            if fits and min(abs(p), abs(q)) > 0.05:
-                return f"{self.task.product(p, i)} + {self.task.product(q, j)}".replace("+ -", "- ")
-        return ""
-
-    @property
-    def adds_up(self) -> bool:
-        steps = [after - before for before, after in zip(self.values, self.values[1:])]
-        if len(steps) < 3 or not self.given[-1]:
-            return False
-        factor = steps[-1] / self.given[-1]
-        # Values that only change sign are nearly twice as much as those before.
-        fits = (abs(step - factor * each) < 1e-3 for step, each in zip(steps, self.given[1:]))
-        return abs(factor) > 1e-2 and all(fits)
-
-    @property
-    def side_left_out(self) -> str:
-        for sign, side in ((1, "below"), (-1, "above")):
-            rest = [value for given, value in self.pairs if sign * given < 0]
-            pairs = sorted((abs(g), abs(value)) for g, value in self.pairs if sign * g > 0)
-            if not any(rest) and _rises([value for _, value in pairs]):
-                return side
-        return ""
-
-    @property
-    def offset(self) -> str | None:
-        offsets = [value - given for given, value in self.pairs]
-        return f"{offsets[0]:.2f}" if max(offsets) - min(offsets) < 0.02 else None
-
-    @property
-    def steps(self) -> str:
-        """Return the values if there are few for many positions; zero and a limit may be many."""
-        found = {abs(given): abs(value) for given, value in self.pairs}.values()
-        limit = max(found)
-        between = [round(value, 6) for value in found if SMALL < value < limit - SMALL]
-        limited = sum(value >= limit - SMALL for value in found)
-        kinds = len(set(between))
-        if kinds > 0.6 * len(between) or not limited + len(between) > 2 + kinds:
-            return ""
-        return ", ".join(f"{value:.2f}" for value in sorted({*between, round(limit, 6)})[:3])
-
-    @property
-    def is_curve(self) -> bool:
-        values = [value for _, value in sorted(self.pairs)]
-        signs = all(value * given >= -SMALL for given, value in self.pairs)
-        return _rises(values) and signs and min(values[-1], -values[0]) > 0.05
-
-
-def _rises(values: Sequence[float]) -> bool:
-    return all(after >= before - SMALL for before, after in zip(values, values[1:]))
-
-
-def no_number(samples: Iterable[Sample]) -> str:
-    """Return what is said of a value that is infinite or no number; empty if all are numbers."""
-    values = ((name, value) for _, twist in samples for name, value in zip(FIELDS, twist))
-    odd = next((each for each in values if not math.isfinite(each[1])), None)
-    return "{} is {}, which is no number".format(*odd) if odd else ""
-
 
 JUST = "{f.name} = {f.just}"
 PRODUCT = "{f.name} = {f.product}"
@@ -306,24 +65,21 @@ AFTER = (
 
 def judge(evidence: Evidence) -> tuple[str, str]:
     """Return (complaint, hint), each empty if there is none; a hint without a complaint is a remark."""
-    odd = [
-        find(OF_A_FIELD, each)
-        for each in evidence.fields
-        if not each.follows_its_axis or each.is_scaled
-    ]
+    fields = [Field(evidence, index, axis) for index, axis in RIGHT.items()]
+    odd = [find(OF_A_FIELD, each) for each in fields if not each.follows_its_axis or each.is_scaled]
     all_found = [find(BEFORE, evidence), *odd, find(AFTER, evidence)]
     found = next((each for each in all_found if each), None)
-    return (found.seen, found.hint) if found else ("", _remark(evidence))
+    return (found.seen, found.hint) if found else ("", _remark(fields))
 
 
-def _remark(evidence: Evidence) -> str:
-    curves = [f.name for f in evidence.fields if f.rule is None]
+def _remark(fields: list[Field]) -> str:
+    curves = [f.name for f in fields if f.rule is None]
     if curves:
         are = "are curves of their axes" if len(curves) > 1 else "is a curve of its axis"
         return f"{' and '.join(curves)} {are}, not a constant times it"
     scaled = [
         f"{f.name} = {f.product}"
-        for f in evidence.fields
+        for f in fields
         if f.rule and abs(f.rule.factor - 1) > 0.02 and not f.wanted
     ]
     return f"{', '.join(scaled)}; the handout's has no factor" if scaled else ""
