@@ -47,7 +47,6 @@ def test_hostile_value_is_one_line(filled, kind, name, text):
         ("driver", 3, "/x", "std_msgs/String", "another page drives"),
         ("driver", 7, "/x", "std_msgs/Bool", "/x: no topic of the type std_msgs/Bool"),
         ("driver", None, "/a b", "std_msgs/Bool", "/a b: no topic"),
-        ("driver", None, "/y", "no_such/Type", "/y: no topic of the type"),
         ("driver", 7, "/r/joy", "sensor_msgs/Joy", "a joystick is moved in"),
     ],
 )
