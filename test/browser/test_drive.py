@@ -21,31 +21,31 @@ def test_who_drives_how_fast_and_stop_are_above_every_tab_until_esc(world, page)
     assert page.ask(MENU)
 
     def shown():
-        speed, seat = page.text("#speed"), page.text("#seat")
-        return (speed, seat, page.ask(MENU)) == (FULL, "You drive the robot.", False)
+        speed, session = page.text("#speed"), page.text("#session")
+        return (speed, session, page.ask(MENU)) == (FULL, "You drive the robot.", False)
 
     Keys(page).drive(world, until=shown)  # Shift and an arrow drive on any tab
     for name in page.ask("[...document.querySelectorAll('[role=tab]')].map((e) => e.textContent)"):
         page.tab(name)
-        assert page.one("#seat").is_displayed() and page.one("#speed").is_displayed(), name
+        assert page.one("#session").is_displayed() and page.one("#speed").is_displayed(), name
         assert page.ask(STOP_ON_TOP), name
     Keys(page).drive(world)  # a busy machine may have stopped it meanwhile
     page.key("rawKeyDown", "Escape")
     world.wait_for_rest()
-    page.wait_for_text("#seat", "Nobody drives.")
+    page.wait_for_text("#session", "Nobody drives.")
     page.wait_for_text("#speed", "0.00 m/s, 0.00 rad/s")
     assert world.stays_at_rest()  # although all is still held
 
 
 def test_a_second_page_is_refused_until_the_first_hands_over(world, page):
     with SocketPage(urlsplit(world.address).port) as second:
-        second.hand = REST  # as a page that is open: without input it would lose the seat
+        second.hand = REST  # as a page that is open: without input it would lose the session
         Keys(page).drive(world)
         second.say("drive", robot="", mode="D")
         assert "another page drives" in second.wait_for("refused")["why"]
         page.one("#heir").send_keys(str(second.wait_for("hello")["id"]))
         page.click("Hand over")
         world.wait_for_rest()
-        second.wait_for("seat", lambda seat: seat["yours"])
-        page.wait_for_text("#seat", "drives the robot")
+        second.wait_for("session", lambda session: session["yours"])
+        page.wait_for_text("#session", "drives the robot")
         assert world.stays_at_rest()  # although the first one still holds all

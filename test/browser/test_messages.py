@@ -50,15 +50,15 @@ def test_log_keeps_1000_lines_on_a_change_of_tab_and_none_on_a_new_connection(pa
 
 def test_a_driver_who_is_handed_a_robot_looks_at_no_other(page):
     script = """hello(given);
-    const seat = {driver: 1, name: "x", robot: "robot_2", how: "page", armed: false, why: ""};
-    hear("seat", {...seat, yours: false});
+    const session = {driver: 1, name: "x", robot: "robot_2", how: "page", armed: false, why: ""};
+    hear("session", {...session, yours: false});
     const before = tab.look;
-    hear("seat", {...seat, yours: true});
+    hear("session", {...session, yours: true});
     const watched = sent.filter(([kind]) => kind === "watch").at(-1)[1];
     hear("robots", {robots: {robot_1: {}, robot_2: {}}});
     rowOf("robot_1").click();
     const driving = [tab.look, tab.floor.look, watched.look];
-    hear("seat", {...seat, driver: null, yours: false});
+    hear("session", {...session, driver: null, yours: false});
     rowOf("robot_1").click();
     done([before, driving, tab.look]);"""
     assert run(page, "robot_tab.js", ROBOT_TAB + script) == [

@@ -15,7 +15,7 @@ from tutorial_testing.two_hosts.network import AS_ROOT, Network
 from tutorial_testing.waiting import tolerance, wait_for
 
 LIMIT_S = 0.5 + 0.02  # half a second and a period of the odometry are promised
-STEADY_S = 1.0  # steady stick; more than seat.TICKS periods
+STEADY_S = 1.0  # steady stick; more than driver_session.TICKS periods
 ROBOT, PHONE = "10.11.12.1", "10.11.12.2"
 CUT = "network cut"
 
@@ -98,7 +98,7 @@ def start_server(it):
     it.world.start_cockpit()
     it.browser.wait_for_text("#connection", "Connected")
     assert "Start it again" not in it.browser.text("#notice")
-    it.browser.wait_for_text("#seat", "Nobody drives")
+    it.browser.wait_for_text("#session", "Nobody drives")
 
 
 def pull_cable(it):

@@ -46,15 +46,15 @@ def test_the_keyboard_reaches_everything_of_a_small_page_that_asks_no_other_host
 # Of the tab that is shown: whether the line above says that all is old, and whether it looks old.
 LOOKS_OLD = """(() => {
   const heading = document.querySelector("main section:not([hidden]) h2");
-  return [document.getElementById("seat").innerText,
+  return [document.getElementById("session").innerText,
           getComputedStyle(document.querySelector("main")).filter,
           heading ? getComputedStyle(heading, "::after").content : "(old)"];
 })()"""
 
 
-def test_a_server_that_hangs_leaves_the_seat_and_after_a_loss_every_tab_is_old(world, page):
+def test_a_server_that_hangs_leaves_the_session_and_after_a_loss_every_tab_is_old(world, page):
     page.click("Drive from this page")
-    page.wait_for_text("#seat", "You drive")
+    page.wait_for_text("#session", "You drive")
     number = page.text("#me")
     world.cockpit.signal(signal.SIGSTOP)
     try:
@@ -63,7 +63,7 @@ def test_a_server_that_hangs_leaves_the_seat_and_after_a_loss_every_tab_is_old(w
     finally:
         world.cockpit.signal(signal.SIGCONT)
     page.wait_for_text("#connection", "Connected")
-    page.wait_for_text("#seat", "You drive")
+    page.wait_for_text("#session", "You drive")
     assert page.text("#me") == number
     page.tab("Bag")
     page.wait_for_text("#bag-about", "joy.bag")
@@ -85,6 +85,6 @@ def test_a_server_that_hangs_leaves_the_seat_and_after_a_loss_every_tab_is_old(w
     buttons = ("take", "stop", "reset", "doctor-run", "bag-open", "bag-play", "bag-pause")
     assert [one for one in buttons if page.one(f"#{one}").is_enabled()] == []
     world.start_cockpit()
-    page.wait_for_text("#seat", "Nobody drives.")
+    page.wait_for_text("#session", "Nobody drives.")
     assert not page.ask("document.body.classList.contains('old')")
     page.errors()  # those of the loss

@@ -53,7 +53,7 @@ def test_bag_shows_the_values_at_its_slider_and_publishes_until_it_is_paused(wor
     page.wait_for_text('[data-curve="/joy/buttons[4]"] output', "1")
     page.click("Publish")
     wait_for(lambda: world.now.moves, "robot that moves")
-    page.wait_for_text("#seat", "You play a recording to the robot.")
+    page.wait_for_text("#session", "You play a recording to the robot.")
     assert "LB" not in page.text("#drive")  # no button must be held
     page.click("Pause")
     world.wait_for_rest()

@@ -5,7 +5,7 @@
  * (a hidden page, a lost pointer), and reports them.
  */
 
-import { Glass } from "./glass.js";
+import { TouchStick } from "./touch_stick.js";
 import { Keys } from "./keys.js";
 import { Pad } from "./pad.js";
 import { isAtRest, positions } from "./f710.js";
@@ -30,7 +30,7 @@ export class Driver {
     const changed = () => this.#report();
     const lost = (why) => this.release(why);
     this.keys = new Keys(() => this.isDriving, changed);
-    this.glass = new Glass(glass, changed, lost);
+    this.glass = new TouchStick(glass, changed, lost);
     this.pad = new Pad(lost);
     link.on("hello", (hello) => {
       this.names = { D: hello.pad.D.buttons, X: hello.pad.X.buttons };
@@ -46,7 +46,7 @@ export class Driver {
     return this.#timer !== null;
   }
 
-  /** This page has the seat: send what hands do, at every change and every period. */
+  /** This page has the session: send what hands do, at every change and every period. */
   start() {
     if (this.isDriving) return;
     this.#letGo();

@@ -4,7 +4,7 @@ import { BagTab } from "./bag_tab.js";
 import { byId, element, say } from "./dom.js";
 import { DoctorTab } from "./doctor_tab.js";
 import { GraphTab } from "./graph_tab.js";
-import { Link } from "./link.js";
+import { Link } from "./connection.js";
 import { LogTab } from "./log_tab.js";
 import { PlotTab } from "./plot_tab.js";
 import { RobotTab } from "./robot_tab.js";
@@ -62,7 +62,7 @@ const page = { notice, look: () => tabs.robot.look, moved: (_back) => {} };
 /** @type {Object<string, any>} */
 const tabs = Object.fromEntries(TABS.map((Tab) => [Tab.title.toLowerCase(), new Tab(link, watch, page)]));
 link.on("refused", ({ what, why }) => {
-  if (what !== "input") notice(`Not possible: ${why}.`); // the loss of the seat has a message of its own
+  if (what !== "input") notice(`Not possible: ${why}.`); // the loss of the session has a message of its own
 });
 page.moved = makeTabs(tablist, {
   onChoose(name) {

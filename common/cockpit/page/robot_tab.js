@@ -3,7 +3,7 @@
 import { byId, byName, element, number, offer, row, say } from "./dom.js";
 import { Floor } from "./floor.js";
 import { GamepadPicture } from "./gamepad_picture.js";
-import { Seat } from "./seat.js";
+import { DriverSession } from "./driver_session.js";
 
 const STALE_S = 1; // older news is greyed
 const ON_FLOOR = ".toolbar button, #glass button, #stick";
@@ -91,7 +91,7 @@ export class RobotTab {
     this.page = page;
     this.floor = new Floor(byId("floor"), () => [...byId("robot").querySelectorAll(ON_FLOOR)]);
     this.picture = new GamepadPicture(byId("pad"));
-    this.seat = new Seat(link, page.notice, this);
+    this.session = new DriverSession(link, page.notice, this);
     link.on("hello", (hello) => this.#meet(hello));
     link.on("names", ({ names }) => this.#showNames(names));
     link.on("robots", ({ robots }) => this.#showRobots(robots));
@@ -112,7 +112,7 @@ export class RobotTab {
   }
 
   connect() {
-    this.seat.show();
+    this.session.show();
   }
 
   #listen() {
@@ -158,7 +158,7 @@ export class RobotTab {
 
   /** Look at the robot that the address names. */
   goTo(name) {
-    if (name === null || name === this.#look || this.seat.yours || !/^[\w/]{0,200}$/.test(name)) return;
+    if (name === null || name === this.#look || this.session.yours || !/^[\w/]{0,200}$/.test(name)) return;
     this.asked = name;
     this.lookAt(name);
   }
@@ -171,7 +171,7 @@ export class RobotTab {
     say(byId("pad-age"), "no message yet");
     this.#showTeleop(this.#teleop.get(name) ?? { robot: name });
     this.watch({ look: name });
-    this.seat.show();
+    this.session.show();
   }
 
   #showRobots(robots) {
@@ -179,10 +179,10 @@ export class RobotTab {
     const names = JSON.stringify(Object.keys(robots));
     if (names !== this.#onFloor && names !== "[]") {
       this.#onFloor = names;
-      if (Object.keys(robots).length > 1 && !this.seat.yours) this.floor.showAll();
+      if (Object.keys(robots).length > 1 && !this.session.yours) this.floor.showAll();
     }
     const robot = robots[this.look] ?? {};
-    this.seat.showSpeed(robot);
+    this.session.showSpeed(robot);
     const turned = { ...robot, yaw: (robot.yaw * 180) / Math.PI };
     for (const [name, , , digits] of ODOMETRY) {
       say(document.querySelector(`#odometry [data-value=${name}]`), number(turned[name], Number(digits)));
@@ -201,7 +201,7 @@ export class RobotTab {
     const line = row(element("button", { className: "link" }, name || "TurtleBot"), "", "", "");
     line.dataset.robot = name;
     line.onclick = () => {
-      if (!this.seat.yours && name !== this.#look) this.#ask(name); // a driver sees the driven robot
+      if (!this.session.yours && name !== this.#look) this.#ask(name); // a driver sees the driven robot
     };
     return line;
   }
@@ -210,7 +210,7 @@ export class RobotTab {
     for (const [name, line] of this.#rows) {
       const { x, y, age } = robots[name] ?? {};
       const why = this.#teleop.get(name)?.why;
-      const texts = [`${number(x)}, ${number(y)}`, this.seat.drivers[name] || "–", why ?? "–"];
+      const texts = [`${number(x)}, ${number(y)}`, this.session.drivers[name] || "–", why ?? "–"];
       texts.forEach((text, i) => say(line.cells[i + 1], text));
       line.classList.toggle("stale", !(age < STALE_S));
       line.classList.toggle("chosen", name === this.look);
@@ -219,8 +219,8 @@ export class RobotTab {
   }
 
   #showPad({ robot, axes, buttons, age }) {
-    if (robot !== this.look || !this.seat.driver.names) return;
-    this.picture.show(this.seat.driver.names, axes, buttons);
+    if (robot !== this.look || !this.session.driver.names) return;
+    this.picture.show(this.session.driver.names, axes, buttons);
     say(byId("pad-age"), age > STALE_S ? `silent for ${number(age, 0)} s` : "");
     byId("pad").classList.toggle("stale", age > STALE_S);
   }

@@ -59,8 +59,8 @@ def of_page(port, token):
     page.wait_for("drives", lambda message: not message["refusal"])  # it has found the robot
 
     def send(number, held=1):
-        seats = page.of("seat")
-        if not (seats and seats[-1]["yours"] and seats[-1]["armed"]):
+        sessions = page.of("session")
+        if not (sessions and sessions[-1]["yours"] and sessions[-1]["armed"]):
             page.sit_down()  # at first, and where a busy machine has lost the operator
             page.hand = None
         page.say(**page.input(*hand(number, held)))

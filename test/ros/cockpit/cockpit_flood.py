@@ -60,7 +60,9 @@ class Flood(WithCockpit):
                 self.assertGreater(json.loads(program.output.splitlines()[-1])["sent"], 1000)
             self.assertGreater(drives, 0)
             # A busy machine may lose the operator for a moment; nobody else ever sits there.
-            self.assertLessEqual({seat["driver"] for seat in page.of("seat")}, {number, None})
+            self.assertLessEqual(
+                {session["driver"] for session in page.of("session")}, {number, None}
+            )
             self.assertEqual(page.of("closed"), [])
             wait_for(lambda: self.memory_kb() - before_kb <= MOST_MORE_KB, "memory as before")
 

@@ -68,7 +68,7 @@ class Refused(WithCockpit):
             for what in ("drive", "reset", "bag_play", "publish"):
                 why = page.wait_for("refused", lambda no, what=what: no["what"] == what)["why"]
                 self.assertIn("may only look", why)
-            self.assertEqual([seat for seat in page.of("seat") if seat["yours"]], [])
+            self.assertEqual([session for session in page.of("session") if session["yours"]], [])
         with self.rig.page() as page:
             page.say("release", why="x" * 100_000)
             page.wait_for("closed")

@@ -124,16 +124,18 @@ class SocketPage(Started):
         return wait_for(lambda: next(filter(fits, self.of(kind)), None), f"message {kind}")
 
     def sit_down(self):
-        count = len(self.of("seat"))
+        count = len(self.of("session"))
         self.say("drive", robot="", mode="D")
         self.hand = REST
 
         def is_armed():
             nonlocal count
-            seats = self.of("seat")[count:]
-            if seats and seats[-1]["driver"] is None:  # the page before this one has left only now
-                count += len(seats)
+            sessions = self.of("session")[count:]
+            if (
+                sessions and sessions[-1]["driver"] is None
+            ):  # the page before this one has left only now
+                count += len(sessions)
                 self.say("drive", robot="", mode="D")
-            return any(seat["yours"] and seat["armed"] for seat in seats)
+            return any(session["yours"] and session["armed"] for session in sessions)
 
-        wait_for(is_armed, "seat that is armed")
+        wait_for(is_armed, "session that is armed")

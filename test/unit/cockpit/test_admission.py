@@ -6,7 +6,7 @@ from cockpit_server.access import DRIVER, VIEWER
 from cockpit_server.admission import IDLE_S, page_to_close
 from cockpit_server.budget import Budget
 from cockpit_server.clients import LONGEST_FLOOD, Client
-from tutorial_testing.seat_room import page
+from tutorial_testing.session_room import page
 
 ADA, BOB, CY = "10.0.0.1", "10.0.0.2", "10.0.0.3"
 LONG = IDLE_S + 1

@@ -10,12 +10,12 @@ import rosbag
 import rospy
 from sensor_msgs.msg import Joy
 
+from cockpit_server.driver_session import BAG, RefusedError
 from cockpit_server.player import Player
-from cockpit_server.seat import BAG, RefusedError
 from cockpit_server.sources import bags, recording
 from cockpit_server.sources.recording import corners, read
 from gamepad.bags import BagError
-from tutorial_testing.seat_room import page as new_page
+from tutorial_testing.session_room import page as new_page
 
 
 class Page:
@@ -30,25 +30,25 @@ class Page:
         self.stand_up()
 
     def sit_down(self, client, _robot, how, _now):
-        self.seat = SimpleNamespace(driver=client.number, how=how, play=self.hear)
+        self.session = SimpleNamespace(driver=client.number, how=how, play=self.hear)
 
     def hear(self, axes, _buttons):
         self.played.append(axes[0])
 
     def stand_up(self, _client=None):
-        self.seat = SimpleNamespace(driver=None, how="")
+        self.session = SimpleNamespace(driver=None, how="")
 
     def say(self, kind, now=0.0, **fields):
         getattr(self.bags, f"on_{kind}")(self.client, now, **fields)
 
     def play(self):
         self.say("bag_play", topic="/joy", rate=1.0, loop=False, robot="")
-        return self.seat.how == BAG
+        return self.session.how == BAG
 
     def show(self):
         """Let what was opened come; return what the page is sent of it: "bag" or "refused"."""
         self.done.get(timeout=60)()
-        self.bags.give(self.client, 0.0)
+        self.bags.send_to(self.client, 0.0)
         return [one for one in self.sent if one["kind"] in ("bag", "refused")][-1]
 
     def open(self, name):
@@ -80,12 +80,12 @@ def test_recording_plays_from_where_the_page_has_put_it_until_its_end(page):
     assert page.play()
     page.bags.play(0.5)
     page.say("bag_pause", now=0.5)
-    assert page.seat.driver is None
-    page.bags.give(page.client, 0.5)
+    assert page.session.driver is None
+    page.bags.send_to(page.client, 0.5)
     assert (page.sent[-1]["position"], page.sent[-1]["playing"]) == (1.5, False)
     assert page.play()
     page.bags.play(10.0)
-    assert page.played == [0.5, 0.25] and page.seat.driver is None
+    assert page.played == [0.5, 0.25] and page.session.driver is None
 
 
 def test_recording_that_cannot_be_shown_is_refused_and_the_last_one_stays(page, monkeypatch):
@@ -110,10 +110,10 @@ def test_recording_is_read_once_for_all_pages(page, monkeypatch):
 def test_messages_of_all_open_recordings_are_bounded(page, monkeypatch):
     monkeypatch.setattr(recording, "MOST_MESSAGES", 5)  # room for one, with 3 messages each
     page.open("good.bag")
-    page.bags.prepare([page.client], 0.0)
+    page.bags.collect([page.client], 0.0)
     why = "other pages have long recordings open: close one of them"
     assert page.open("odd.bag")["why"] == why
-    page.bags.prepare([], 0.0)  # the page is gone
+    page.bags.collect([], 0.0)  # the page is gone
     assert page.open("odd.bag")["path"] == "odd.bag"
 
 

@@ -26,8 +26,8 @@ def test_refused_topic_does_not_hold_up_the_others_and_many_changes_are_one(monk
     topics = ["", *(f"/t{i}" for i in range(20)), "x"]  # in a set, so that some come after ""
     for every in (True, False, True):
         for wanted in ("/earlier", *topics):
-            all_feeds.want("page", {wanted: print}, every=True)
-        all_feeds.want("page", dict.fromkeys(topics, print), every=every)
+            all_feeds.set_subscriptions("page", {wanted: print}, every=True)
+        all_feeds.set_subscriptions("page", dict.fromkeys(topics, print), every=every)
         waiting.pop()()
         assert (waiting, subscribed) == ([], {(topic, every) for topic in topics[1:-1]})
     assert len(told) == len(topics)  # each once: two are refused, the others fail

@@ -7,10 +7,10 @@ import rospy
 from roslib.message import get_message_class
 
 from cockpit_server.clients import LOOKS_ONLY
+from cockpit_server.driver_session import RefusedError
 from cockpit_server.graph import Graph
-from cockpit_server.seat import RefusedError
 from cockpit_server.sources import forms
-from tutorial_testing.seat_room import page
+from tutorial_testing.session_room import page
 
 
 @pytest.fixture
@@ -52,7 +52,7 @@ def test_hostile_value_is_one_line(filled, kind, name, text):
 )
 def test_who_may_publish_what(role, driver, topic, kind, why):
     graph = Graph(services={"/x/reset": {"/x"}}, types={"/x": "std_msgs/String"})
-    hub = SimpleNamespace(seat=SimpleNamespace(driver=driver))
+    hub = SimpleNamespace(session=SimpleNamespace(driver=driver))
     source, (client, _) = forms.Forms(hub, SimpleNamespace(graph=graph)), page(role)
     with pytest.raises(RefusedError, match=f"^{why}"):
         source.on_publish(client, 0.0, topic=topic, type=kind, values={})

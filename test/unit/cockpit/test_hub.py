@@ -8,10 +8,10 @@ import pytest
 from cockpit_server import hub as hub_module
 from cockpit_server.access import DRIVER, VIEWER
 from cockpit_server.clients import LOOKS_ONLY, Source
+from cockpit_server.driver_session import PAGE
 from cockpit_server.graph import JOY, Graph
 from cockpit_server.hub import CONNECT_S, Hub
-from cockpit_server.seat import PAGE
-from tutorial_testing.seat_room import DRIVE, REST, page
+from tutorial_testing.session_room import DRIVE, REST, page
 
 ROBOT = {"robot": "", "mode": "D"}
 
@@ -53,18 +53,18 @@ class Made(Hub):
 
 
 class Broken(Source):
-    def prepare(self, clients, now):
-        raise KeyError("prepare")
+    def collect(self, clients, now):
+        raise KeyError("collect")
 
-    def give(self, client, now):
-        raise OSError("give")
+    def send_to(self, client, now):
+        raise OSError("send_to")
 
     def play(self, now):
         raise ZeroDivisionError("play")
 
 
 class Well(Source):
-    def give(self, client, now):
+    def send_to(self, client, now):
         client.send("well")
 
 
@@ -88,7 +88,7 @@ def test_failure_does_not_hold_up_other_sources_and_pages(clock):
     for _ in range(2):
         clock.now += 0.1
         hub.tick()
-    assert [kinds(sent) for _, sent in others] == [["hello", "seat", "well", "well"]] * 2
+    assert [kinds(sent) for _, sent in others] == [["hello", "session", "well", "well"]] * 2
     assert len(hub.told) == 4  # each once: the player, the source, and two for that page
 
 
@@ -128,7 +128,7 @@ def test_page_drives_once_all_subscribers_are_connected_or_after_a_while(
     hub.say(driver, "drive", **ROBOT)
     clock.now += after_s
     hub.hold(driver, sent, REST)
-    assert hub.seat.armed == drives
+    assert hub.session.armed == drives
 
 
 @pytest.fixture
@@ -149,21 +149,21 @@ def test_stop_of_another_page_stops_the_driver_and_a_viewers_does_nothing(driven
     hub, driver, to_driver = driven
     viewer, to_viewer = hub.opened(VIEWER)
     hub.say(viewer, "stop")
-    assert LOOKS_ONLY in to_viewer[-1]["why"] and hub.seat.armed
+    assert LOOKS_ONLY in to_viewer[-1]["why"] and hub.session.armed
     hub.say(hub.opened()[0], "stop")
-    assert (hub.published, hub.seat.driver) == ([("", *REST)], driver.number)
-    assert not hub.seat.armed  # its hands must let go first
+    assert (hub.published, hub.session.driver) == ([("", *REST)], driver.number)
+    assert not hub.session.armed  # its hands must let go first
     assert "pressed Stop" in to_driver[-1]["text"]
     hub.say(driver, "stop")
-    assert hub.seat.driver is None
+    assert hub.session.driver is None
 
 
-def test_another_joystick_frees_the_seat(driven, clock):
+def test_another_joystick_frees_the_session(driven, clock):
     hub, _, to_driver = driven
     hub.rival = "/player"
     clock.now += 0.1
     hub.tick()
-    assert (hub.published, hub.seat.driver) == ([("", *REST)], None)
+    assert (hub.published, hub.session.driver) == ([("", *REST)], None)
     [lost] = [one for one in to_driver if one["kind"] == "lost"]
     assert "/player also drives this robot" in lost["why"]
 
@@ -176,7 +176,7 @@ def test_another_joystick_frees_the_seat(driven, clock):
         (VIEWER, "", None, None, LOOKS_ONLY),
         (DRIVER, "", "/player", None, "/player publishes the joystick topic of this robot"),
         (DRIVER, "", None, 1, "another page drives"),
-        (DRIVER, "", "/player", 2, ""),  # the own seat
+        (DRIVER, "", "/player", 2, ""),  # the own session
     ],
 )
 def test_page_is_told_beforehand_what_drive_would_be_refused_for(
@@ -185,7 +185,7 @@ def test_page_is_told_beforehand_what_drive_would_be_refused_for(
     hub = Made()
     _, (client, sent) = hub.opened(), hub.opened(role)
     if driver is not None:
-        hub.seat.take(driver, "", PAGE, 0.0)
+        hub.session.take(driver, "", PAGE, 0.0)
     hub.rival = rival
     said = hub.refusal(client, robot, 0.0)
     assert said.startswith(refusal) and bool(said) == bool(refusal)

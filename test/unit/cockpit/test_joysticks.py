@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import rospy
 
 from cockpit_server import joysticks
-from tutorial_testing.seat_room import DRIVE
+from tutorial_testing.session_room import DRIVE
 
 
 def test_a_hand_that_is_still_trembles_and_only_the_driven_robot_has_a_publisher(monkeypatch):

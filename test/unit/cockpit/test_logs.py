@@ -4,7 +4,7 @@ import pytest
 from rosgraph_msgs.msg import Log
 
 from cockpit_server.sources.logs import Logs, without_folders
-from tutorial_testing.seat_room import Topics, look, page
+from tutorial_testing.session_room import Topics, look, page
 
 
 def test_page_that_watches_the_log_gets_each_line_once():

@@ -11,7 +11,7 @@ from cockpit_server.fields import parts_of, split, value_at
 from cockpit_server.graph import Graph
 from cockpit_server.sources import plots
 from cockpit_server.sources.plots import fields_of
-from tutorial_testing.seat_room import Topics, look, page
+from tutorial_testing.session_room import Topics, look, page
 
 NOW = 1000.0
 

@@ -11,7 +11,7 @@ from cockpit_server.graph import JOY, ODOMETRY, Graph, topic_of
 from cockpit_server.motion import Motion, covered
 from cockpit_server.sources import robots as robots_module
 from cockpit_server.sources.robots import LONGEST_JOY, Pads, Robots, joy_shown, shown
-from tutorial_testing.seat_room import Topics, look, page, serialised
+from tutorial_testing.session_room import Topics, look, page, serialised
 
 
 def graph(*robots):
@@ -70,7 +70,7 @@ def test_page_gets_only_the_robots_that_changed_since_it_was_sent_some():
     place("ada", 1.0)
     assert seen(one) == (False, {})  # it stands; the message still says that the server is there
     place("bob", 2.0)
-    robots.prepare([one[0]], 0.0)  # the page is behind
+    robots.collect([one[0]], 0.0)  # the page is behind
     assert seen(one) == (False, {"bob": 2.0})
     assert seen(late) == (True, {"ada": 1.0, "bob": 2.0})
     graphs.graph = graph("bob")

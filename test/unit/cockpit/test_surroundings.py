@@ -19,7 +19,7 @@ from cockpit_server.sources.surroundings import (
     map_shown,
     scan_points,
 )
-from tutorial_testing.seat_room import Topics, look, page, serialised
+from tutorial_testing.session_room import Topics, look, page, serialised
 
 TYPES = {
     "/map": "nav_msgs/OccupancyGrid", "/tf_static": "tf2_msgs/TFMessage",

@@ -7,7 +7,7 @@ from std_msgs.msg import String
 
 from cockpit_server.graph import Graph
 from cockpit_server.sources import topics
-from tutorial_testing.seat_room import Topics, look, page, serialised
+from tutorial_testing.session_room import Topics, look, page, serialised
 
 
 @pytest.mark.parametrize("rate", [0.5, 3.0, 10.0, 1000.0])

@@ -8,7 +8,7 @@ from typing import Any, Callable, ClassVar, Mapping, Sequence
 
 from cockpit_server.access import DRIVER
 from cockpit_server.budget import BURST_S, Budget
-from cockpit_server.seat import RefusedError
+from cockpit_server.driver_session import RefusedError
 from node_kit.throttle import Throttle
 
 # A page sends each change of a stick; fast gamepads have 125 in a second. [Hz]
@@ -59,7 +59,7 @@ class Client:
         if self.may_hear_no.ready(now):
             self.send("refused", what=what, why=why)
 
-    def lacks(self, about: Any, version: Any) -> bool:
+    def take_if_new(self, about: Any, version: Any) -> bool:
         """Return whether the client lacks this version; from now on it has it."""
         if self.seen.get(about) == version:
             return False
@@ -86,10 +86,10 @@ class Source:
     watches: ClassVar[Mapping[str, tuple[Callable[[Any], Any], Any]]] = {}
     messages: ClassVar[Mapping[str, Mapping[str, Callable[[Any], Any]]]] = {}
 
-    def prepare(self, clients: Sequence[Client], now: float) -> None:
+    def collect(self, clients: Sequence[Client], now: float) -> None:
         """Gather what these clients want to see; twenty times a second."""
 
-    def give(self, client: Client, now: float) -> None:
+    def send_to(self, client: Client, now: float) -> None:
         """Send a client what it lacks; it has read all that was sent before."""
 
 

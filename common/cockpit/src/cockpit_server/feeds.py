@@ -84,7 +84,7 @@ class Feeds:
         self._subscribers: dict[tuple[str, bool], Any] = {}
         self._adjust_later = OnceLater(self._adjust)
 
-    def want(self, owner: Hashable, handlers: Mapping[str, Hear], every: bool) -> None:
+    def set_subscriptions(self, owner: Hashable, handlers: Mapping[str, Hear], every: bool) -> None:
         """Have hear(message, topic) called for these topics, {topic: hear}, and for no others that
         the owner wanted before. every: for every message, or only for the newest, now and then.
         """

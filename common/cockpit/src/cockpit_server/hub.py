@@ -10,16 +10,16 @@ from typing import Any, Callable, ClassVar, Sequence
 from cockpit_server import budget, schema
 from cockpit_server.budget import SHARE, Budget
 from cockpit_server.clients import LOOKS_ONLY, Client, Source
-from cockpit_server.drives import NO_ROBOT, lost_text
+from cockpit_server.driver_session import PAGE, DriverSession, Input, RefusedError
+from cockpit_server.driving_status import NO_ROBOT, lost_text
 from cockpit_server.feeds import OnceLater
 from cockpit_server.graph_watch import GraphWatch
 from cockpit_server.guard import Guard
-from cockpit_server.seat import PAGE, Input, RefusedError, Seat
 from gamepad.gamepads import F710
 from node_kit.throttle import Throttle
 
 BEAT_S = 0.05  # period of messages to the driver, and of robots to all pages
-TICK_S = 0.01  # how often the seat and a recording that plays look at the time
+TICK_S = 0.01  # how often the session and a recording that plays look at the time
 GIVE_S = 0.005  # each tick sends to pages for this long; the next tick serves the others
 CONNECT_S = 2.0  # after which a node that is registered is not waited for any longer
 RIVAL_S = 1.0  # another joystick that was heard within that has the first say
@@ -51,11 +51,11 @@ class Hub(Source):
         self._due: deque[int] = deque()  # pages whose turn it is to be sent something
         self._may_beat = Throttle(1 / BEAT_S, burst=1.5)  # even, though the ticks are not
         self._modes: tuple[str, ...] = ()  # modes that the driving gamepad may have
-        self._seat_version = 0
+        self._session_version = 0
         self._advertised: str | None = None  # the robot for which a joystick is to be advertised
         self._advertise = OnceLater(lambda: joysticks.keep(self._advertised))
         self._sat_at = 0.0
-        self.seat = Seat(joysticks.send, self._on_lost)
+        self.session = DriverSession(joysticks.send, self._on_lost)
 
     def add(self, sources: Sequence[Source], player: Any) -> None:
         """Take in the sources and the player, the one that plays recordings."""
@@ -80,11 +80,11 @@ class Hub(Source):
 
     def leave(self, client: Client) -> None:
         self.clients.pop(client.number, None)
-        self._change(lambda: self.seat.gone(client.number))
+        self._change(lambda: self.session.gone(client.number))
 
     def wait_s(self, client: Client) -> float:
         """Return how long [s] the next message of a page waits, for what the page has cost."""
-        if client.number == self.seat.driver:
+        if client.number == self.session.driver:
             return 0.0
         now = time.monotonic()
         own = client.budget.wait_s(now, self._rate)
@@ -117,7 +117,7 @@ class Hub(Source):
         self._hear(client, data, now)
         cost_s = time.thread_time() - began_s
         client.budget.spend(cost_s)
-        if client.number != self.seat.driver:
+        if client.number != self.session.driver:
             self._messages.spend(cost_s)
 
     def _hear(self, client: Client, data: Any, now: float) -> None:
@@ -140,9 +140,9 @@ class Hub(Source):
         self._modes = (mode,)
 
     def on_stop(self, client: Client, _now: float) -> None:
-        """Stop the driven robot: the own seat is left, another page has to release all first."""
+        """Stop the driven robot: the own session is left, another page has to release all first."""
         client.must_drive()
-        if client.number == self.seat.driver:
+        if client.number == self.session.driver:
             self.stand_up(client)
         else:
             self.lose(f"{client.name} pressed Stop")
@@ -151,7 +151,7 @@ class Hub(Source):
         other = self.clients.get(to)
         if other is None or not other.drives:
             raise RefusedError("that page is closed, or may not drive")
-        self._change(lambda: self.seat.hand_over(client.number, to, now))
+        self._change(lambda: self.session.hand_over(client.number, to, now))
         self._modes = schema.MODES  # the other hand may hold another gamepad
         self._sat_at = now
 
@@ -159,28 +159,28 @@ class Hub(Source):
         self, client: Client, now: float, *, axes: Any, buttons: Any, source: str, **more: Any
     ) -> None:
         client.must_drive()
-        if client.number != self.seat.driver:
-            return  # it was on its way when the seat was lost
+        if client.number != self.session.driver:
+            return  # it was on its way when the session was lost
         schema.check_lengths(self._modes, axes, buttons)
         said = Input(axes=axes, buttons=buttons, **more)
-        may_arm = self.seat.armed or self._is_heard(now)
-        self._change(lambda: self.seat.input(client.number, said, now, may_arm))
+        may_arm = self.session.armed or self._is_heard(now)
+        self._change(lambda: self.session.input(client.number, said, now, may_arm))
 
     def _is_heard(self, now: float) -> bool:
         """Return whether all subscribers of this joystick hear it; some may never answer."""
-        listeners = self._graphs.joystick_listeners(self.seat.robot)
-        connected = listeners <= self._joysticks.listeners(self.seat.robot)
+        listeners = self._graphs.joystick_listeners(self.session.robot)
+        connected = listeners <= self._joysticks.listeners(self.session.robot)
         return connected or now - self._sat_at > CONNECT_S
 
     def on_release(self, client: Client, _now: float, why: str) -> None:
-        self._change(lambda: self.seat.release(client.number, why))
+        self._change(lambda: self.session.release(client.number, why))
 
     def sit_down(self, client: Client, robot: str, how: str, now: float) -> None:
         """Let a client drive a robot. Raises RefusedError."""
         refusal = self.refusal(client, robot, now)
         if refusal:
             raise RefusedError(refusal)
-        self._change(lambda: self.seat.take(client.number, robot, how, now))
+        self._change(lambda: self.session.take(client.number, robot, how, now))
         self._sat_at = now
 
     def refusal(self, client: Client, robot: str, now: float) -> str:
@@ -191,21 +191,21 @@ class Hub(Source):
         if not client.drives:
             return LOOKS_ONLY
         rival = self._pads.rival(robot, now - RIVAL_S)
-        if rival and self.seat.driver != client.number:
+        if rival and self.session.driver != client.number:
             return f"{rival} publishes the joystick topic of this robot: end it first"
-        return self.seat.refusal(client.number)
+        return self.session.refusal(client.number)
 
     def stand_up(self, client: Client) -> None:
-        self._change(lambda: self.seat.leave(client.number))
+        self._change(lambda: self.session.leave(client.number))
 
     def lose(self, why: str) -> None:
-        self._change(lambda: self.seat.lose(why))
+        self._change(lambda: self.session.lose(why))
 
     def _change(self, action: Callable[[], None]) -> None:
-        """Change the seat, and note the change for all pages."""
-        before = self.seat.state
+        """Change the session, and note the change for all pages."""
+        before = self.session.state
         action()
-        self._seat_version += self.seat.state != before
+        self._session_version += self.session.state != before
         if self.driven != self._advertised:
             self._advertised = self.driven
             self._advertise()
@@ -213,32 +213,32 @@ class Hub(Source):
     @property
     def driven(self) -> str | None:
         """The robot that is driven from a page, or None."""
-        return self.seat.robot if self.seat.driver is not None else None
+        return self.session.robot if self.session.driver is not None else None
 
     def _on_lost(self, number: int, why: str) -> None:
         if number in self.clients:
-            keeps = number == self.seat.driver
-            again = keeps and self.seat.how == PAGE
+            keeps = number == self.session.driver
+            again = keeps and self.session.how == PAGE
             self.clients[number].send("lost", why=why, text=lost_text(why, keeps), again=again)
 
-    def give(self, client: Client, now: float) -> None:
+    def send_to(self, client: Client, now: float) -> None:
         """Send who drives."""
-        if client.lacks("seat", self._seat_version):
-            seat = self.seat
-            name = self.clients[seat.driver].name if seat.driver in self.clients else ""
+        if client.take_if_new("session", self._session_version):
+            session = self.session
+            name = self.clients[session.driver].name if session.driver in self.clients else ""
             client.send(
-                "seat", driver=seat.driver, name=name, robot=seat.robot, how=seat.how,
-                yours=seat.driver == client.number, armed=seat.armed,
+                "session", driver=session.driver, name=name, robot=session.robot, how=session.how,
+                yours=session.driver == client.number, armed=session.armed,
             )  # fmt: skip
 
     def tick(self) -> None:
         now = time.monotonic()
-        self._change(lambda: self.seat.tick(now))
+        self._change(lambda: self.session.tick(now))
         self._guard("the player of recordings", self._player.play, now)
         if self._may_beat.ready(now):
             self._beat(now)
             clients = list(self.clients.values())
-            self._each("prepare", clients, now)
+            self._each("collect", clients, now)
             waiting = set(self._due)
             self._due.extend(number for number in self.clients if number not in waiting)
         self._give(now)
@@ -256,21 +256,23 @@ class Hub(Source):
             # One that is behind gets the newest once it has read, one in debt when that is paid.
             if client is None or client.is_behind() or client.budget.wait_s(now, self._rate):
                 continue
-            self._each("give", client, now)
+            self._each("send_to", client, now)
             ended_s = time.thread_time()
             client.budget.spend(ended_s - began_s)
             began_s = ended_s
 
     def _beat(self, now: float) -> None:
         self._pads.driven = self.driven
-        if self.seat.driver is None:
+        if self.session.driver is None:
             return
-        rival = self._pads.rival(self.seat.robot, self._sat_at)
+        rival = self._pads.rival(self.session.robot, self._sat_at)
         if rival:
-            self._change(lambda: self.seat.free(f"{rival} also drives this robot: end it first"))
+            self._change(lambda: self.session.free(f"{rival} also drives this robot: end it first"))
             return
-        driver = self.clients[self.seat.driver]
+        driver = self.clients[self.session.driver]
         self._beats += 1
-        self.seat.beat(self._beats, now)
+        self.session.beat(self._beats, now)
         if not driver.is_behind():
-            driver.send("beat", n=self._beats, time=round(time.time(), 3), input=self.seat.newest)
+            driver.send(
+                "beat", n=self._beats, time=round(time.time(), 3), input=self.session.newest
+            )

@@ -5,8 +5,8 @@ from __future__ import annotations
 import rospy
 from sensor_msgs.msg import Joy
 
+from cockpit_server.driver_session import Axes, Buttons
 from cockpit_server.graph import topic_of
-from cockpit_server.seat import Axes, Buttons
 from gamepad.liveness import Trembling
 from node_kit.rospy_patches.prompt_publisher import PromptPublisher
 

@@ -11,7 +11,7 @@ import rospy
 from tornado.ioloop import PeriodicCallback
 
 from cockpit_server.access import Access
-from cockpit_server.drives import Drives
+from cockpit_server.driving_status import DrivingStatus
 from cockpit_server.feeds import Feeds
 from cockpit_server.graph_watch import GraphWatch
 from cockpit_server.hub import TICK_S, Hub
@@ -57,7 +57,7 @@ class Cockpit:
         pads = Pads(feeds, graphs, name)
         hub = self._hub = Hub(self._soon, graphs, Joysticks(), pads, log.warn)
         bags, robots, teleop = Bags(hub), Robots(feeds, graphs), Teleop(feeds)
-        drives = Drives(hub, graphs, teleop, robots)
+        drives = DrivingStatus(hub, graphs, teleop, robots)
         sources = (
             robots, pads, teleop, drives, Resets(hub, graphs, drives),
             GraphView(graphs), Topics(feeds, graphs), Forms(hub, graphs), Plots(feeds, graphs),
@@ -97,5 +97,5 @@ class Cockpit:
         self._soon(self._ended.set)
 
     def _rest(self) -> None:
-        self._hub.seat.end()
+        self._hub.session.end()
         self._has_ended.set()

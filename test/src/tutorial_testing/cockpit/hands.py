@@ -7,9 +7,9 @@ from selenium.common.exceptions import WebDriverException
 from tutorial_testing.robot import TRY_S
 from tutorial_testing.waiting import wait_for
 
-SIT_DOWN = """document.getElementById("seat").dataset.state !== "yours"
+SIT_DOWN = """document.getElementById("session").dataset.state !== "yours"
   && document.getElementById("take").click()"""
-ARMED = "document.getElementById('seat').dataset.armed"
+ARMED = "document.getElementById('session').dataset.armed"
 # A gamepad of the standard mapping in place of the browser's: no browser here has a real one.
 FAKE_GAMEPAD = """
 globalThis.fake = {plugged: true, frozen: false, held: false, at: 0};
@@ -39,8 +39,8 @@ class Hands:
         """Repeat what hands send that still hold everything, as after a return to the page."""
 
     def drive(self, world, until=None):
-        """Take the seat if it is free, and hold all, from all released, until the robot moves, or
-        until a condition(). On a machine that is busy with much else it may take more than one go:
+        """Take the session if it is free, and hold all, from all released, until the robot moves,
+        or until a condition(). On a busy machine it may take more than one go:
         the server lets nobody drive whose page is late.
         """
 

@@ -7,10 +7,10 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import Any, ClassVar, Sequence
 
 from cockpit_server.clients import Client, Source
+from cockpit_server.driver_session import BAG, RefusedError
 from cockpit_server.graph import JOY
 from cockpit_server.player import Player
 from cockpit_server.schema import number, switch, text
-from cockpit_server.seat import BAG, RefusedError
 from cockpit_server.sources.recording import Recording, Shelf, recordings
 from gamepad.bags import BagError
 
@@ -49,7 +49,7 @@ class Bags(Source):
         self._player: Player | None = None
         self._owner = 0  # number of the client that plays
 
-    def prepare(self, clients: Sequence[Client], now: float) -> None:
+    def collect(self, clients: Sequence[Client], now: float) -> None:
         numbers = {client.number for client in clients}
         self._opened = {n: opened for n, opened in self._opened.items() if n in numbers}
         self._shelf.in_use = tuple(opened.recording for opened in self._opened.values())
@@ -60,9 +60,9 @@ class Bags(Source):
     def _look(self) -> None:
         self._names = {may_drive: sorted(recordings(may_drive)) for may_drive in (False, True)}
 
-    def give(self, client: Client, now: float) -> None:
+    def send_to(self, client: Client, now: float) -> None:
         names = self._names.get(client.drives)
-        if client.watch.bag and names and client.lacks("bags", names):
+        if client.watch.bag and names and client.take_if_new("bags", names):
             client.send("bags", names=names)
         opened = self._opened.get(client.number)
         if opened and opened.message:
@@ -77,7 +77,7 @@ class Bags(Source):
             "position": round(opened.position, 3), "playing": player is not None,
             "rate": opened.rate, "loop": opened.loop, "topic": opened.topic,
         }  # fmt: skip
-        if client.lacks("bag_at", at):
+        if client.take_if_new("bag_at", at):
             client.send("bag_at", **at)
 
     def on_bag_open(self, client: Client, now: float, name: str) -> None:
@@ -147,8 +147,10 @@ class Bags(Source):
 
     def _playing(self, number: int) -> Player | None:
         """Return what a client plays, if anything."""
-        seat = self._hub.seat
-        return self._player if number == self._owner == seat.driver and seat.how == BAG else None
+        session = self._hub.session
+        return (
+            self._player if number == self._owner == session.driver and session.how == BAG else None
+        )
 
     def play(self, now: float) -> None:
         """Publish the messages that are due."""
@@ -157,7 +159,7 @@ class Bags(Source):
             return
         client = self._hub.clients[self._owner]
         for axes, buttons in player.due(now):
-            self._hub.seat.play(axes, buttons)
+            self._hub.session.play(axes, buttons)
         if player.is_over(now):
             self._opened[self._owner].position = 0.0
             self._hub.stand_up(client)

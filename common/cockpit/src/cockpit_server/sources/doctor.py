@@ -38,8 +38,8 @@ class Doctor(Source):
         self._running, self._version = False, 0
         self._ended_at = -math.inf  # [s] end of the last run
 
-    def give(self, client: Client, now: float) -> None:
-        if self._version and client.lacks("doctor", self._version):
+    def send_to(self, client: Client, now: float) -> None:
+        if self._version and client.take_if_new("doctor", self._version):
             client.send("doctor", lines=self._lines, running=self._running)
 
     def on_doctor(self, client: Client, now: float) -> None:

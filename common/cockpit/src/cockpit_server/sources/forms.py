@@ -15,12 +15,12 @@ from genpy.message import fill_message_args
 from rosgraph.names import is_legal_name
 
 from cockpit_server.clients import Client, Source
+from cockpit_server.driver_session import RefusedError
 from cockpit_server.feeds import later
 from cockpit_server.fields import definition, form_fields
 from cockpit_server.graph import JOY
 from cockpit_server.graph_watch import GraphWatch
 from cockpit_server.schema import full_name, one_of, require, text
-from cockpit_server.seat import RefusedError
 from cockpit_server.sources.logs import without_folders
 from cockpit_server.sources.plots import class_of, fields_of
 from node_kit.ros_api import Answer
@@ -100,7 +100,7 @@ class Forms(Source):
         self._publishers: dict[Key, Any] = {}  # Publisher, or None until it is connected
         self._used: dict[Key, float] = {}  # when [s]
 
-    def prepare(self, clients: Sequence[Client], now: float) -> None:
+    def collect(self, clients: Sequence[Client], now: float) -> None:
         for key, publisher in list(self._publishers.items()):
             if publisher and now - self._used[key] > UNUSED_S:
                 del self._publishers[key]
@@ -140,7 +140,7 @@ class Forms(Source):
 
     def _must_be_free(self, client: Client) -> None:
         client.must_drive()
-        if self._hub.seat.driver not in (None, client.number):
+        if self._hub.session.driver not in (None, client.number):
             raise RefusedError("another page drives: until it ends, only that page may do this")
 
     def _begin(self, key: Key, kind: Any, message: Any) -> None:

@@ -23,7 +23,7 @@ class GraphView(Source):
         self._version, self._text = -1, ""  # the graph's version, and its message to pages
         self._pids: dict[str, int | None] = {}  # node -> process, in that version
 
-    def prepare(self, clients: Sequence[Client], now: float) -> None:
+    def collect(self, clients: Sequence[Client], now: float) -> None:
         if self._version != self._graphs.version:
             # The version first: what changes meanwhile is written down again.
             self._version, self._text, self._pids = self._graphs.version, "", {}
@@ -34,11 +34,11 @@ class GraphView(Source):
                 self._pids[node] = None
                 later(self._ask_pid, node)
 
-    def give(self, client: Client, now: float) -> None:
-        if client.watch.graph and self._text and client.lacks("graph", self._version):
+    def send_to(self, client: Client, now: float) -> None:
+        if client.watch.graph and self._text and client.take_if_new("graph", self._version):
             client.write(self._text)
         node, pid = client.watch.node, self._pids.get(client.watch.node)
-        if client.lacks("node", node and (node, self._graphs.version, pid)) and node:
+        if client.take_if_new("node", node and (node, self._graphs.version, pid)) and node:
             about = self._graphs.graph.about_node(node)
             client.send("node", **about, **({"pid": pid} if pid else {}))
 

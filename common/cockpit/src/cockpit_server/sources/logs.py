@@ -55,9 +55,9 @@ class Logs(Source):
         """
         self._lines: deque[tuple[int, bytes]] = deque(maxlen=KEPT)  # numbered
         self._numbers = itertools.count(1)
-        feeds.want(self, {"/rosout": self._hear}, every=True)
+        feeds.set_subscriptions(self, {"/rosout": self._hear}, every=True)
 
-    def give(self, client: Client, now: float) -> None:
+    def send_to(self, client: Client, now: float) -> None:
         if not client.watch.log:
             return
         known = client.seen.get("log", 0)

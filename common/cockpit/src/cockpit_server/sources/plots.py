@@ -60,7 +60,7 @@ class Plots(Source):
         self._fields: list[str] = []
         self._fields_of: list[tuple[str, str]] | None = None  # topics and types
 
-    def prepare(self, clients: Sequence[Client], now: float) -> None:
+    def collect(self, clients: Sequence[Client], now: float) -> None:
         fields = {field for client in clients for field in client.watch.fields}
         wanted: dict[str, dict[str, Any]] = {}
         published, types = self._graphs.graph.published, self._graphs.graph.types
@@ -74,14 +74,14 @@ class Plots(Source):
         with self._lock:
             self._samples = {f: self._samples.get(f) or deque(maxlen=KEPT) for f in fields}
         self._classes = {topic: class_of(types.get(topic, "")) for topic in wanted}
-        self._feeds.want(self, dict.fromkeys(wanted, self._hear), every=True)
+        self._feeds.set_subscriptions(self, dict.fromkeys(wanted, self._hear), every=True)
         topics = [(topic, types.get(topic, "")) for topic in published]
         if topics != self._fields_of and any(client.watch.field_list for client in clients):
             self._fields_of = topics
             self._fields = [f"{topic}/{name}" for topic, kind in topics for name in fields_of(kind)]
 
-    def give(self, client: Client, now: float) -> None:
-        if client.watch.field_list and client.lacks("fields", self._fields_of):
+    def send_to(self, client: Client, now: float) -> None:
+        if client.watch.field_list and client.take_if_new("fields", self._fields_of):
             client.send("fields", fields=self._fields)
         known = client.seen.get("plot", self._number)
         with self._lock:

@@ -9,11 +9,11 @@ import rospy
 from std_srvs.srv import Empty
 
 from cockpit_server.clients import Client, Source
-from cockpit_server.drives import Drives
+from cockpit_server.driver_session import RefusedError
+from cockpit_server.driving_status import DrivingStatus
 from cockpit_server.graph import Graph, topic_of
 from cockpit_server.graph_watch import GraphWatch
 from cockpit_server.schema import text
-from cockpit_server.seat import RefusedError
 
 
 def reset_service(graph: Graph, robot: str) -> str:
@@ -34,13 +34,13 @@ class Resets(Source):
 
     messages: ClassVar = {"reset": {"robot": text}}
 
-    def __init__(self, hub: Any, graph_watch: GraphWatch, drives: Drives) -> None:
+    def __init__(self, hub: Any, graph_watch: GraphWatch, drives: DrivingStatus) -> None:
         self._hub, self._graphs, self._drives = hub, graph_watch, drives
         self._asked: set[str] = set()  # names of services that have not answered yet
 
     def on_reset(self, client: Client, _now: float, robot: str) -> None:
         client.must_drive()
-        if robot == self._hub.driven and client.number != self._hub.seat.driver:
+        if robot == self._hub.driven and client.number != self._hub.session.driver:
             raise RefusedError("another page drives this robot: only that page may reset it")
         node = self._drives.node_that_drives(robot)
         if node:

@@ -46,17 +46,19 @@ class Robots(Source):
         self._texts: dict[int, str] = {}  # the last beat of which a page knows -> what it lacks
         self._kobukis: dict[str, dict[str, str]] = {}  # robot -> {led1, led2, sound: name}
 
-    def prepare(self, clients: Sequence[Client], now: float) -> None:
+    def collect(self, clients: Sequence[Client], now: float) -> None:
         # Also while no page looks: an LED keeps its colour.
         types = self._graphs.graph.types
         commands = [topic for topic, kind in types.items() if kind in KOBUKI and COMMANDS in topic]
         named = {topic.partition(COMMANDS)[0].strip("/") for topic in commands}
         self._kobukis = {r: parts for r, parts in list(self._kobukis.items()) if r in named}
-        self._feeds.want((self, "kobuki"), dict.fromkeys(commands, self._hear_command), every=True)
+        self._feeds.set_subscriptions(
+            (self, "kobuki"), dict.fromkeys(commands, self._hear_command), every=True
+        )
         watched = any(client.watch.robots for client in clients)
         known = self._graphs.graph.robots_with_odometry() if watched else ()
         topics = {topic_of(robot, "odom"): robot for robot in known}
-        self._feeds.want(self, dict.fromkeys(topics, self._hear), every=False)
+        self._feeds.set_subscriptions(self, dict.fromkeys(topics, self._hear), every=False)
         if not watched:
             self._states = {}
             return
@@ -72,11 +74,11 @@ class Robots(Source):
         self._changed.update(dict.fromkeys(changed, self._beat))
         self._shown = robots
 
-    def give(self, client: Client, now: float) -> None:
+    def send_to(self, client: Client, now: float) -> None:
         if not client.watch.robots:
             return
         names = sorted(self._graphs.graph.robots())
-        if client.lacks("names", names):
+        if client.take_if_new("names", names):
             client.send("names", names=names)
         last, client.seen["robots"] = client.seen.get("robots", -1), self._beat
         if last not in self._texts:
@@ -143,18 +145,18 @@ class Pads(Source):
         self._newest: dict[str, tuple[float, dict[str, Any] | None]] = {}
         self._rivals: dict[str, tuple[str, float]] = {}  # topic -> (node, newest message [s])
 
-    def prepare(self, clients: Sequence[Client], now: float) -> None:
+    def collect(self, clients: Sequence[Client], now: float) -> None:
         looked_at = {client.watch.look for client in clients} & self._graphs.graph.robots()
         robots = {robot for robot in (*looked_at, self.driven) if robot is not None}
         handlers = {topic_of(robot, "joy"): self._hear for robot in robots}
-        self._feeds.want(self, handlers, every=False)
+        self._feeds.set_subscriptions(self, handlers, every=False)
         self._newest = {topic: self._newest[topic] for topic in handlers if topic in self._newest}
         self._rivals = {topic: self._rivals[topic] for topic in handlers if topic in self._rivals}
 
-    def give(self, client: Client, now: float) -> None:
+    def send_to(self, client: Client, now: float) -> None:
         robot = client.watch.look
         came, joy = self._newest.get(topic_of(robot or "", "joy"), (0.0, None))
-        if client.lacks("pad", (robot, came)) and joy:
+        if client.take_if_new("pad", (robot, came)) and joy:
             client.send("pad", robot=robot, age=round(max(0.0, now - came), 3), **joy)
 
     def rival(self, robot: str, since: float) -> str | None:

@@ -44,7 +44,7 @@ class Surroundings(Source):
         self._lock = threading.Lock()  # each publisher of /tf_static has a thread
         self._pressed: dict[str, set[int]] = {}  # topic -> numbers of bumpers
 
-    def prepare(self, clients: Sequence[Client], now: float) -> None:
+    def collect(self, clients: Sequence[Client], now: float) -> None:
         graph, looks = self._graphs.graph, {c.watch.look for c in clients if c.watch.robots}
         robots = graph.robots() if looks else set()
 
@@ -61,23 +61,23 @@ class Surroundings(Source):
         events = {topic_of(robot, EVENT): (EVENT_TYPE, self._hear_bumper) for robot in robots}
         if looks and "/map" not in newest and self._map:
             self._map, self._version = {}, self._version + 1
-        self._feeds.want((self, "newest"), newest, every=False)
-        self._feeds.want((self, "events"), there(events), every=True)
+        self._feeds.set_subscriptions((self, "newest"), newest, every=False)
+        self._feeds.set_subscriptions((self, "events"), there(events), every=True)
         around = {robot: self._around(robot) for robot in sorted(robots)} if self._map else {}
         self._text = encoded("around", robots=around)
 
-    def give(self, client: Client, now: float) -> None:
-        if client.watch.robots and client.lacks("map", self._version):
+    def send_to(self, client: Client, now: float) -> None:
+        if client.watch.robots and client.take_if_new("map", self._version):
             client.send("map", **self._map)
         if not client.watch.robots or not self._map:
             return
-        if client.lacks("around", self._text):
+        if client.take_if_new("around", self._text):
             client.write(self._text)
         robot = client.watch.look
         came, data = self._newest.get(topic_of(robot or "", SCAN), (0.0, b""))
-        if robot is not None and data and client.lacks("scan", (robot, came)):
+        if robot is not None and data and client.take_if_new("scan", (robot, came)):
             points = scan_points(data, self._mounts)
-            if client.lacks("points", (robot, points, self._text)):  # none while all stand
+            if client.take_if_new("points", (robot, points, self._text)):  # none while all stand
                 client.send("scan", robot=robot, points=points)
 
     def _around(self, robot: str) -> dict[str, Any]:

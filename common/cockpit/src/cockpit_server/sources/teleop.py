@@ -42,9 +42,9 @@ class Teleop(Source):
     def __init__(self, feeds: Feeds) -> None:
         self._states: dict[str, dict[str, Any]] = {}  # robot -> its report
         self._heard: dict[str, float] = {}  # robot -> time of its newest message [s]
-        feeds.want(self, {"/diagnostics": self._hear}, every=True)
+        feeds.set_subscriptions(self, {"/diagnostics": self._hear}, every=True)
 
-    def prepare(self, clients: Sequence[Client], now: float) -> None:
+    def collect(self, clients: Sequence[Client], now: float) -> None:
         for robot, heard in list(self._heard.items()):
             if now - heard > SILENT_S:
                 self._states[robot] = SILENT
@@ -58,10 +58,10 @@ class Teleop(Source):
         if state and state["state"] == DRIVING:
             self._states[robot] = {**state, "state": "unknown", "why": UNKNOWN, "level": 1}
 
-    def give(self, client: Client, now: float) -> None:
+    def send_to(self, client: Client, now: float) -> None:
         for robot, state in list(self._states.items()):
             is_shown = client.watch.robots or client.watch.look == robot
-            if is_shown and client.lacks(f"teleop {robot}", state):
+            if is_shown and client.take_if_new(f"teleop {robot}", state):
                 client.send("teleop", robot=robot, **state)
 
     def _hear(self, message: Any, _topic: str) -> None:

@@ -91,14 +91,14 @@ class Topics(Source):
         self._topics: dict[str, Topic] = {}
         self._looked_at = -math.inf  # [s]
 
-    def prepare(self, clients: Sequence[Client], now: float) -> None:
+    def collect(self, clients: Sequence[Client], now: float) -> None:
         shown = {client.watch.topic for client in clients} - {None}
         rates = {name for client in clients for name in client.watch.rates}
         names = [*sorted(shown), *sorted(rates - shown)][:MOST_TOPICS]
         self._topics = {name: self._topics.get(name) or Topic() for name in names}
         types = self._graphs.graph.types
         there = {name: one.hear for name, one in self._topics.items() if name in types}
-        self._feeds.want(self, there, every=True)
+        self._feeds.set_subscriptions(self, there, every=True)
         is_due = now - self._looked_at >= PERIOD_S
         self._looked_at = now if is_due else self._looked_at
         for name, topic in self._topics.items():
@@ -106,8 +106,8 @@ class Topics(Source):
             if is_due:
                 topic.look(types.get(name, ""), now)
 
-    def give(self, client: Client, now: float) -> None:
-        if client.watch.rates and client.lacks("rates", self._looked_at):
+    def send_to(self, client: Client, now: float) -> None:
+        if client.watch.rates and client.take_if_new("rates", self._looked_at):
             topics = {n: self._topics[n] for n in client.watch.rates if n in self._topics}
             rates = {n: [round(t.rate, 2), round(t.bytes_per_s)] for n, t in topics.items()}
             client.send("rates", rates=rates)

@@ -3,8 +3,8 @@
 from typing import Any, Dict, NamedTuple, Optional, Sequence, Tuple
 
 from cockpit_server.clients import Client, Source
+from cockpit_server.driver_session import BAG
 from cockpit_server.graph import topic_of
-from cockpit_server.seat import BAG
 from gamepad.gamepads import F710
 from node_kit.arming import DRIVING
 
@@ -119,11 +119,11 @@ def held(about: About) -> Optional[str]:
     return None
 
 
-def lost_text(why: str, keeps_seat: bool) -> str:
-    return f"Stopped: {why}." if keeps_seat else f"This page no longer drives: {why}."
+def lost_text(why: str, keeps_session: bool) -> str:
+    return f"Stopped: {why}." if keeps_session else f"This page no longer drives: {why}."
 
 
-class Drives(Source):
+class DrivingStatus(Source):
     """Sends each page what drives the robot that it shows, and the drivers of all robots."""
 
     def __init__(self, hub: Any, graph_watch: Any, teleop: Any, robots: Any) -> None:
@@ -132,26 +132,26 @@ class Drives(Source):
         self._drivers: Dict[str, str] = {}
         self._driven = None  # from a page, the last time
 
-    def prepare(self, clients: Sequence[Client], now: float) -> None:
-        seat, driven = self._hub.seat, self._hub.driven
+    def collect(self, clients: Sequence[Client], now: float) -> None:
+        session, driven = self._hub.session, self._hub.driven
         if self._driven not in (None, driven):
             self._teleop.outdate(self._driven)  # Its driver has left since.
         self._driven = driven
         self._abouts = {robot: self._about(robot, now) for robot in self._graphs.graph.robots()}
         for robot, about in self._abouts.items():
             if about.is_driven_by_node:
-                seat.moves_on(robot)
+                session.moves_on(robot)
         self._drivers = {robot: driver(about) for robot, about in self._abouts.items()}
 
     def _about(self, robot: str, now: float) -> About:
-        seat = self._hub.seat
-        page = self._hub.clients.get(seat.driver) if robot == self._hub.driven else None
+        session = self._hub.session
+        page = self._hub.clients.get(session.driver) if robot == self._hub.driven else None
         return About(
-            driver=seat.driver if page else None,
+            driver=session.driver if page else None,
             name=page.name if page else "",
-            how=seat.how if page else "",
-            armed=bool(page) and seat.armed,
-            why=seat.why if robot == seat.stopped else "",
+            how=session.how if page else "",
+            armed=bool(page) and session.armed,
+            why=session.why if robot == session.stopped else "",
             said=self._teleop.newest(robot),
             senders=self._graphs.joysticks(robot),
             moves=self._robots.moves(robot, now),
@@ -163,7 +163,7 @@ class Drives(Source):
         about = self._abouts.get(robot, About())
         return driver(about) if about.is_driven_by_node else ""
 
-    def give(self, client: Client, now: float) -> None:
+    def send_to(self, client: Client, now: float) -> None:
         robot = client.watch.look
         about = self._abouts.get(robot, About())
         refusal = self._hub.refusal(client, robot or "", now)
@@ -176,5 +176,5 @@ class Drives(Source):
             "again": again(about),
             "drivers": self._drivers,
         }
-        if client.lacks("drives", words):
+        if client.take_if_new("drives", words):
             client.send("drives", **words)

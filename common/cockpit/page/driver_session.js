@@ -1,19 +1,19 @@
-/** The driver's seat: above all tabs who drives, how fast, and Stop; in the tab Robot driving from here. */
+/** The driver's session: above all tabs who drives, how fast, and Stop; in the tab Robot driving from here. */
 
 import { byId, number, say } from "./dom.js";
 import { Driver } from "./driver.js";
 
 const NOTHING = {
-  seat: { driver: null, yours: false, robot: "" },
+  session: { driver: null, yours: false, robot: "" },
   drives: { drivers: {}, who: "", ready: "", how: "", again: "", refusal: "" },
 };
 const STALE_S = 1; // an older speed is not shown
 const CUT = "This page no longer drives: its connection was lost. Press Drive from this page to go on.";
 
-export class Seat {
+export class DriverSession {
   #role = null; // "driver" or "viewer", once the server has said so
   #said = NOTHING; // by the server, over this connection
-  #advice = ""; // a notice of what to do, which counts as long as this page has the seat
+  #advice = ""; // a notice of what to do, which counts as long as this page has the session
 
   /** tab: the RobotTab, which has the robot, the floor, and the elements below the tabs. */
   constructor(link, notice, tab) {
@@ -23,7 +23,7 @@ export class Seat {
     this.driver = new Driver(link, byId("glass"));
     this.driver.onLost = (why) => this.#advise(`Stopped: ${why}.`);
     link.on("hello", ({ role }) => this.#begin(role));
-    link.on("seat", (seat) => this.#take(seat));
+    link.on("session", (session) => this.#take(session));
     link.on("drives", (drives) => this.#hear({ drives }));
     link.on("lost", ({ text, again }) => (again ? this.#advise(text) : notice(text)));
     byId("take").onclick = () => link.send("drive", { robot: tab.look, mode: byId("mode").value });
@@ -41,7 +41,7 @@ export class Seat {
 
   /** Whether this page drives, by hand or with a recording. */
   get yours() {
-    return this.#now.seat.yours;
+    return this.#now.session.yours;
   }
 
   /** Robot -> the name of what drives it, or "". */
@@ -58,21 +58,21 @@ export class Seat {
   /** Show what the server said last. Without a connection that is no news, and nothing drives. */
   show() {
     const { isOpen, heardAt } = this.link;
-    const { seat, drives } = this.#now;
-    const isByHand = seat.yours && seat.how !== "bag";
+    const { session, drives } = this.#now;
+    const isByHand = session.yours && session.how !== "bag";
     if (isByHand) this.driver.start();
     else this.driver.stop();
-    if (!seat.yours && byId("notice").textContent === this.#advice) this.notice("");
+    if (!session.yours && byId("notice").textContent === this.#advice) this.notice("");
     if (!isOpen) this.showSpeed({});
     const time = new Date(heardAt).toTimeString().slice(0, 8);
     const old = heardAt ? `Not connected: everything shown is from ${time}. The driver is unknown.` : "";
-    say(byId("seat"), isOpen ? drives.who : old);
-    byId("seat").dataset.armed = Boolean(seat.yours && seat.armed);
-    byId("seat").dataset.state = seat.driver === null ? "free" : seat.yours ? "yours" : "taken";
+    say(byId("session"), isOpen ? drives.who : old);
+    byId("session").dataset.armed = Boolean(session.yours && session.armed);
+    byId("session").dataset.state = session.driver === null ? "free" : session.yours ? "yours" : "taken";
     say(byId("ready"), drives.ready);
     say(byId("how-to"), drives.how);
     byId("how").hidden = !drives.how;
-    this.#showButtons(seat, drives, isByHand);
+    this.#showButtons(session, drives, isByHand);
   }
 
   #showButtons({ yours, driver, robot }, { refusal }, isByHand) {
@@ -108,12 +108,12 @@ export class Seat {
     this.#hear(NOTHING);
   }
 
-  #take(seat) {
-    if (seat.yours && !this.yours) this.tab.floor.setFollow(true); // a driver sees the driven robot
-    if (seat.yours && seat.robot !== this.tab.look) this.tab.lookAt(seat.robot); // it was handed over
-    if (seat.yours) this.driver.mode = byId("mode").value;
-    if (seat.yours && seat.armed) this.notice(""); // it may go on
-    this.#hear({ seat });
+  #take(session) {
+    if (session.yours && !this.yours) this.tab.floor.setFollow(true); // a driver sees the driven robot
+    if (session.yours && session.robot !== this.tab.look) this.tab.lookAt(session.robot); // it was handed over
+    if (session.yours) this.driver.mode = byId("mode").value;
+    if (session.yours && session.armed) this.notice(""); // it may go on
+    this.#hear({ session });
   }
 
   #advise(text) {
@@ -121,7 +121,7 @@ export class Seat {
     this.notice(this.#advice);
   }
 
-  /** Stop the robot: this page's hands let go at once, and leave the seat; another driver is stopped. */
+  /** Stop the robot: this page's hands let go at once, and leave the session; another driver is stopped. */
   #stop() {
     this.notice(""); // why it stopped before
     this.driver.stop();

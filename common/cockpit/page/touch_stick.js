@@ -2,7 +2,7 @@
 
 import { REST } from "./f710.js";
 
-export class Glass {
+export class TouchStick {
   #pointers = new Map(); // button or stick -> the pointer that holds it
   #left = [0, 0];
 

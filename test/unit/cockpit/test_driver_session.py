@@ -1,9 +1,9 @@
-"""The seat: who drives, and when the operator is lost. Times are numbers; nothing waits."""
+"""The session: who drives, and when the operator is lost. Times are numbers; nothing waits."""
 
 import pytest
 
-from cockpit_server.seat import BAG, PAGE, Input, RefusedError, is_neutral, neutral_of
-from tutorial_testing.seat_room import ANNA, BOB, DRIVE, REST, Room
+from cockpit_server.driver_session import BAG, PAGE, Input, RefusedError, is_neutral, neutral_of
+from tutorial_testing.session_room import ANNA, BOB, DRIVE, REST, Room
 
 SILENT = "no input from the page for 0.2 s"
 CLOSED = "the page was closed, or the network is down"
@@ -17,7 +17,7 @@ def room():
 LOSSES = {
     "silence": (lambda room: room.pass_time(0.21), SILENT),
     "a silence that no tick noticed": (lambda room: setattr(room, "now", room.now + 1.0), SILENT),
-    "the page says so": (lambda room: room.seat.release(ANNA, "hidden"), "hidden"),
+    "the page says so": (lambda room: room.session.release(ANNA, "hidden"), "hidden"),
 }
 
 
@@ -29,26 +29,32 @@ def test_a_loss_sends_one_neutral_message_and_then_nothing_until_all_is_released
     for _ in range(10):
         room.say(DRIVE)
     assert room.lost == [(ANNA, why)]
-    assert (room.seat.state, room.seat.stopped) == ((ANNA, "ada", PAGE, False, why), "ada")
-    room.seat.lose("hidden")  # it is lost already: nothing changes
+    assert (room.session.state, room.session.stopped) == ((ANNA, "ada", PAGE, False, why), "ada")
+    room.session.lose("hidden")  # it is lost already: nothing changes
     at_rest = room.sent.index(("ada", *REST))
     assert room.sent[:at_rest] == at_rest * [("ada", *DRIVE)]
     room.say(REST)
-    assert room.seat.state == (ANNA, "ada", PAGE, True, why)  # worth reading until it moves again
+    assert room.session.state == (
+        ANNA,
+        "ada",
+        PAGE,
+        True,
+        why,
+    )  # worth reading until it moves again
     room.say(DRIVE)
     assert room.sent[at_rest:] == [("ada", *position) for position in (REST, REST, DRIVE)]
-    assert (room.seat.why, room.seat.stopped) == ("", None)
+    assert (room.session.why, room.session.stopped) == ("", None)
     assert room.lost == [(ANNA, why)]
 
 
 ENDS = {
-    "the page is closed": (lambda seat, _: seat.gone(ANNA), None, [CLOSED]),
-    "another joystick": (lambda seat, _: seat.free("a rival"), None, ["a rival"]),
-    "the server ends": (lambda seat, _: seat.end(), None, ["the cockpit was shut down"]),
-    "it stands up": (lambda seat, _: seat.leave(ANNA), None, []),
-    "hand over": (lambda seat, now: seat.hand_over(ANNA, BOB, now), BOB, []),
-    "another robot": (lambda seat, now: seat.take(ANNA, "bob", PAGE, now), ANNA, []),
-    "the same robot": (lambda seat, now: seat.take(ANNA, "ada", PAGE, now), ANNA, []),
+    "the page is closed": (lambda session, _: session.gone(ANNA), None, [CLOSED]),
+    "another joystick": (lambda session, _: session.free("a rival"), None, ["a rival"]),
+    "the server ends": (lambda session, _: session.end(), None, ["the cockpit was shut down"]),
+    "it stands up": (lambda session, _: session.leave(ANNA), None, []),
+    "hand over": (lambda session, now: session.hand_over(ANNA, BOB, now), BOB, []),
+    "another robot": (lambda session, now: session.take(ANNA, "bob", PAGE, now), ANNA, []),
+    "the same robot": (lambda session, now: session.take(ANNA, "ada", PAGE, now), ANNA, []),
 }
 
 
@@ -56,9 +62,9 @@ ENDS = {
 def test_the_end_of_a_drive_leaves_the_robot_at_rest(room, case):
     end, driver, lost = ENDS[case]
     room.drive()
-    end(room.seat, room.now)
-    assert (room.seat.driver, room.seat.armed, room.seat.newest) == (driver, False, 0)
-    assert room.seat.why == "".join(lost)
+    end(room.session, room.now)
+    assert (room.session.driver, room.session.armed, room.session.newest) == (driver, False, 0)
+    assert room.session.why == "".join(lost)
     room.n = 0
     for client in (ANNA, BOB):
         room.say(DRIVE, client=client)
@@ -69,31 +75,31 @@ def test_the_end_of_a_drive_leaves_the_robot_at_rest(room, case):
 @pytest.mark.parametrize("other", [0, BOB])
 def test_other_clients_change_nothing(room, other):
     room.drive()
-    room.seat.leave(other)
-    room.seat.release(other, "hidden")
-    room.seat.gone(other)
+    room.session.leave(other)
+    room.session.release(other, "hidden")
+    room.session.gone(other)
     room.say(DRIVE, client=other)
     with pytest.raises(RefusedError, match="only the page that drives may hand over"):
-        room.seat.hand_over(other, other, room.now)
+        room.session.hand_over(other, other, room.now)
     with pytest.raises(RefusedError, match="another page drives; its driver may hand over"):
-        room.seat.take(other, "ada", PAGE, room.now)
+        room.session.take(other, "ada", PAGE, room.now)
     assert (room.sent, room.lost) == ([], [])
-    assert room.seat.state == (ANNA, "ada", PAGE, True, "")
+    assert room.session.state == (ANNA, "ada", PAGE, True, "")
 
 
 def test_a_recording_takes_the_same_place_and_needs_no_beats(room):
-    room.seat.take(ANNA, "ada", BAG, room.now)
+    room.session.take(ANNA, "ada", BAG, room.now)
     room.pass_time(10.0)
-    assert room.seat.state == (ANNA, "ada", BAG, True, "")
-    room.seat.play(*DRIVE)
+    assert room.session.state == (ANNA, "ada", BAG, True, "")
+    room.session.play(*DRIVE)
     room.say(DRIVE)  # a hand beside it has no say
     assert room.sent == [("ada", *DRIVE)]
     with pytest.raises(RefusedError, match="only the page that drives may hand over"):
-        room.seat.hand_over(ANNA, BOB, room.now)
-    room.seat.release(ANNA, "hidden")
-    room.seat.play(*DRIVE)
+        room.session.hand_over(ANNA, BOB, room.now)
+    room.session.release(ANNA, "hidden")
+    room.session.play(*DRIVE)
     assert room.sent == [("ada", *DRIVE), ("ada", *REST)]
-    assert room.seat.driver is None
+    assert room.session.driver is None
 
 
 def test_neutral_has_the_triggers_of_x_mode_at_one():
@@ -111,17 +117,17 @@ STICK = ((0.0, 0.5, 0.0, 0.0, 0.0, 0.0), DRIVE[1])
 
 def sit(room):
     """Let Anna sit down, and the server beat once, with the number 1."""
-    room.seat.take(ANNA, "ada", PAGE, 0.0)
-    room.seat.beat(1, 0.0)
+    room.session.take(ANNA, "ada", PAGE, 0.0)
+    room.session.beat(1, 0.0)
 
 
 def hand(room, n, now, position=REST, *, t=None, beat=1, pad=None):
     """Say one input as it is. t: 1000 now, unless it was on its way for a while."""
     message = Input(n, 1000 * now if t is None else t, beat, *position, pad)
-    room.seat.input(ANNA, message, now)
+    room.session.input(ANNA, message, now)
 
 
-def test_silence_for_a_fifth_of_a_second_is_a_loss_and_for_five_frees_the_seat(room):
+def test_silence_for_a_fifth_of_a_second_is_a_loss_and_for_five_frees_the_session(room):
     sit(room)
     hand(room, 1, 0.0)
     for now, lost, driver in (
@@ -130,10 +136,10 @@ def test_silence_for_a_fifth_of_a_second_is_a_loss_and_for_five_frees_the_seat(r
         (5.0, [SILENT], ANNA),
         (5.001, [SILENT, "no input from the page for 5 s"], None),
     ):
-        room.seat.tick(now)
+        room.session.tick(now)
         assert [why for _, why in room.lost] == lost
-        assert (room.seat.driver, room.seat.armed) == (driver, not lost)
-    assert room.seat.why == ""  # it was at rest before
+        assert (room.session.driver, room.session.armed) == (driver, not lost)
+    assert room.session.why == ""  # it was at rest before
 
 
 FRESH = {  # inputs after the beat 1 at the time 0 -> the number of the last that is taken
@@ -155,7 +161,7 @@ def test_inputs_that_are_fresh(room, case):
     sit(room)
     for one in inputs:
         hand(room, **one)
-    assert room.seat.newest == newest
+    assert room.session.newest == newest
     assert set(room.sent) <= {("ada", *REST)}
 
 
@@ -163,9 +169,9 @@ def test_inputs_that_are_fresh(room, case):
 def test_a_page_clock_may_be_slow_by_a_thousandth(room, share, taken):
     sit(room)
     for n in range(1, taken + 1 + (taken < 100)):
-        room.seat.beat(n, 4.0 * n)
+        room.session.beat(n, 4.0 * n)
         hand(room, n, 4.0 * n, t=(1 - share) * 4000.0 * n, beat=n)
-    assert room.seat.newest == taken
+    assert room.session.newest == taken
 
 
 def held(*pads, now=0.0):
@@ -197,7 +203,7 @@ def test_a_gamepad_whose_time_went_on_eight_times_is_frozen_after_a_fifth_of_a_s
     hand(room, 1, 0.0)
     for n, (now, position, pad) in enumerate(inputs, 2):
         assert room.lost == []
-        room.seat.beat(n, now)
+        room.session.beat(n, now)
         hand(room, n, now, position, beat=n, pad=pad)
     assert room.lost == [(ANNA, FROZEN)] * is_frozen
     assert room.sent[-1] == ("ada", *(REST if is_frozen else inputs[-1][1]))

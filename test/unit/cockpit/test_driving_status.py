@@ -6,16 +6,16 @@ from types import SimpleNamespace
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 
-from cockpit_server import drives
+from cockpit_server import driving_status
 from cockpit_server.access import DRIVER
 from cockpit_server.clients import LOOKS_ONLY
-from cockpit_server.drives import About, Drives, sentence
+from cockpit_server.driver_session import BAG, PAGE, DriverSession, RefusedError
+from cockpit_server.driving_status import About, DrivingStatus, sentence
 from cockpit_server.graph import Graph
 from cockpit_server.hub import Hub
-from cockpit_server.seat import BAG, PAGE, RefusedError, Seat
 from cockpit_server.sources.resets import Resets
 from cockpit_server.sources.teleop import DEADMAN, Teleop
-from tutorial_testing.seat_room import Topics, look, page
+from tutorial_testing.session_room import Topics, look, page
 
 ANNA, BOB = 1, 2
 MOVING, ARMED, FREE = ({"state": s, "deadman": d} for s, d in
@@ -43,9 +43,9 @@ WHO = {
 @pytest.mark.parametrize("case", WHO)
 def test_who_drives(case):
     about, said = WHO[case]
-    assert drives.who(about, "ada", ANNA) == said
-    assert drives.who(about, "", ANNA) == said.replace("ada", "the robot")
-    assert (drives.driver(about) == "") == said.startswith(("Nobody", "No joystick"))
+    assert driving_status.who(about, "ada", ANNA) == said
+    assert driving_status.who(about, "", ANNA) == said.replace("ada", "the robot")
+    assert (driving_status.driver(about) == "") == said.startswith(("Nobody", "No joystick"))
 
 
 UNHEARD = "No node subscribes to /ada/joy: nothing moves before you start joy2twist for ada."
@@ -75,16 +75,16 @@ READY = {  # -> why it stands and what to do now; how it is driven, without "Esc
 @pytest.mark.parametrize("case", READY)
 def test_the_page_says_why_the_robot_stands_and_what_to_do(case):
     about, said, how = READY[case]
-    assert drives.ready(about, "ada", ANNA, "") == said
-    assert drives.how_to(about, ANNA, may_drive=True) == f"{how} Esc: stop." * bool(how)
-    assert drives.how_to(about, ANNA, may_drive=False) == ""
+    assert driving_status.ready(about, "ada", ANNA, "") == said
+    assert driving_status.how_to(about, ANNA, may_drive=True) == f"{how} Esc: stop." * bool(how)
+    assert driving_status.how_to(about, ANNA, may_drive=False) == ""
     if about.driver is None:
-        viewed = drives.ready(about, "ada", ANNA, LOOKS_ONLY)
+        viewed = driving_status.ready(about, "ada", ANNA, LOOKS_ONLY)
         assert viewed == f"{said} {sentence(LOOKS_ONLY)}".strip()
 
 
 class Room:
-    """A seat, a joy2twist that reports, a graph, and a page that looks at the robot ada."""
+    """A session, a joy2twist that reports, a graph, and a page that looks at the robot ada."""
 
     refusal = Hub.refusal
 
@@ -92,18 +92,18 @@ class Room:
         self.outdated, self.report, self.senders = [], ARMED, ()
         self.page = self.client, self.sent = page(DRIVER, ANNA, look="ada")
         self.clients = {ANNA: self.client}
-        self.seat = Seat(lambda *_: None, lambda *_: None)
+        self.session = DriverSession(lambda *_: None, lambda *_: None)
         self._pads = SimpleNamespace(rival=lambda *_: None)
         graphs = self._graphs = SimpleNamespace(
             graph=SimpleNamespace(robots=lambda: ["ada"]), joysticks=lambda _: self.senders,
             joystick_listeners=lambda _: {"/joy2twist"},
         )  # fmt: skip
         teleop = SimpleNamespace(newest=lambda _: self.report, outdate=self.outdated.append)
-        self.drives = Drives(self, graphs, teleop, SimpleNamespace(moves=lambda *_: False))
+        self.drives = DrivingStatus(self, graphs, teleop, SimpleNamespace(moves=lambda *_: False))
 
     @property
     def driven(self):
-        return self.seat.robot if self.seat.driver is not None else None
+        return self.session.robot if self.session.driver is not None else None
 
     def look(self):
         look(self.drives, self.page)
@@ -114,16 +114,16 @@ def test_robot_is_not_reset_while_another_drives_it():
     graphs = SimpleNamespace(graph=Graph(services={"/ada/reset": {"/sim"}}))
     resets = Resets(room, graphs, room.drives)
     room.report, room.senders = MOVING, PLAYS
-    room.seat.why, room.seat.stopped = "hidden", "ada"
+    room.session.why, room.session.stopped = "hidden", "ada"
     room.look()
-    assert room.seat.stopped is None  # it stands no longer
+    assert room.session.stopped is None  # it stands no longer
     with pytest.raises(RefusedError, match="/rosbag_play drives this robot: stop it"):
         resets.on_reset(room.client, 0.0, "ada")
-    room.seat.take(BOB, "ada", PAGE, 0.0)
+    room.session.take(BOB, "ada", PAGE, 0.0)
     with pytest.raises(RefusedError, match="another page drives this robot"):
         resets.on_reset(room.client, 0.0, "ada")
     room.look()
-    room.seat.leave(BOB)
+    room.session.leave(BOB)
     room.look()
     assert room.outdated == ["ada"]  # that joy2twist was driving is no longer true
 

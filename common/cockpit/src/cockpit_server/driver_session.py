@@ -3,7 +3,7 @@
 Every method is given the time `now` [s] of one clock that never jumps; nothing here reads a clock.
 
 The rule for every loss: one neutral message, then silence until all buttons and sticks were seen
-released. A page that is still there keeps the seat.
+released. A page that is still there keeps the session.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ FROZEN_S = 0.2  # a gamepad's own time stands still for so long: it is frozen
 # If its time went on in so many inputs before, while nothing moved. Where the browser has it go on
 # with movements alone (Chromium on Linux, gamepad_device_linux.cc), a stick held still is no loss.
 TICKS = 8
-AWAY_S = 5.0  # without any fresh input the seat is free again
+AWAY_S = 5.0  # without any fresh input the session is free again
 KEPT_BEATS = 16  # [beats] as many as are sent in several SILENCE_S
 # The page's clock may run slower than ours by this; crystals differ by a tenth of it.
 CLOCK_DRIFT = 1e-3
@@ -55,7 +55,7 @@ def is_neutral(axes: Axes, buttons: Buttons) -> bool:
     return not any(buttons) and all(abs(a - r) <= NEUTRAL for a, r in zip(axes, rest))
 
 
-class Seat:
+class DriverSession:
     """The one place of the driver. A client is any number; a robot is a name."""
 
     def __init__(
@@ -175,7 +175,7 @@ class Seat:
             self.free("no input from the page for 5 s")
 
     def lose(self, why: str) -> None:
-        """Stop the robot; the client keeps the seat, as it may still be there."""
+        """Stop the robot; the client keeps the session, as it may still be there."""
         if self.driver is None or not self.armed:
             return
         self._keep(why)
@@ -186,7 +186,7 @@ class Seat:
             self._clear()
 
     def free(self, why: str) -> None:
-        """Stop the robot and free the seat."""
+        """Stop the robot and free the session."""
         driver = self.driver
         if driver is None:
             return

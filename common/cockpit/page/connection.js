@@ -2,7 +2,7 @@
  * The connection to the server: JSON messages both ways, and its return after a loss.
  *
  * Silence is shown at once as a loss. But the server may only be busy, or the Wi-Fi weak for a moment,
- * and a closed connection costs the driver's seat: so it stays open for a while.
+ * and a closed connection costs the driver's session: so it stays open for a while.
  */
 
 const RETRY_MS = 500;

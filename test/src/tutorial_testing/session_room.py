@@ -1,11 +1,11 @@
-"""A driver's seat, pages and what they look at, without ROS: time is a number, nothing waits."""
+"""A driver's session, pages and what they look at, without ROS: time is a number, nothing waits."""
 
 import json
 from io import BytesIO
 from types import SimpleNamespace
 
 from cockpit_server.clients import Client
-from cockpit_server.seat import PAGE, Input, Seat
+from cockpit_server.driver_session import PAGE, DriverSession, Input
 
 ANNA, BOB = 1, 2
 LB = 4
@@ -15,11 +15,11 @@ PERIOD_S = 0.05
 
 
 class Room:
-    """A seat, the pages around it, and a clock that is a number."""
+    """A session, the pages around it, and a clock that is a number."""
 
     def __init__(self):
         self.sent, self.lost = [], []
-        self.seat = Seat(
+        self.session = DriverSession(
             lambda robot, axes, buttons: self.sent.append((robot, axes, buttons)),
             lambda client, why: self.lost.append((client, why)),
         )
@@ -31,11 +31,11 @@ class Room:
         while self.now < end - 1e-9:
             self.now = min(end, self.now + PERIOD_S / 5)
             self.beat()
-            self.seat.tick(self.now)
+            self.session.tick(self.now)
 
     def beat(self):
         self.beats += 1
-        self.seat.beat(self.beats, self.now)
+        self.session.beat(self.beats, self.now)
 
     def say(self, position, client=ANNA, n=None):
         """One input, a PERIOD_S after the last one."""
@@ -44,12 +44,12 @@ class Room:
         self.n += 1
         t = 1000 * (self.now - 50.0)  # the page's clock began 50 s later
         number = self.n if n is None else n
-        self.seat.input(client, Input(number, t, self.beats, *position), self.now)
-        self.seat.tick(self.now)
+        self.session.input(client, Input(number, t, self.beats, *position), self.now)
+        self.session.tick(self.now)
 
     def drive(self):
         """Sit down, release, hold LB and the stick."""
-        self.seat.take(ANNA, "ada", PAGE, self.now)
+        self.session.take(ANNA, "ada", PAGE, self.now)
         self.beat()
         self.say(REST)
         self.say(DRIVE)
@@ -72,9 +72,9 @@ def look(source, *pages, now=0.0):
     """Let these pages look at a source; return what each of them is sent now."""
     for _, sent in pages:
         sent.clear()
-    source.prepare([client for client, _ in pages], now)
+    source.collect([client for client, _ in pages], now)
     for client, _ in pages:
-        source.give(client, now)
+        source.send_to(client, now)
     return [list(sent) for _, sent in pages]
 
 
@@ -84,7 +84,7 @@ class Topics:
     def __init__(self):
         self.handlers, self.every = {}, set()  # by topic; of which every message is wanted
 
-    def want(self, owner, handlers, every):
+    def set_subscriptions(self, owner, handlers, every):
         self.handlers.update(handlers)
         self.every.update(handlers if every else ())
 
