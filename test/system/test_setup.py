@@ -16,6 +16,7 @@ FAKES = {
     "dpkg-query": "touch installed; sed 's/^/installed /' installed",
     "apt-cache": r"printf '%s:\n  Candidate: 1\n' ${@:2}",
     "apt-get": """
+        trap 'exit 130' INT  # without it bash goes on if a sleep ends just then
         echo "$*" >>calls
         last() {
             [ "$SLOW" = "$1" ] || return 0
