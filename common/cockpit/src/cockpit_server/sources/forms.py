@@ -26,12 +26,12 @@ from cockpit_server.sources.plots import class_of, fields_of
 from node_kit.ros_api import Answer
 from node_kit.ros_api import call as ask_node
 
-MOST_FIELDS = 60  # of a form
+MOST_FIELDS = 60  # A form has no more.
 LONGEST_VALUE = 2000  # characters
 LONGEST_ANSWER, LONGEST_LINE = 4000, 200  # characters
 MOST_PUBLISHERS = 20
 UNUSED_S = 5.0  # after which a publisher ends
-CONNECT_S = 1.0  # that a new publisher waits for its subscribers
+CONNECT_S = 1.0  # A new publisher waits so long for its subscribers.
 LOOK_S = 0.02
 Key = Tuple[str, str]  # topic, type
 

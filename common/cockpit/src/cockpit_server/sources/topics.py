@@ -19,7 +19,7 @@ LONGEST_MESSAGE = 20_000  # bytes; the text of a longer one would hold up the dr
 WINDOW_S = 5.0  # over which the rate is counted
 SILENT_S, SILENT_PERIODS = 2.0, 3.0  # without a message, of the mean period: the rate is 0
 MOST_RATES = 40  # topics, as many as a page has in sight
-MOST_TOPICS = 100  # of all pages together
+MOST_TOPICS = 100  # are measured, for all pages together
 ECHOED = 3  # messages that are written in a look; others are only counted
 
 
@@ -31,7 +31,7 @@ class Topic:
         self.echo: list[tuple[int, str]] = []  # number and text of the newest
         self.rate = self.bytes_per_s = 0.0
         self._last = (0.0, 0, 0)  # when the newest came [s], how many came, of how many bytes
-        self._marks: deque[tuple[float, int, int]] = deque()  # of these some
+        self._marks: deque[tuple[float, int, int]] = deque()  # as _last was, at each look
         self._newest: deque[tuple[int, bytes]] = deque(maxlen=ECHOED)
 
     def hear(self, message: Any, _topic: str) -> None:

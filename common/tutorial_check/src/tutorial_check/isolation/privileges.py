@@ -14,7 +14,7 @@ PR_SET_PDEATHSIG, PR_SET_DUMPABLE, PR_SET_CHILD_SUBREAPER, PR_SET_NO_NEW_PRIVS =
 MOST_PIDS = 1 << 22  # that Linux has
 UNUSED = 1_000_000  # from here on, and as many again, are uids that no system uses
 FEW_IDS = 4096  # in a smaller range any uid may be in use
-MOST_THREADS = 400  # that a user may have in addition to those that run
+MOST_THREADS = 400  # A user may have so many, in addition to those that run.
 # The address space is what Python's threads reserve, not what they use.
 LIMITS = {
     resource.RLIMIT_AS: 6 << 30,
