@@ -14,7 +14,7 @@ import pytest
 
 from tutorial_testing.cockpit.chromium import Chromium
 from tutorial_testing.cockpit.hands import Keys
-from tutorial_testing.containers import INSIDE, PAGE, SOURCE, Compose, RobotInside, run
+from tutorial_testing.containers import INSIDE, PAGE, PORT, SOURCE, Compose, RobotInside, run
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
@@ -77,13 +77,13 @@ def test_up_shows_a_moving_robot_on_this_host_alone():
         wait_for_page(browser)
         row = wait_for(lambda: browser.text("#robots tr"), "robot", START_S)
         wait_for(lambda: browser.text("#robots tr") != row, "movement on the page", START_S)
-        assert "http://localhost:8080/" in compose("logs")
+        assert PAGE in compose("logs")
 
         interfaces = json.loads(run("ip", "-json", "-4", "address"))
         addresses = {one["local"] for interface in interfaces for one in interface["addr_info"]}
         for address in addresses - {"127.0.0.1"}:
             with pytest.raises(OSError):
-                socket.create_connection((address, 8080), 2).close()
+                socket.create_connection((address, PORT), 2).close()
         assert status(Host="evil.example:8080") == status(Origin="http://evil.example") == 403
         container = compose.container("demo")
         network = run("docker", "inspect", "-f", "{{.HostConfig.NetworkMode}}", container).strip()

@@ -9,6 +9,7 @@ import pytest
 from tutorial_testing.ports import free_port
 from tutorial_testing.processes import Program
 from tutorial_testing.screen import virtual_screen
+from tutorial_testing.two_hosts.network import Host
 from tutorial_testing.two_hosts.scene import Scene
 from tutorial_testing.waiting import DEADLINE_S
 
@@ -27,6 +28,17 @@ def master_uri(monkeypatch):
     uri = f"http://localhost:{free_port()}"
     monkeypatch.setenv("ROS_MASTER_URI", uri)
     return uri
+
+
+@pytest.fixture
+def host():
+    """A host of the test's own, on which each port is free, as on a user's machine."""
+    try:
+        one = Host()
+    except PermissionError as error:
+        pytest.skip(f"no network namespace for the ports 11311 and 8080: {error}")
+    yield one
+    one.close()
 
 
 @pytest.fixture(scope="session")

@@ -12,7 +12,6 @@ from pathlib import Path
 
 import pytest
 
-from tutorial_testing.two_hosts.network import Host
 from tutorial_testing.waiting import wait_for
 
 REPOSITORY = Path(__file__).resolve().parents[2]
@@ -130,16 +129,11 @@ class Student:
 
 
 @pytest.fixture
-def student(tmp_path, suite_workspace):
+def student(tmp_path, host, suite_workspace):
     """On a host of their own: roscore takes the port 11311 whatever ROS_MASTER_URI says."""
-    try:
-        host = Host()
-    except PermissionError as error:
-        pytest.skip(f"no network namespace for roscore's port 11311: {error}")
     one = Student(tmp_path, host, suite_workspace)
     yield one
     one.close()
-    host.close()
 
 
 def nothing_of_ours(student):

@@ -10,7 +10,6 @@ from pathlib import Path
 
 import pytest
 
-from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
 REPOSITORY = Path(__file__).resolve().parents[2]
@@ -73,16 +72,16 @@ def sections():
 
 
 @pytest.fixture
-def roscore(tutorial, master_uri):
+def roscore(tutorial, host, master_uri):
     """A ROS master, which the README's user starts once and keeps."""
-    with Program(tutorial, "run", "roscore", "-p", master_uri.rsplit(":", 1)[1]) as program:
+    with host.start(tutorial, "run", "roscore", "-p", master_uri.rsplit(":", 1)[1]) as program:
         wait_for(lambda: "started core service" in program.output, "roscore")
         yield
 
 
 @pytest.mark.parametrize("blocks", sections())
 @pytest.mark.usefixtures("roscore")
-def test_the_commands_of_a_section_run(blocks, tutorial, suite_workspace, screen, tmp_path):
+def test_the_commands_of_a_section_run(blocks, tutorial, host, suite_workspace, screen, tmp_path):
     environment = {"LIBGL_ALWAYS_SOFTWARE": "1", "HOME": str(tmp_path)}
     environment["TUTORIAL_WORKSPACE"] = suite_workspace  # whatever HOME is
     lasting = {}
@@ -94,7 +93,7 @@ def test_the_commands_of_a_section_run(blocks, tutorial, suite_workspace, screen
         """
         display, script = screen if "rviz" in script else "", f"cd '{tmp_path}' && {script}"
         command = ("run", *options, "bash", "-ec", script)
-        return Program(tutorial, *command, DISPLAY=display, **environment)
+        return host.start(tutorial, *command, DISPLAY=display, **environment)
 
     def run_to_its_end(script, *options):
         with run(script, *options) as program:

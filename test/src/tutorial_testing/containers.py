@@ -5,12 +5,14 @@ import os
 import subprocess
 from pathlib import Path
 
+from tutorial_testing.ports import free_port
 from tutorial_testing.robot import OBSERVER, Robot
 from tutorial_testing.waiting import wait_for
 
 SOURCE = Path(os.environ.get("CHECKED_SOURCE") or Path(__file__).resolve().parents[3])
 INSIDE = "/home/student/ros1_tutorial"
-PAGE = "http://localhost:8080/"
+PORT = free_port()  # 8080 may be another test's
+PAGE = f"http://localhost:{PORT}/"
 WITH_TESTS = f'PYTHONPATH=$PYTHONPATH:{INSIDE}/test/src exec "$@"'
 
 
@@ -32,7 +34,7 @@ class Compose:
 
     def __init__(self, file="compose.yaml", **environment):
         self._command = ("docker-compose", "-f", f"docker/{file}")
-        self._environment = environment
+        self._environment = {"COCKPIT_PORT": str(PORT), **environment}
 
     def __enter__(self):
         return self
