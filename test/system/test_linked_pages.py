@@ -15,6 +15,7 @@ WRITTEN = REPOSITORY / "test/system/linked_pages"  # what the pages show, in our
 WS = "~/ros/hydro/catkin_ws"
 TWIST = "geometry_msgs/Twist"
 CMD_VEL = f"/turtle1/cmd_vel {TWIST}"
+RECORD = "stdbuf -oL rosbag record"  # it prints at once, as it does on a screen
 FILESYSTEM = [
     ("1", "printenv | grep ROS", "ROS_PACKAGE_PATH=.*/catkin_ws/src"),
     ("1", "rospack find roscpp", "/share/roscpp$"),
@@ -161,13 +162,14 @@ JOYSTICK = [
 ]
 RECORDING = [
     ("sim", "rosrun turtlesim turtlesim_node", "Spawning turtle"),
-    ("echo", "mkdir ~/bagfiles; cd ~/bagfiles\nstdbuf -oL rosbag record -a -O all", "to /turtle1/pose"),
+    ("1", "mkdir ~/bagfiles\ncd ~/bagfiles", ""),
+    ("echo", f"cd ~/bagfiles\n{RECORD} -a -O all", "to /turtle1/pose"),
     ("keys", f"rostopic pub {CMD_VEL} -r 5 -- '[2.0, 0.0, 0.0]' '[0.0, 0.0, 1.8]'", ""),
     ("echo", "", "Subscribing to /turtle1/cmd_vel"),
-    ("1", "cd ~/bagfiles\nrostopic echo -n 2 /turtle1/cmd_vel", "z: 1.8"),
+    ("1", "rostopic echo -n 2 /turtle1/cmd_vel", "z: 1.8"),
     ("keys", CTRL_C, ""),
     ("echo", CTRL_C, ""),
-    ("echo", "stdbuf -oL rosbag record -O subset /turtle1/cmd_vel /turtle1/pose", "to /turtle1/pose"),
+    ("echo", f"{RECORD} -O subset /turtle1/cmd_vel /turtle1/pose", "to /turtle1/pose"),
     ("1", "rosbag info all.bag", r"/turtle1/cmd_vel +\d+ msgs? "),
     ("1", "rosbag play -r 2 all.bag < /dev/null", "Done."),
     ("echo", CTRL_C, ""),

@@ -8,8 +8,8 @@ def add(request):
     return request.a + request.b
 
 
-if __name__ == '__main__':
-    rospy.init_node('add_two_ints_server')
-    rospy.Service('add_two_ints', AddTwoInts, add)
+if __name__ == "__main__":
+    rospy.init_node("add_two_ints_server")
+    rospy.Service("add_two_ints", AddTwoInts, add)
     rospy.loginfo("adds")
     rospy.spin()
