@@ -171,7 +171,7 @@ RECORDING = [
     ("1", "rosbag info subset.bag", r"/turtle1/cmd_vel +\d+ msgs? "),
 ]
 ROSWTF = [
-    ("1", "roscd rosmaster && roswtf", "Found 2 warning(.*\n)+.*rosdep2 --(?!(.*\n)+.*ERROR)"),
+    ("1", "roscd rosmaster && roswtf", "rosdep2 --[^E]*Beginning tests"),
 ]
 
 
