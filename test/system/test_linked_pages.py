@@ -16,6 +16,13 @@ WS = "~/ros/hydro/catkin_ws"
 TWIST = "geometry_msgs/Twist"
 CMD_VEL = f"/turtle1/cmd_vel {TWIST}"
 RECORD = "stdbuf -oL rosbag record"  # it prints at once, as it does on a screen
+
+
+def in_a_tty(command):
+    """Return the line that runs a command with a terminal of its own, which passes keys on."""
+    return f"script -qc '{command}' /dev/null; echo ended-$((1000 + 7))"
+
+
 FILESYSTEM = [
     ("1", "printenv | grep ROS", "ROS_PACKAGE_PATH=.*/catkin_ws/src"),
     ("1", "rospack find roscpp", "/share/roscpp$"),
@@ -48,7 +55,7 @@ NODES = [
 ]
 TOPICS = [
     ("sim", "rosrun turtlesim turtlesim_node", "Spawning turtle"),
-    ("keys", "script -qc 'rosrun turtlesim turtle_teleop_key' /dev/null", "arrow keys drive"),
+    ("keys", in_a_tty("rosrun turtlesim turtle_teleop_key"), "arrow keys drive"),
     ("echo", "rostopic echo /turtle1/cmd_vel", ""),
     ("1", "cd; rosrun rqt_graph rqt_graph", "wrote .*rosgraph.png"),
     ("1", "rostopic -h", "rostopic bw"),
@@ -56,7 +63,7 @@ TOPICS = [
     ("keys", "\x1b[A", ""),
     ("echo", "", r"^  x: 2.0\n"),
     ("echo", CTRL_C, ""),
-    ("keys", CTRL_C, ""),
+    ("keys", "q", "^ended-1007"),
     ("1", "rostopic type /turtle1/cmd_vel | rosmsg show", "Vector3 angular"),
     ("keys", f"rostopic pub -1 {CMD_VEL} -- '[2.0, 0.0, 0.0]' '[0.0, 0.0, 1.8]'", "3.0 seconds"),
     ("keys", CTRL_C, ""),
@@ -146,13 +153,15 @@ JOYSTICK = [
     ("1", 'rosparam set joy_node/dev "/dev/input/js9"', ""),
     ("keys", "rosrun joy joy_node", "No joystick at /dev/input/js9"),
     ("keys", CTRL_C, ""),
-    ("keys", "script -qc 'rosrun gamepad virtual_joystick --stream ~/js0' /dev/null", "dead-man"),
+    ("keys", in_a_tty("rosrun gamepad virtual_joystick --stream ~/js0"), "dead-man"),
     ("1", "rosparam set joy_node/dev ~/js0", ""),
     ("sim", "rosrun joy joy_node", "Opened joystick"),
     ("echo", "rostopic echo joy", "axes: "),
     ("keys", "w", ""),
     ("echo", "", r"axes: \[[^,]+, (1|0\.9)"),
-    *((name, CTRL_C, "") for name in ("echo", "sim", "keys")),
+    ("echo", CTRL_C, ""),
+    ("sim", CTRL_C, ""),
+    ("keys", "q", "^ended-1007"),
 ]
 RECORDING = [
     ("sim", "rosrun turtlesim turtlesim_node", "Spawning turtle"),
