@@ -1,14 +1,37 @@
 """A student who types what a page says, in the terminals of a workspace of their own."""
 
+import contextlib
 import functools
+import os
 import re
 import shutil
+import signal
 import subprocess
 
-from tutorial_testing.waiting import wait_for
+from tutorial_testing.processes import signal_all
+from tutorial_testing.waiting import descendants, wait_for
 
 SHORT = "1"  # the terminal of commands that end; in the others each goes on until CTRL_C
-CTRL_C = "Ctrl-C"
+CTRL_C, END = "Ctrl-C", "^done-1007"
+
+
+def _group(pid):
+    with contextlib.suppress(ProcessLookupError):  # it has ended
+        return os.getpgid(pid)
+    return None
+
+
+def interrupt(shell):
+    """Send SIGINT to what runs in the group of a shell (its id), but not to the shell itself.
+
+    A shell without job control is in the same group; SIGINT may cost it what is typed next.
+    """
+
+    def running():
+        found = descendants(shell)[1:]
+        return [pid for pid in found if _group(pid) == shell]
+
+    signal_all(wait_for(running, "program to interrupt"), signal.SIGINT)
 
 
 class Student:
@@ -36,7 +59,7 @@ class Student:
         if lines:
             self._begin[name] = len(terminal.output)
         if lines == CTRL_C:
-            terminal.interrupt()
+            interrupt(terminal.pid)
         elif lines:
             terminal.type(lines)
 
@@ -44,9 +67,9 @@ class Student:
             return re.search(pattern, terminal.output[self._begin[name] :], re.MULTILINE)
 
         try:
-            if name == SHORT:
+            if name == SHORT or seen == END:
                 terminal.type("echo done-$((1000 + 7))")
-                wait_for(lambda: shown("done-1007"), f"its end after {lines!r}")
+                wait_for(lambda: shown(END), f"its end after {lines!r}")
                 assert shown(), f"no {seen!r} after {lines!r}"
             wait_for(shown, f"{seen!r} after {lines!r}")
         except AssertionError as error:
