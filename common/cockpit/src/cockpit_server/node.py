@@ -27,6 +27,7 @@ from cockpit_server.sources.robots import Pads, Robots
 from cockpit_server.sources.surroundings import Surroundings
 from cockpit_server.sources.teleop import Teleop
 from cockpit_server.sources.topics import Topics
+from cockpit_server.sources.turtles import Turtles
 from cockpit_server.web import server
 from node_kit.log import Log
 
@@ -61,7 +62,7 @@ class Cockpit:
         sources = (
             robots, pads, teleop, drives, Resets(hub, graphs, drives),
             GraphView(graphs), Topics(feeds, graphs), Forms(hub, graphs), Plots(feeds, graphs),
-            Logs(feeds), Doctor(), bags, Surroundings(feeds, graphs),
+            Logs(feeds), Doctor(), bags, Surroundings(feeds, graphs), Turtles(graphs),
         )  # fmt: skip
         hub.add(sources, player=bags)
         self._server = server(self._hub, access)
