@@ -61,6 +61,23 @@ def test_bag_shows_the_values_at_its_slider_and_publishes_until_it_is_paused(wor
     assert world.stays_at_rest()
 
 
+def test_bag_records_all_topics_into_the_folder_and_offers_the_file(world, page, ros):
+    page.tab("Bag")
+    page.click("Record all topics")
+    page.wait_for_text("#bag-recorder", "Recording page_")
+    name = page.text("#bag-recorder").split()[1]
+    wait_for(lambda: "/record_" in ros("rosnode", "list"), "recorder")
+    count = len(world.odometry)
+    wait_for(lambda: len(world.odometry) > count + 100, "odometry")
+    page.click("Stop recording")
+    page.wait_for_text("#bag-name", name)
+    page.one("#bag-name").send_keys(name)
+    page.click("Open")
+    page.wait_for_text("#bag-about", name)
+    page.wait_for_text("#bag-topics", "/odom")
+    Path(name).unlink()
+
+
 MARKS = """[...document.querySelectorAll('#plot-chart .dygraph-axis-label-x')]
     .map((e) => +e.textContent)"""
 

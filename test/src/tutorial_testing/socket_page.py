@@ -34,6 +34,7 @@ GOOD = {
     "bag_play": {"topic": "/joy", "rate": 1, "loop": False, "robot": ""},
     "bag_pause": {},
     "bag_seek": {"position": 3.5},
+    "record": {"on": False},
     "doctor": {},
     "describe": {"what": "message", "name": "std_msgs/String"},
     "publish": {"topic": "/x", "type": "std_msgs/String", "values": {"data": "a"}},

@@ -22,6 +22,7 @@ from cockpit_server.sources.forms import Forms
 from cockpit_server.sources.graph_view import GraphView
 from cockpit_server.sources.logs import Logs
 from cockpit_server.sources.plots import Plots
+from cockpit_server.sources.recorder import Recorder
 from cockpit_server.sources.repeats import Repeats
 from cockpit_server.sources.resets import Resets
 from cockpit_server.sources.robots import Pads, Robots
@@ -63,7 +64,7 @@ class Cockpit:
         sources = (
             robots, pads, teleop, drives, Resets(hub, graphs, drives),
             GraphView(graphs), Topics(feeds, graphs), forms, Repeats(forms), Plots(feeds, graphs),
-            Logs(feeds), Doctor(), bags, Surroundings(feeds, graphs), Turtles(graphs),
+            Logs(feeds), Doctor(), bags, Recorder(), Surroundings(feeds, graphs), Turtles(graphs),
         )  # fmt: skip
         hub.add(sources, player=bags)
         self._server = server(self._hub, access)
