@@ -12,7 +12,7 @@ from std_msgs.msg import String, UInt8MultiArray
 TOPICS, RATE_HZ, BIG_BYTES = 2000, 1000, 10_000_000
 rospy.init_node("many_topics")
 idle = [rospy.Publisher(f"/idle_{k}", String, queue_size=1) for k in range(TOPICS - 2)]
-fast = rospy.Publisher("/fast", String, queue_size=1)
+fast = rospy.Publisher("/fast", String, queue_size=RATE_HZ)
 big = rospy.Publisher("/big", UInt8MultiArray, queue_size=1)
 print("ready", flush=True)
 message, start_s, count = UInt8MultiArray(data=bytes(BIG_BYTES)), time.monotonic(), 0

@@ -4,6 +4,7 @@ import subprocess
 import sys
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
+from statistics import mean
 
 from live import FAKE_TURTLEBOT, JOY2TWIST, delays, master, running
 
@@ -15,6 +16,7 @@ from tutorial_testing.socket_page import SocketPage
 ALONE = 1000  # inputs
 FLOODERS, FLOOD_S, INPUTS_PER_S = 30, 60, 50
 MOST_FLOODED_S, LEAST_DRIVEN = 0.05, 0.95
+WARM = 24  # rates [at 4 Hz] that are counted over less than the whole window
 MOST_WRONG = 0.02  # of a rate
 MANY_TOPICS = [sys.executable, str(Path(__file__).with_name("many_topics.py"))]
 READ = {"stdout": subprocess.PIPE, "text": True}
@@ -68,11 +70,10 @@ def test_the_driver_goes_on_beside_many_topics_whose_rates_are_right(figure):
         page.wait_for("graph", lambda graph: len(graph["topics"]) > 2000)
         page.wait_for("topic", lambda topic: "0012 bytes" in topic["echo"][0][1])
         beside_s = delays(driver, INPUTS_PER_S, ALONE)
-        shown = page.of("rates")[-1]["rates"]["/fast"][0]
+        shown = [message["rates"]["/fast"][0] for message in page.of("rates")[WARM:]]
         publisher.terminate()
-        seconds = [line.split() for line in publisher.stdout]
-    (before, before_s), (after, after_s) = (map(float, seconds[k]) for k in (-6, -1))
-    wrong = abs(shown * (after_s - before_s) / (after - before) - 1)
+        *_, (count, took_s) = [line.split() for line in publisher.stdout]
+    wrong = abs(mean(shown) * float(took_s) / float(count) - 1)
     check(figure, "a page with 2,000 topics, 10 MB and 1 kHz", beside_s, alone_s)
     figure("the rate of 1 kHz that it shows", f"{wrong:.2%} wrong", f"<= {MOST_WRONG:.0%}")
     assert wrong <= MOST_WRONG
@@ -82,6 +83,6 @@ def check(figure, what, beside_s, alone_s):
     """Take the delay beside something as a figure, and judge it."""
     late_s, usual_s = (one[int(0.99 * len(one))] for one in (beside_s, alone_s))
     found = f"{1e3 * late_s:.1f} ms ({1e3 * usual_s:.1f} ms without them)"
-    demanded = f"<= {1e3 * MOST_FLOODED_S:.1f} ms"
+    demanded = f"<= {1e3 * MOST_FLOODED_S:.1f} ms, and what it is without them"
     figure(f"an input until /cmd_vel beside {what}, 99 of 100", found, demanded)
-    assert late_s <= MOST_FLOODED_S
+    assert late_s <= MOST_FLOODED_S + usual_s  # of a busy machine
