@@ -9,7 +9,7 @@ from tutorial_testing.session_room import page
 from tutorial_testing.waiting import wait_for
 
 # In the place of rosbag record: its file has a line once it has ended as it is asked to.
-FAKE = "trap 'echo whole > \"$0\"; exit' INT; touch \"$0.active\"; while :; do sleep 0.1; done"
+FAKE = 'trap \'echo whole > "$0"; exit\' INT; touch "$0.active"; while :; do sleep 0.1; done'
 
 
 @pytest.fixture

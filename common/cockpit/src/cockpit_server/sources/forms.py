@@ -156,7 +156,9 @@ class Forms(Source):
     def on_call(self, client: Client, _now: float, service: str, values: Mapping[str, str]) -> None:
         self._call(client, service, lambda: call(service, values))
 
-    def on_set(self, client: Client, _now: float, parameter: str, values: Mapping[str, str]) -> None:
+    def on_set(
+        self, client: Client, _now: float, parameter: str, values: Mapping[str, str]
+    ) -> None:
         self._must_be_free(client)
         if "value" not in values:
             raise RefusedError('write a value, such as 0.5, [1, 2], a text, or "" for an empty one')

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import os
 import signal
-import subprocess
 import threading
 import time
 from contextlib import suppress
+from subprocess import DEVNULL, Popen
 from typing import Any, ClassVar
 
 import rospy
@@ -16,8 +16,8 @@ from cockpit_server.clients import Client, Source
 from cockpit_server.driver_session import RefusedError
 from cockpit_server.schema import switch
 
-LARGEST_MB, LONGEST = 150, "1h"  # then it ends; Bag opens up to 200 MB
-COMMAND = ("rosbag", "record", "-q", "-a", f"--size={LARGEST_MB}", f"--duration={LONGEST}", "-O")
+# It ends at 150 MB, as Bag opens up to 200 MB, or after an hour.
+COMMAND = ("rosbag", "record", "-q", "-a", "--size=150", "--duration=1h", "-O")
 
 
 class Recorder(Source):
@@ -42,19 +42,14 @@ class Recorder(Source):
             raise RefusedError(f"{self._name} is being recorded")
         else:
             self._name = time.strftime("page_%Y-%m-%d-%H-%M-%S.bag")
-            threading.Thread(target=self._record, args=(self._name,), daemon=True).start()
+            threading.Thread(target=self._record, daemon=True).start()
 
-    def _record(self, name: str) -> None:
-        streams = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL}
-        try:
-            self._process = subprocess.Popen([*COMMAND, name], start_new_session=True, **streams)
-            code = self._process.wait()
-            if code and not os.path.exists(name):
-                rospy.logwarn("cockpit: rosbag record cannot write %s here", name)
-        except OSError as error:
-            rospy.logwarn("cockpit: rosbag record: %s", error.strerror)
-        finally:
-            self._process, self._name = None, ""
+    def _record(self) -> None:
+        command = [*COMMAND, self._name]
+        self._process = Popen(command, start_new_session=True, stdin=DEVNULL, stdout=DEVNULL)
+        if self._process.wait() and not os.path.exists(self._name):
+            rospy.logwarn("cockpit: rosbag record cannot write %s here", self._name)
+        self._process, self._name = None, ""
 
     def _stop(self) -> None:
         process = self._process

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any, ClassVar, Sequence
+from typing import ClassVar, Sequence
 
 import rosgraph
 
@@ -49,7 +49,8 @@ class Turtles(Source):
         answer, given = call(str(uri), "picture", version, timeout_s=TIMEOUT_S)
         if answer is Answer.SILENT:  # it is busy
             return version, picture
-        if answer is not Answer.WELL or not is_picture(given):  # a real turtlesim has a window
+        types = [type(one) for one in given] if isinstance(given, list) else []
+        if types != [int, str] or len(given[1]) > LONGEST_PICTURE:  # a real turtlesim has a window
             return None
         return given[0], given[1] or picture
 
@@ -59,12 +60,3 @@ class Turtles(Source):
         if client.watch.turtles and client.take_if_new("turtles", versions):
             new = {n: "" if known.get(n) == v else png for n, (v, png) in pictures.items()}
             client.send("turtles", pictures=new)
-
-
-def is_picture(given: Any) -> bool:
-    """Return whether this is a version and a picture, or "" for the one that is known."""
-    return (
-        isinstance(given, list)
-        and [type(one) for one in given] == [int, str]
-        and len(given[1]) <= LONGEST_PICTURE
-    )
