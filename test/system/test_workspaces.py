@@ -4,6 +4,8 @@ import os
 import subprocess
 from pathlib import Path
 
+import pytest
+
 from tutorial_testing.waiting import LONGEST_S
 
 # No workspace sourced.
@@ -20,6 +22,7 @@ def shell(script, **environment):
     return done.stdout
 
 
+@pytest.mark.night  # it builds all packages
 def test_the_installed_suite_is_whole_and_drives_without_its_sources(clone, tmp_path, master_uri):
     """Built in a catkin workspace that has a link to the clone in its src folder."""
     noetic, suite = Path("/opt/ros/noetic/setup.bash"), tmp_path / "src/ros1_tutorial"
