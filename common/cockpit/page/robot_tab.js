@@ -233,9 +233,7 @@ export class RobotTab {
       if (png) figure.firstChild.src = `data:image/png;base64,${png}`;
       return figure;
     });
-    if (figures.some((one, i) => one !== byId("turtles").children[i]) || shown.size !== figures.length) {
-      byId("turtles").replaceChildren(...figures);
-    }
+    byId("turtles").replaceChildren(...figures);
     byId("turtles").hidden = !figures.length;
     byId("floor").parentElement.hidden = figures.length > 0 && !this.#names.length;
   }

@@ -14,7 +14,6 @@ NUMBERS = {
     "bool", "byte", "char", "float32", "float64", "int16", "int32", "int64", "int8", "uint16",
     "uint32", "uint64", "uint8", "time", "duration",
 }  # fmt: skip
-FIRST_ENTRIES = 12  # entries of an array of fixed length that are offered; others by name
 MOST_ENTRIES = 2000  # of an array as a whole
 DEEPEST = 8
 _CONSTANT = re.compile(r"^\s*(\w+)\s+(\w+)\s*=\s*(.*?)\s*$", re.MULTILINE)
@@ -26,26 +25,18 @@ def numeric_fields(
 ) -> Iterator[str]:
     """Yield the names of a class's numbers. class_of: type name -> class or None.
 
-    Of an array whose length only messages have, there is the array as a whole.
+    An array is one name, as only messages have its length; of messages, the first one's numbers.
     """
     if depth == 0:
         return
     for name, slot_type in zip(kind.__slots__, kind._slot_types):
-        base, _, length = slot_type.partition("[")
-        if not length:
-            names = [name]
-        elif base in NUMBERS:
-            count = min(int(length.rstrip("]") or 0), FIRST_ENTRIES)
-            names = [name, *(f"{name}[{i}]" for i in range(count))]
-        else:
-            names = [f"{name}[0]"]  # of an array of messages, which may be any long
+        base, is_array, _ = slot_type.partition("[")
         if base in NUMBERS:
-            yield from names
+            yield name
         elif base != "string":
-            inner = class_of(base)
-            if inner:
-                for inside in numeric_fields(inner, class_of, depth - 1):
-                    yield from (f"{one}/{inside}" for one in names)
+            inner, first = class_of(base), f"{name}[0]" if is_array else name
+            inside = numeric_fields(inner, class_of, depth - 1) if inner else ()
+            yield from (f"{first}/{one}" for one in inside)
 
 
 def definition(kind: Any, class_of: Callable[[str], Any], indent: str = "") -> Iterator[str]:
