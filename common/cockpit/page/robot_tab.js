@@ -141,6 +141,7 @@ export class RobotTab {
   #showNames(names) {
     this.#names = names = [...names].sort(byName);
     byId("class").hidden = names.length < 2;
+    this.#arrange();
     this.#rows = new Map(names.map((name) => [name, this.#rows.get(name) ?? this.#rowOf(name)]));
     byId("robots").replaceChildren(...this.#rows.values());
     if (this.#look === null && names.length) this.lookAt(names[0]);
@@ -235,7 +236,12 @@ export class RobotTab {
     });
     byId("turtles").replaceChildren(...figures);
     byId("turtles").hidden = !figures.length;
-    byId("floor").parentElement.hidden = figures.length > 0 && !this.#names.length;
+    this.#arrange();
+  }
+
+  /** The floor has its place unless there are turtles alone. */
+  #arrange() {
+    byId("floor").parentElement.hidden = !byId("turtles").hidden && !this.#names.length;
   }
 
   #showPad({ robot, axes, buttons, age }) {
