@@ -37,8 +37,7 @@ class Field:
     ) -> None:  # fmt: skip
         """Begin with turtle1. background: is asked for the color of a blank paper."""
         self._background, self._inform, self._warn = background, inform, warn
-        self._paper, self.version = Image.new("RGB", (SIZE, SIZE)), 0
-        self._now_s = now_s
+        self._paper, self.version, self._now_s = Image.new("RGB", (SIZE, SIZE)), 0, now_s
         self._begin()
 
     def call(self, name: str, values: Mapping[str, float | str], now_s: float) -> str:
