@@ -52,7 +52,7 @@ def test_the_driver_goes_on_beside_thirty_viewers_that_flood(figure):
             flooded_s = delays(page, INPUTS_PER_S, count)
     driven = len(flooded_s) / count
     what = f"{FLOODERS} viewers that flood for {FLOOD_S} s"
-    check(figure, what, flooded_s, alone_s)
+    check(figure, what, flooded_s, alone_s, MOST_FLOODED_S)
     figure("velocities for inputs meanwhile", f"{driven:.1%}", f"> {LEAST_DRIVEN:.0%}")
     assert driven > LEAST_DRIVEN
 
@@ -74,15 +74,17 @@ def test_the_driver_goes_on_beside_many_topics_whose_rates_are_right(figure):
         publisher.terminate()
         *_, (count, took_s) = [line.split() for line in publisher.stdout]
     wrong = abs(mean(shown) * float(took_s) / float(count) - 1)
-    check(figure, "a page with 2,000 topics, 10 MB and 1 kHz", beside_s, alone_s)
+    # A busy machine adds what it adds without them.
+    most_s = max(MOST_FLOODED_S, 2 * alone_s[int(0.99 * len(alone_s))])
+    check(figure, "a page with 2,000 topics, 10 MB and 1 kHz", beside_s, alone_s, most_s)
     figure("the rate of 1 kHz that it shows", f"{wrong:.2%} wrong", f"<= {MOST_WRONG:.0%}")
     assert wrong <= MOST_WRONG
 
 
-def check(figure, what, beside_s, alone_s):
+def check(figure, what, beside_s, alone_s, most_s):
     """Take the delay beside something as a figure, and judge it."""
     late_s, usual_s = (one[int(0.99 * len(one))] for one in (beside_s, alone_s))
     found = f"{1e3 * late_s:.1f} ms ({1e3 * usual_s:.1f} ms without them)"
-    demanded = f"<= {1e3 * MOST_FLOODED_S:.1f} ms, and what it is without them"
+    demanded = f"<= {1e3 * most_s:.1f} ms"
     figure(f"an input until /cmd_vel beside {what}, 99 of 100", found, demanded)
-    assert late_s <= MOST_FLOODED_S + usual_s  # of a busy machine
+    assert late_s <= most_s
