@@ -56,7 +56,7 @@ def test_hostile_value_is_one_line(filled, kind, name, text):
 def test_parameter_is_set_as_rosparam_does_and_shown_as_it_is_then(monkeypatch, written, value):
     master = {}
     monkeypatch.setattr(forms.rospy, "set_param", master.__setitem__)
-    monkeypatch.setattr(forms.rospy, "get_param", master.__getitem__)
+    monkeypatch.setattr(forms.rospy, "get_param", master.get)
     assert json.loads(forms.set_parameter("/x", written)["definition"]) == master["/x"] == value
 
 
@@ -66,13 +66,13 @@ def test_hostile_parameter_is_one_line_or_a_value(monkeypatch, written):
     arrived = []
     marshalled = lambda _name, value: arrived.append(xmlrpc.client.dumps((value,)))  # noqa: E731
     monkeypatch.setattr(forms.rospy, "set_param", marshalled)
-    monkeypatch.setattr(forms.rospy, "get_param", lambda _: 1)
-    graph, hub = Graph(parameters=["/x"]), SimpleNamespace(session=SimpleNamespace(driver=None))
+    monkeypatch.setattr(forms.rospy, "get_param", lambda *_: 1)
+    hub = SimpleNamespace(session=SimpleNamespace(driver=None))
     hub.soon = lambda act: act()
     client, sent = page()
     hub.clients = {client.number: client}
     monkeypatch.setattr(forms.threading, "Thread", InPlace)
-    forms.Forms(hub, SimpleNamespace(graph=graph)).on_set(client, 0.0, "/x", {"value": written})
+    forms.Forms(hub, SimpleNamespace(graph=Graph())).on_set(client, 0.0, "/x", {"value": written})
     [said] = sent
     assert said["kind"] == ("form" if arrived else "refused")
     assert "\n" not in said.get("why", "") and len(said.get("why", "")) <= 200

@@ -115,7 +115,7 @@ class Forms(Source):
             self._call(client, name, lambda: describe_service(name))
             return
         if what == "parameter":
-            self._ask(client, self._master_of(client, name), lambda: describe_parameter(name))
+            self._ask_master(client, lambda: describe_parameter(name))
             return
         # Of what is there: class_of() remembers each name.
         kind = class_of(name) if name in self._graphs.graph.types.values() else None
@@ -162,13 +162,10 @@ class Forms(Source):
         self._must_be_free(client)
         if "value" not in values:
             raise RefusedError('write a value, such as 0.5, [1, 2], a text, or "" for an empty one')
-        key = self._master_of(client, parameter)
-        self._ask(client, key, lambda: set_parameter(parameter, values["value"]))
+        self._ask_master(client, lambda: set_parameter(parameter, values["value"]))
 
-    def _master_of(self, client: Client, parameter: str) -> str:
-        if parameter not in self._graphs.graph.parameters:
-            raise RefusedError(f"there is no parameter {parameter}")
-        return f"the master, for page {client.number},"
+    def _ask_master(self, client: Client, ask: Callable[[], dict[str, Any]]) -> None:
+        self._ask(client, f"the master, for page {client.number},", ask)
 
     def _must_be_free(self, client: Client) -> None:
         client.must_drive()
@@ -236,7 +233,7 @@ def call(name: str, values: Mapping[str, str]) -> dict[str, Any]:
 
 
 def describe_parameter(name: str) -> dict[str, Any]:
-    value = json.dumps(rospy.get_param(name), default=str)[:LONGEST_ANSWER]
+    value = json.dumps(rospy.get_param(name, None), default=str)[:LONGEST_ANSWER]
     form = {"definition": value, "fields": [("value", "JSON, or a text")], "numbers": []}
     return {"kind": "form", "what": "parameter", "name": name, **form}
 
