@@ -7,6 +7,8 @@ from a page is in TUTORIAL.md's table of pages.
 import re
 from pathlib import Path
 
+import pytest
+
 from tutorial_testing.student import CTRL_C, END
 
 REPOSITORY = Path(__file__).resolve().parents[2]
@@ -197,6 +199,7 @@ def uncomment_messages(package):
     path.write_text(text.replace("#  CATKIN_DEPENDS roscpp", "  CATKIN_DEPENDS message_runtime"))
 
 
+@pytest.mark.night  # test/check_bare_machine runs it at each commit
 def test_the_pages_that_the_handout_links_from_their_first_command_to_the_last(student):
     student.do([*FILESYSTEM, *CREATING_A_PACKAGE, *WORKSPACES, *NODES, *TOPICS])
     student.do([*SERVICES_AND_PARAMETERS, *RQT_CONSOLE, *ROSLAUNCH, *ROSED])
