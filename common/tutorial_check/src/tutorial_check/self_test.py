@@ -76,17 +76,17 @@ def patch(folder: Path, file: Path) -> None:
         if after == GONE:
             path.unlink()
             continue
-        text = path.read_text(encoding="utf-8") if path.exists() else ""
+        done, text = "", path.read_text(encoding="utf-8") if path.exists() else ""
         for hunk in HUNK.findall(hunks):
             lines = [each if each != "\n" else " \n" for each in hunk.splitlines(keepends=True)]
             old, new = ("".join(each[1:] for each in lines if each[0] != sign) for sign in "+-")
-            if path.exists() and text.count(old) != 1:
-                raise CannotCheck(
-                    f"{file}: {path.name} has these lines {text.count(old)} times: {old}"
-                )
-            text = text.replace(old, new) if old else new
+            if text and text.count(old) != 1:
+                count, first = text.count(old), old.split("\n", 1)[0]
+                raise CannotCheck(f"{file}: {path.name} has {count} places for: {first} ...")
+            above, text = text.split(old) if old else ("", "")
+            done += above + new
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, encoding="utf-8")
+        path.write_text(done + text, encoding="utf-8")
 
 
 def complaint_of(check: str, outcomes: list[Outcome]) -> str:

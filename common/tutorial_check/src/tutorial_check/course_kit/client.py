@@ -5,9 +5,10 @@ from __future__ import annotations
 import json
 import select
 import socket
+import traceback
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Dict, Optional, Tuple
+from typing import Any, Dict, List, Optional, Tuple
 
 from tutorial_check.isolation.program import Program
 from tutorial_check.model import NO_TYPE, CannotCheck, CutShort
@@ -28,30 +29,31 @@ class Answer:
 
 @dataclass(frozen=True)
 class Transform:
-    """Where the source frame is in the target frame [m], its rotation (x, y, z, w), and when [s]."""
+    """Where the source is in the target frame, (x, y, z) [m], and its rotation, (x, y, z, w)."""
 
-    translation: Tuple[float, float, float]
-    rotation: Tuple[float, float, float, float]
-    stamp: float
+    translation: Tuple[float, ...]
+    rotation: Tuple[float, ...]
 
 
-class _Fault(Exception):
-    """OF_PROGRAM; see client_node."""
+def _place() -> str:
+    """Return FILE:LINE of the course that called the Client."""
+    frames = (frame for frame in traceback.extract_stack()[::-1] if frame.filename != __file__)
+    frame = next(frames)
+    return f"{Path(frame.filename).name}:{frame.lineno}"
 
 
 class Client:
     """A node on a stage; see common/doc/COURSES.md.
 
-    A type that the student's workspace has to define, and does not, or otherwise, is their mistake
-    and ends the recording; another such type is the course's. Values are maps, lists, texts, numbers.
+    If a type of the student's workspace is missing or other than these values need it, that is their
+    mistake, and ends the recording; with another type it is the course's. For client_node see there.
     """
 
     def __init__(self, stage: Stage) -> None:
         """Start it, with the student's rights: it imports what their workspace generates."""
-        self._stage, self._asked = stage, 0
+        self._stage, self._number, self._buffer = stage, 0, b""
         self._answers: dict[int, Any] = {}
         self._kinds: dict[str, str] = {}  # of topics that are advertised
-        self._buffer = b""
         self._line, theirs = socket.socketpair()
         command = ["/usr/bin/python3", str(Path(__file__).with_name("client_node.py"))]
         self._node = stage.runner.start(command, stage.environment, stdin=theirs.fileno())
@@ -62,32 +64,28 @@ class Client:
         """Return "TYPE NAME" of each field of a message; of a service with "---" in between."""
         return tuple(self._tell("fields", kind, of=kind))
 
-    def ask(self, service: str, kind: str, values: Any = (), seconds: float = START_S) -> Answer:
-        """Call a service, once it is there; wait no longer than that for the response."""
+    def ask(
+        self, service: str, kind: str, values: object = None, seconds: float = START_S
+    ) -> Answer:
+        """Call a service once it is there; wait no longer than that for the response."""
         try:
-            return Answer(self._tell("ask", service, kind, values, of=kind, seconds=seconds))
-        except _Fault as fault:
-            return Answer(None, str(fault))
+            about = service, kind, values or {}
+            return Answer(*self._tell("ask", *about, of=kind, seconds=seconds))
         except TimeoutError:
-            there = self._tell("services")
-        known = ", ".join(
-            name for name in there if not name.endswith(("_loggers", "_logger_level"))
-        )
-        trouble = f"there is no service {service}; there are: {known or 'none'}"
-        return Answer(None, f"{service} does not respond" if service in there else trouble)
+            known = self._tell("services")
+        trouble = f"there is no service {service}; there are: {', '.join(known) or 'none'}"
+        return Answer(None, f"{service} does not respond" if service in known else trouble)
 
-    def serve(self, service: str, kind: str, values: Any) -> None:
+    def serve(self, service: str, kind: str, values: object) -> None:
         """Offer a service that always responds with these values; heard() has the requests."""
         self._tell("serve", service, kind, values, of=kind)
 
     def listen(self, topic: str, kind: str) -> None:
         self._tell("listen", topic, kind, of=kind)
 
-    def heard(self, name: str, since: int = 0) -> Tuple[Heard, ...]:
+    def heard(self, name: str, since: int = 0) -> List[Heard]:
         """Return the messages of a topic, or the requests of a service."""
-        return tuple(
-            (at_s, node, values) for at_s, node, values in self._tell("heard", name, since)
-        )
+        return [(at_s, node, values) for at_s, node, values in self._tell("heard", name, since)]
 
     def count(self, name: str) -> int:
         return int(self._tell("count", name))
@@ -96,7 +94,7 @@ class Client:
         self._tell("advertise", topic, kind, of=kind)
         self._kinds[topic] = kind
 
-    def send(self, topic: str, values: Any) -> float:
+    def send(self, topic: str, values: object) -> float:
         """Publish one message on a topic that is advertised; return when [s]."""
         return float(self._tell("send", topic, values, of=self._kinds[topic]))
 
@@ -117,38 +115,32 @@ class Client:
     def lookup(self, target: str, source: str, seconds: float = START_S) -> Optional[Transform]:
         """Return the newest transform, or None if there is none within that time."""
         found = self._stage.wait(lambda: self._tell("lookup", target, source), seconds)
-        return Transform(tuple(found[0]), tuple(found[1]), found[2]) if found else None
+        parts = found["transform"] if found else {}
+        values = (tuple(parts[name].values()) for name in ("translation", "rotation"))
+        return Transform(*values) if found else None
 
-    def _tell(self, what: str, *about: Any, of: str = "", seconds: float = SLOW_S) -> Any:
-        """Return the node's answer. of: the type that it is about. Raises TimeoutError, _Fault."""
-        self._asked += 1
-        number = self._asked
+    def _tell(self, what: str, *about: object, of: str = "", seconds: float = SLOW_S) -> Any:
+        """Return the node's answer. of: the type that it is about. Raises TimeoutError."""
+        self._number += 1
+        number = self._number
         try:
             line = json.dumps({"id": number, "do": what, "with": about})
         except TypeError as error:
-            raise CannotCheck(f"client.{what}: {error}") from None
+            raise CannotCheck(f"{_place()}: {error}") from None
         self._line.sendall(f"{line}\n".encode())
         self._stage.wait(
             lambda: self._has(number) or self._node.ended, seconds, or_idle=what == "ask"
         )
-        if not self._has(number):
-            if self._node.ended:
-                raise CannotCheck(
-                    f"the checker's client has ended: {last_lines(self._node.output)}"
-                )
+        if not self._has(number) and not self._node.ended:
             raise TimeoutError
-        answer = self._answers.pop(number)
-        fault = answer.get("fault")
-        if not fault:
-            return answer["value"]
-        if fault["kind"] == "program":
-            raise _Fault(fault["text"])
-        is_students = any(
-            each.name == of.partition("/")[0] for each in self._stage.session.packages
-        )
-        if fault["kind"] == "type" and is_students:
-            raise CutShort(NO_TYPE, fault["text"])
-        raise CannotCheck(f"client.{what}: {fault['text']}")
+        words = f"the node has ended: {last_lines(self._node.output)}"
+        answer = self._answers.pop(number, {"error": words})
+        own = [each.name for each in self._stage.session.packages]
+        if "fault" in answer and of.partition("/")[0] in own:
+            raise CutShort(NO_TYPE, answer["fault"])
+        if "value" not in answer:
+            raise CannotCheck(f"{_place()}: {answer.get('fault', answer.get('error'))}")
+        return answer["value"]
 
     def _has(self, number: int) -> bool:
         """Return whether an answer has come; read what is there."""
@@ -157,7 +149,5 @@ class Client:
             if not data:
                 break
             *lines, self._buffer = (self._buffer + data).split(b"\n")
-            for line in lines:
-                answer = json.loads(line)
-                self._answers[answer["id"]] = answer
+            self._answers.update((answer["id"], answer) for answer in map(json.loads, lines))
         return number in self._answers

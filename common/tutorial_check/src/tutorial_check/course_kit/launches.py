@@ -96,6 +96,11 @@ class Launch:
         return tuple(DIED.findall(self.program.output))
 
     @property
+    def is_over(self) -> bool:
+        """Whether it has ended, or a node of it."""
+        return self.program.ended or bool(self.died)
+
+    @property
     def launched(self) -> Launched:
         """What a recording keeps of it."""
         return Launched(self.program.ran, self.nodes, self.died)

@@ -1,0 +1,48 @@
+"""What several exercises need: names, turtlesim on a stage, lines that are to blame."""
+
+from tutorial_check.judge.scripts import crash
+from tutorial_check.model import Wrong
+from tutorial_check.source.launch_xml import place_of
+
+PACKAGE = "beginner_tutorials"
+POSE, TWIST = "turtlesim/Pose", "geometry_msgs/Twist"
+START_S = 8.0
+
+
+def start_turtles(stage, client):
+    """Start turtlesim; listen to turtle1."""
+    stage.start_ours("turtlesim", "turtlesim_node")
+    client.listen("/turtle1/pose", POSE)
+    stage.wait(lambda: client.count("/turtle1/pose"), START_S)
+
+
+def path_of(client, topic="/turtle1/pose", since=0):
+    """Return (x, y, theta, speed, rate of turn) of each pose of a turtle."""
+    return tuple(tuple(values.values()) for _, _, values in client.heard(topic, since))
+
+
+def moves(client, topic="/turtle1/pose"):
+    """Return whether a turtle has moved within the last second."""
+    newest = path_of(client, topic, max(0, client.count(topic) - 62))
+    return any(speed or turn for *_, speed, turn in newest)
+
+
+def must_run(session, package, ran, expected, hint=""):
+    """Raise Wrong for a program that ended, or printed a traceback."""
+    if ran.ended or "Traceback" in ran.output:
+        raise crash(session, package, ran, expected, hint)
+
+
+class Blame:
+    """A program of the student's, to name its lines."""
+
+    def __init__(self, session, package, script):
+        self.script, self._text = script, session.text(package, script)
+
+    def line(self, *words):
+        """Return FILE:LINE of the first of these words that is there; else the file."""
+        return place_of(self.script, self._text, *words)
+
+    def wrong(self, words, expected, seen, hint=""):
+        """Return the Wrong for the line with the first of these words."""
+        return Wrong(expected, str(seen), self.line(*words.split()), hint)
