@@ -1,13 +1,35 @@
-"""A course of one's own: the worked example of COURSES.md, as the page says."""
+"""Courses that come with the suite: the worked example of COURSES.md, as the page says; the wiki's."""
 
+import re
 import shutil
 import subprocess
 from pathlib import Path
 
 import pytest
 
+from tutorial_check.self_test import patch
+
 REPOSITORY = Path(__file__).resolve().parents[2]
-SQUARE = REPOSITORY / "common/doc/square"
+SQUARE, WIKI = REPOSITORY / "common/doc/square", REPOSITORY / "common/doc/wiki"
+OF_A_CLIENT = """
+from dataclasses import dataclass
+from tutorial_check.course import check
+from tutorial_check.course_kit.client import Answer, Client, Transform
+@dataclass(frozen=True)
+class Seen:
+    answer: Answer
+def ask(ground, kind, value) -> Seen:
+    with ground.stage() as stage:
+        return Seen(Client(stage).ask("/own", kind, {"a": value}))
+def asks(number, *about):
+    @check(f"S{number}", "a", "1")
+    def a(session):
+        return session.recording(ask, *about).answer.trouble
+asks(1, "no_msgs/None", 1)
+asks(2, "beginner_tutorials/None", 1)
+asks(3, "beginner_tutorials/AddTwoInts", "x")
+asks(4, "beginner_tutorials/AddTwoInts", 1)
+"""
 
 
 def check(*words):
@@ -18,10 +40,38 @@ def check(*words):
 
 
 @pytest.mark.night
-def test_the_squares_solutions_come_to_what_they_should():
-    code, output = check("--course", SQUARE, "--self-test")
+@pytest.mark.parametrize(("name", "count"), [("square", 5), ("wiki", 65)])
+def test_the_solutions_come_to_what_they_should(name, count):
+    code, output = check("--course", name, "--self-test")
     assert code == 0, output
-    assert output.count("\nok ") + output.startswith("ok ") == 5, output
+    assert output.count("\nok ") + output.startswith("ok ") == count, output
+
+
+def test_the_wiki_finds_mistakes_at_their_line(tmp_path):
+    src = shutil.copytree(WIKI / "solutions/right", tmp_path / "ws" / "src")
+    for name in ("W6_subtracts", "W9_swapped", "W15_another_parent"):
+        patch(src, WIKI / f"solutions/wrong_{name}.patch")
+    code, output = check("--course", "wiki", "--in", tmp_path / "ws", "2", "3", "4", "7")
+    places = re.findall(r"WRONG +(W\d+)|where: +(.*:\d+)", output)
+    assert [*map("".join, places)] == [
+        *("W6", "scripts/add_two_ints_server.py:11"),
+        *("W9", "launch/turtlemimic.launch:9"),
+        *("W15", "nodes/turtle_tf2_broadcaster.py:14"),
+    ], output
+    assert code == 1 and "ok     W8" in output, output
+
+
+def test_whose_mistake_a_type_is(tmp_path):
+    (tmp_path / "course.yaml").write_text("exercises: {'1': a}\n")
+    (tmp_path / "asks.py").write_text(OF_A_CLIENT)
+    _, output = check("--course", tmp_path, "--in", WIKI / "solutions/right")
+    for line in (
+        "could not be checked: asks.py:10: there is no service no_msgs/None",
+        "seen:     there is no service beginner_tutorials/None",
+        "seen:     beginner_tutorials/AddTwoIntsRequest: {'a': 'x'} does not fit",
+        "ok     S4  a  (there is no service /own; there are: none)",
+    ):
+        assert line in output, output
 
 
 def test_a_self_test_finds_a_check_that_passes_everything(tmp_path):

@@ -77,7 +77,7 @@ def follow(ground, launch, broadcaster, listener) -> Following:
         if client.count("/turtle2/pose"):
             teleport(client, PLACES[1])
             stage.wait(lambda: _gap(path_of(client, "/turtle2/pose", -1)[0]) < NEAR_M, FOLLOWS_S)
-        turtles = (topic for topic in stage.call("types") if topic.endswith("/pose"))
+        turtles = (topic for topic in stage.call("state")[0] if topic.endswith("/pose"))
         gaps = map(_gap, path_of(client, "/turtle2/pose"))
         return Following(program.ran, tuple(turtles), list(gaps))
 

@@ -87,6 +87,7 @@ def patch(folder: Path, file: Path) -> None:
             done += above + new
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(done + text, encoding="utf-8")
+        path.chmod(0o755 if done.startswith("#!") else path.stat().st_mode)
 
 
 def complaint_of(check: str, outcomes: list[Outcome]) -> str:
