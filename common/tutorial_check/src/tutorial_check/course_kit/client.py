@@ -16,6 +16,7 @@ from tutorial_check.record.stage import SETTLE_S, START_S, Stage
 from tutorial_check.source.tracebacks import last_lines
 
 Heard = Tuple[float, str, Dict[str, Any]]  # (when it came [s], from which node, its fields)
+MOST_BYTES = 64 << 20
 SLOW_S = 30.0  # for what needs no program of the student's
 
 
@@ -143,11 +144,12 @@ class Client:
         return answer["value"]
 
     def _has(self, number: int) -> bool:
-        """Return whether an answer has come; read what is there."""
-        while select.select([self._line], [], [], 0)[0]:
-            data = self._line.recv(1 << 20)
-            if not data:
-                break
-            *lines, self._buffer = (self._buffer + data).split(b"\n")
-            self._answers.update((answer["id"], answer) for answer in map(json.loads, lines))
+        """Return whether an answer has come; read what is there, of others' programs, too."""
+        if select.select([self._line], [], [], 0)[0]:
+            self._buffer += self._line.recv(1 << 20)
+            if len(self._buffer) > MOST_BYTES:
+                raise CannotCheck(f"{_place()}: an answer of more than {MOST_BYTES >> 20} MB")
+            *lines, self._buffer = self._buffer.split(b"\n")
+            found = (answer for answer in map(json.loads, lines) if answer["id"] == number)
+            self._answers.update((number, answer) for answer in found)
         return number in self._answers

@@ -103,7 +103,12 @@ class Node:
         found = class_of(kind, of_service=True)
         answer = message_of(found._response_class, values)
         self._heard[service] = []
-        rospy.Service(service, found, lambda request: self._keep(request, service) or answer)
+
+        def respond(request: Any) -> Any:
+            self._keep(request, service)
+            return answer
+
+        rospy.Service(service, found, respond)
 
     def listen(self, topic: str, kind: str) -> None:
         self._heard[topic] = []

@@ -31,6 +31,11 @@ CMAKE_HINTS = (
     (r"non-existing file|Cannot find source file", "look at the spelling of the file's path"),
     (r"Unknown CMake command", "look at the spelling of the command"),
 )  # fmt: skip
+# What genmsg says of a message or service: (file, type) or (file, what it read there).
+DEFINITION = re.compile(
+    r"messages which\s+'([^']+)'\s+depends.+?message\s+\[(\S+)\]"
+    r"|InvalidMsgSpec: (/\S+): (?:Invalid declaration: ([^\n]+)|(\S+) is not a legal)", re.DOTALL
+)  # fmt: skip
 
 
 def _similar(name: str, packages: list[Package]) -> Package | None:
@@ -205,6 +210,16 @@ def _build_error(session: Session, output: str) -> Wrong:
     if missing:
         words, place, hint = _not_found(session, missing[0])
         where = place or where
+    definition = DEFINITION.search(output)
+    if definition:  # a type that is not there, or what is no field
+        path = Path(definition[1] or definition[3])
+        word = definition[2] or definition[4] or definition[5]
+        inside, text = str(path.relative_to(session.source)), session.read(path)
+        words, where = (
+            f"{path.name}: {word} is no field of a known type",
+            place_of(inside, text, word),
+        )
+        hint = "a field is TYPE NAME, as int64 num; another package's type has that before it"
     return Wrong("catkin_make without an error", words[:300], where, hint)
 
 
