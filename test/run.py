@@ -93,7 +93,7 @@ KINDS = {
     # More at a time: they wait more than they work.
     "ros": lambda given: tests("ros", given, "-n", 2 * JOBS),
     "exercises": lambda given: tests("exercises", given, "-n", 4 * JOBS),
-    "system": lambda given: tests("system", given, "-n", JOBS + 1, "--dist", "loadgroup"),
+    "system": lambda given: tests("system", given, "-n", JOBS + 2, "--dist", "loadgroup"),
     "again": again,
     "kernel": lambda given: tests("kernel", given),
     "ros2": lambda given: tests("ros2", given),

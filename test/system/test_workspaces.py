@@ -20,6 +20,7 @@ def shell(script, **environment):
     return done.stdout
 
 
+@pytest.mark.night  # it builds all packages
 def test_the_installed_suite_is_whole_and_drives_without_its_sources(clone, tmp_path, master_uri):
     """Built in a catkin workspace that has a link to the clone in its src folder."""
     noetic, suite = Path("/opt/ros/noetic/setup.bash"), tmp_path / "src/ros1_tutorial"

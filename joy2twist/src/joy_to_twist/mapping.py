@@ -56,9 +56,7 @@ class Mapping:
             return None
         velocity = [0.0] * 6
         for component, index, scale, turbo_scale in self._axes:
-            value = axes[index]
-            if self._curve != 1.0:
-                value = math.copysign(abs(value) ** self._curve, value)
+            value = math.copysign(abs(axes[index]) ** self._curve, axes[index])
             velocity[component] = value * (turbo_scale if turbo else scale)
         if self._inverted_reverse and velocity[0] < 0:
             velocity[5] = -velocity[5]

@@ -44,7 +44,7 @@ class Safety:
         p = self._parameters = parameters
         self._wake, self._warn = wake, warn
         self._period = 1.0 / p.output_rate
-        self._gradual = p.max_linear_acceleration > 0 or p.max_angular_acceleration > 0
+        self._gradual = bool(p.max_linear_acceleration or p.max_angular_acceleration)
         self._changes = (  # largest change of velocity in one period
             (p.max_linear_acceleration or math.inf) * self._period,
             (p.max_angular_acceleration or math.inf) * self._period,
@@ -55,7 +55,6 @@ class Safety:
         self._silent_at = math.inf  # when the joystick counts as silent
         self._still_at = math.inf  # when it has been unchanged for too long
         self._is_warned = False  # the warning has been sent
-        self._watches_stillness = p.vigilance_timeout > 0
         self._sent: Velocity = ZERO  # the last velocity sent
         self._target: Velocity = ZERO  # where the acceleration limits lead to
         self._stopping = False  # zeros are being repeated, or have been
@@ -179,7 +178,6 @@ class Safety:
     def _forget(self, state: State) -> None:
         self.state = state
         self._hears, self._silent_at = False, math.inf
-        self.arming.rests = False
 
     def tick(self, now: float) -> Velocity | None:
         """Send what is due by now."""
@@ -227,6 +225,6 @@ class Safety:
 
     def _answer(self, velocity: Velocity) -> Velocity:
         before, self._sent = self._sent, velocity
-        if self._watches_stillness and before == ZERO != velocity:
-            self._wake()
+        if before == ZERO != velocity:
+            self._wake()  # the watch over its stillness begins
         return velocity

@@ -38,9 +38,8 @@ class Teleoperation:
         self._resumption = Resumption()
         self._messages = 0
         self._last_message: float | None = None
-        self._watches_stillness = parameters.vigilance_timeout > 0
         self._last: object = None  # axes and buttons of the last good message
-        self._last_summary: tuple[int, float | None] = (0, None)  # messages until then, and when
+        self._last_summary = (0, -math.inf)  # messages until then, and when
 
     def joy(
         self,
@@ -69,7 +68,7 @@ class Teleoperation:
             if self._may_warn.ready(now):
                 self._warn(f"Stopping: a joystick message is unusable, {error}.")
             return None if self.safety.latched else self.safety.reject(now)
-        changed = self._watches_stillness and self._has_changed(axes, buttons)
+        last, self._last = self._last, (axes, buttons)
         if self.safety.latched:
             if self.mapping.resets(buttons):
                 self.safety.reset()
@@ -79,7 +78,7 @@ class Teleoperation:
             self._warn(hint)
         matters = self._parameters.arm_on_neutral or not self.safety.arming.armed
         rests = matters and self.mapping.rests(axes, velocity)
-        return self.safety.drive(velocity, rests, now, sender, changed)
+        return self.safety.drive(velocity, rests, now, sender, last != self._last)
 
     def suspended(self, number: int, now: float) -> Velocity | None:
         """Take how often this node was suspended; return the velocity to send at once."""
@@ -87,10 +86,6 @@ class Teleoperation:
             return None
         self._warn("This node was suspended. What came meanwhile is not driven.")
         return self.safety.lost(State.SUSPENDED, now)
-
-    def _has_changed(self, axes: Sequence[float], buttons: Sequence[int]) -> bool:
-        last, self._last = self._last, (axes, buttons)
-        return last != self._last
 
     def left(self, now: float) -> Velocity | None:
         """Stop, as no node publishes joystick messages; return the velocity to send at once."""
@@ -111,7 +106,7 @@ class Teleoperation:
         state = self.safety.state
         messages, since = self._last_summary
         self._last_summary = (self._messages, now)
-        rate = 0.0 if since is None or since == now else (self._messages - messages) / (now - since)
+        rate = (self._messages - messages) / ((now - since) or math.inf)
         age = "none yet" if self._last_message is None else f"{now - self._last_message:.3f}"
         details = {
             "Joy rate [Hz]": f"{rate:.1f}",

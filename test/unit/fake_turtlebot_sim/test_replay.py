@@ -94,6 +94,7 @@ def test_a_joystick_in_a_room_drives_to_the_wall(run):
     ("words", "said"),
     [
         ("none.bag out.bag", "no such file"),
+        (". out.bag", "a folder, no file"),
         ("commands.bag out.bag --topic /other", "no topic /other of"),
         ("two.bag out.bag", "(/a, /b); choose one with --topic"),
         ("cut.bag out.bag", "not a whole ROS 1 bag"),

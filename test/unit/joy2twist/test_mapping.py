@@ -100,16 +100,23 @@ def test_the_stop_button_counts_in_a_message_that_is_cut_and_wins_over_reset():
     ("given", "line"),
     [
         ({}, "axis 1 -> linear.x at 1 m/s; no dead-man button"),
-        ({"enable_button": 4, "enable_turbo_button": 5, "scale_linear": 0.7},
-         "axis 1 -> linear.x at 0.7 m/s (turbo: 1 m/s); hold button 4, or 5 for turbo"),
-        ({"stop_button": 1, "stop_reset_button": 2},
-         "button 1 stops, until button 2"),
+        ({"enable_button": 4, "enable_turbo_button": 0, "scale_linear": 0.7},
+         "axis 1 -> linear.x at 0.7 m/s (turbo: 1 m/s); hold button 4, or 0 for turbo"),
+        ({"stop_button": 0, "stop_reset_button": 2},
+         "button 0 stops, until button 2"),
         ({"vigilance_timeout": 3.0, "arm_on_neutral": True},
          "no change of the joystick for 3 s stops the robot"),
     ],
 )  # fmt: skip
 def test_the_mapping_in_words(given, line):
     assert line in Mapping(load(given)).describe()
+
+
+@pytest.mark.parametrize(
+    ("given", "number"), [({}, "none"), (PAD, "0"), (TURBO, "0"), ({"enable_button": 4}, "4")]
+)
+def test_the_dead_man_button_by_its_number(given, number):
+    assert Mapping(load(given)).deadman == number
 
 
 velocities = st.tuples(*[st.floats(-1e9, 1e9)] * 6)

@@ -87,12 +87,23 @@ def test_what_silence_sends(given, acts, sent):
     assert machine.due == inf
 
 
-def test_two_that_send_in_turn_are_named_now_and_then():
+@pytest.mark.parametrize(("pause", "times"), [(0.02, 1), (1.0, 0), (0.999, 34)])
+def test_two_that_send_in_turn_are_named_now_and_then(pause, times):
     warnings = []
-    machine = Safety(load({**DEAD_MAN, "arm_on_neutral": True}), lambda: None, warnings.append)
+    given = {**DEAD_MAN, "arm_on_neutral": True, "joy_timeout": 0}
+    machine = Safety(load(given), lambda: None, warnings.append)
     for i in range(200):
-        machine.drive(None, True, i * 0.02, "ada" if i % 2 else "bob")
-    assert warnings == [Notice.IN_TURN]
+        machine.drive(None, True, 100.0 + i * pause, "ada" if i % 2 else "bob")
+    assert warnings == [Notice.IN_TURN] * times
+
+
+@pytest.mark.parametrize("act", ["forward", "backward", "middle"])
+def test_a_silence_is_named_where_the_robot_moved(act):
+    warnings = []
+    machine = Safety(load({"joy_timeout": 0.5}), lambda: None, warnings.append)
+    ACTS[act](machine, 0.0)
+    machine.tick(0.5)
+    assert warnings == [Notice.SILENT] * (act != "middle")
 
 
 @pytest.mark.parametrize(
@@ -132,6 +143,11 @@ def test_speed_comes_at_a_steady_rate_and_goes_with_the_stick(sign):
 
 
 def test_each_part_has_a_limit_of_its_own():
-    machine = safety(**LIMITS, max_angular_acceleration=2.0)
-    sent = [machine.drive((0.5, 0, 0, 0, 0, 1.0), False, 0.0), machine.tick(0.1)]
-    assert sent == [(0.1, 0, 0, 0, 0, 0.2), (0.2, 0, 0, 0, 0, 0.4)]
+    for limits, sent in (
+        ({}, [(0.1, 0, 0, 0, 0, 1.0), (0.2, 0, 0, 0, 0, 1.0)]),
+        ({"max_angular_acceleration": 2.0}, [(0.1, 0, 0, 0, 0, 0.2), (0.2, 0, 0, 0, 0, 0.4)]),
+        ({"max_linear_acceleration": 0, "max_angular_acceleration": 0.5},
+         [(0.5, 0, 0, 0, 0, 0.05), (0.5, 0, 0, 0, 0, 0.1)]),
+    ):  # fmt: skip
+        machine = safety(**{**LIMITS, **limits})
+        assert [machine.drive((0.5, 0, 0, 0, 0, 1.0), False, 0.0), machine.tick(0.1)] == sent

@@ -110,11 +110,14 @@ def test_the_stop_button_is_named_until_it_is_reset_and_sends_zeros_meanwhile():
 
 def test_diagnostics_tell_the_state_the_rate_and_the_age():
     machine, _ = teleoperation(enable_button=0, joy_timeout=0.5)
-    assert machine.summary(0.0)[:2] == (False, "waiting for the joystick")
-    for i in range(100):
-        machine.joy((0.0, 1.0), (1,), i * 0.02)
-    well, state, details = machine.summary(2.0)
-    assert (well, state) == (True, "driving")
-    assert (details["Joy rate [Hz]"], details["Age of the last Joy [s]"]) == ("50.0", "0.020")
-    machine.safety.tick(5.0)
-    assert machine.summary(5.5)[:2] == (False, "stopped: no message for 0.5 s")
+    rate, age, deadman = "Joy rate [Hz]", "Age of the last Joy [s]", "Dead-man button"
+    well, state, details = machine.summary(100.0)
+    assert (well, state) == (False, "waiting for the joystick")
+    assert details == {rate: "0.0", age: "none yet", deadman: "0"}
+    for i in range(101):
+        machine.joy((0.0, 1.0), (1,), 100.0 + i * 0.02)
+    details = {rate: "42.1", age: "0.400", deadman: "0"}
+    assert machine.summary(102.4) == (True, "driving", details)
+    assert machine.summary(102.4)[2][rate] == "0.0"  # asked for twice at once
+    machine.safety.tick(105.0)
+    assert machine.summary(105.5)[:2] == (False, "stopped: no message for 0.5 s")

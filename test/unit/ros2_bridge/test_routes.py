@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from ros2_bridge.ros1_node import LIST, load
-from ros2_bridge.routes import read_routes
+from ros2_bridge.routes import ECHO_S, Echoes, read_routes
 
 OURS = Path(__file__).resolve().parents[3] / "common/ros2_bridge/config/bridge.yaml"
 
@@ -43,3 +43,11 @@ def test_a_wrong_list_is_one_line(text, why):
     with pytest.raises(ValueError) as error:
         read_routes(text)
     assert str(error.value).startswith(why) and "\n" not in str(error.value)
+
+
+def test_what_comes_back_counts_once_and_is_expected_for_a_while():
+    echoes = Echoes()
+    assert max(echoes.expect("/chatter", b"", i * 0.1) for i in range(1000)) == ECHO_S * 10 + 1
+    echoes.expect("/chatter", b"hello", 100.0)
+    assert [echoes.is_one("/chatter", b"hello", 101.0) for _ in range(2)] == [True, False]
+    assert not echoes.is_one("/other", b"", 101.0) and not echoes.is_one("/chatter", b"", 120.0)

@@ -57,6 +57,17 @@ def test_what_was_found_before_the_worker_ended(examine):
     assert [one.passed for one in outcomes] == [True, False, False]
 
 
+@pytest.mark.parametrize(
+    ("answer", "why"),
+    [("nonsense", "is no recording: 'nonsense'"), ("7", "is no recording"),
+     ("[" * 9000, "is no recording"), ("0" * 20_000, "is longer than 10,000 bytes")],
+)  # fmt: skip
+def test_what_was_found_before_a_worker_answered_nonsense(examine, monkeypatch, answer, why):
+    monkeypatch.setattr(worker_process, "MOST_BYTES", 10_000)
+    found, trouble = found_in(examine([READY, SEEN, answer], "exec sleep 3600"))["3"]
+    assert not found and why in trouble
+
+
 def test_what_was_recorded_before_the_worker_ended(examine):
     def end(outcome, _):
         raise worker_process.Ended("no room")

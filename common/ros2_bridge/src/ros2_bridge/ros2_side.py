@@ -5,8 +5,6 @@ Needs rclpy and rosbags, and of this suite its folder alone, with connection.py 
 
 from __future__ import annotations
 
-import collections
-import hashlib
 import importlib
 import signal
 import socket
@@ -21,11 +19,10 @@ from rclpy.duration import Duration
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.signals import SignalHandlerOptions
 from rosbags.typesys import Stores, get_typestore
-from routes import Route, depth_of, read_routes
+from routes import Echoes, Route, depth_of, read_routes
 
 NAME = "ros2_bridge"
 LOOK_S = 0.5  # how often it looks which topics there are
-ECHO_S = 10.0  # how long what was published may take to come back to this node, on a busy machine
 CONNECT_S = 10.0
 
 
@@ -40,10 +37,9 @@ class Ros2Side:
         self._sender = Sender(connection, lambda topic: depth_of(self._routes, topic))
         self._publishers: dict[str, tuple[tuple[str, bool], Any]] = {}
         self._subscriptions: dict[str, tuple[tuple[str, QoSProfile] | None, Any]] = {}
-        self._own: dict[str, collections.deque[tuple[float, bytes]]] = {}  # both directions
+        self._echoes = Echoes()
         self._said: set[str] = set()
         self._wrong: dict[str, str] = {}  # by topic: why it is not carried
-        self._lock = threading.Lock()
         self.node.create_timer(LOOK_S, self._look)
         self._look()
 
@@ -91,9 +87,7 @@ class Ros2Side:
             return
         data = bytes(self._store.ros1_to_cdr(frame.data, frame.type))
         if route.to_ros1:
-            mark = time.monotonic(), hashlib.md5(data).digest()
-            with self._lock:
-                self._own.setdefault(frame.topic, collections.deque()).append(mark)
+            self._echoes.expect(frame.topic, data, time.monotonic())
         publisher.publish(data)
         self._wrong.pop(frame.topic, None)
 
@@ -164,7 +158,7 @@ class Ros2Side:
             # It may have waited for this side, which has just been restarted.
             age_s = max(0.0, time.time() - 1e-9 * about["source_timestamp"])
             sent_s = time.monotonic() - age_s
-            if route.to_ros2 and self._is_own(route.topic, data):
+            if route.to_ros2 and self._echoes.is_one(route.topic, data, time.monotonic()):
                 return
             try:
                 converted = bytes(self._store.cdr_to_ros1(data, kind))
@@ -175,19 +169,6 @@ class Ros2Side:
             self._wrong.pop(route.topic, None)
 
         return hear
-
-    def _is_own(self, topic: str, data: bytes) -> bool:
-        """Return whether this node published these bytes a moment ago; each counts once."""
-        digest, now_s = hashlib.md5(data).digest(), time.monotonic()
-        with self._lock:
-            own = self._own.get(topic, collections.deque())
-            while own and now_s - own[0][0] > ECHO_S:
-                own.popleft()
-            for each in own:
-                if each[1] == digest:
-                    own.remove(each)
-                    return True
-        return False
 
 
 def quality(route: Route, is_latched: bool) -> QoSProfile:

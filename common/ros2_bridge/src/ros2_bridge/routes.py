@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import collections
+import hashlib
 import re
+import threading
 from dataclasses import dataclass, fields
 from typing import Any, Mapping
 
@@ -12,6 +15,7 @@ TO_ROS1, TO_ROS2, BOTH = "to_ros1", "to_ros2", "both"
 RELIABLE, BEST_EFFORT = "reliable", "best_effort"
 NAME = re.compile(r"(/[A-Za-z][A-Za-z0-9_]*)+")  # what both sides take for the name of a topic
 MOST_DEPTH = 10_000
+ECHO_S = 10.0  # how long what was published may take to come back to this node, on a busy machine
 
 
 @dataclass(frozen=True)
@@ -55,6 +59,38 @@ def read_routes(text: str) -> list[Route]:
 def depth_of(routes: Mapping[str, Route], topic: str) -> int:
     """Return how many frames of a topic may wait; of signs of life, which have none, one."""
     return routes[topic].depth if topic in routes else 1
+
+
+class Echoes:
+    """What a node published a moment ago on topics that it receives, too. Times in seconds."""
+
+    def __init__(self) -> None:
+        """Begin with none."""
+        self._marks: dict[str, collections.deque[tuple[float, bytes]]] = {}  # by topic
+        self._lock = threading.Lock()
+
+    def _recent(self, topic: str, now_s: float) -> collections.deque[tuple[float, bytes]]:
+        marks = self._marks.setdefault(topic, collections.deque())
+        while marks and now_s - marks[0][0] > ECHO_S:
+            marks.popleft()
+        return marks
+
+    def expect(self, topic: str, data: bytes, now_s: float) -> int:
+        """Take what is about to be published; return how much of the topic may come back."""
+        with self._lock:
+            marks = self._recent(topic, now_s)
+            marks.append((now_s, hashlib.md5(data).digest()))
+            return len(marks)
+
+    def is_one(self, topic: str, data: bytes, now_s: float) -> bool:
+        """Return whether what was received is expected; each counts once."""
+        digest = hashlib.md5(data).digest()
+        with self._lock:
+            marks = self._recent(topic, now_s)
+            found = next((each for each in marks if each[1] == digest), None)
+            if found:
+                marks.remove(found)
+            return found is not None
 
 
 def _route(topic: Any, defaults: Any, about: Any) -> Route:

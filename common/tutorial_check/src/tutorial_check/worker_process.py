@@ -23,6 +23,7 @@ from tutorial_check.source.workspace import COPY
 # All exercises take 90 s on two quiet processors. Ten times as long is enough: where programs have less
 # than a seventh of the time, there is no verdict anyway (cpu_clock.HOPELESS), and a student waits.
 LONGEST_S = 900.0
+MOST_BYTES = 1 << 26  # of an answer; what the handout's programs are recorded to do takes 1 MB
 END_S = 10.0  # a worker whose result is not wanted has this long to end what it started
 # Set to end the workers of all threads, and those that have just started; each raises CannotCheck.
 no_more = threading.Event()
@@ -110,11 +111,16 @@ class Worker:
                 if not data:
                     raise Ended(self._last_words())
                 self._buffer += data
+                if len(self._buffer) > MOST_BYTES:
+                    raise Ended(f"the worker's answer is longer than {MOST_BYTES:,} bytes")
         line, _, self._buffer = self._buffer.partition(b"\n")
         # Programs run in ws, a copy of what was handed in.
         text, folder = line.decode(errors="replace"), self._order.folder
-        found: Line = json.loads(text.replace(f"{folder}/ws/", f"{folder}/{Path(COPY).parent}/"))
-        return found
+        text = text.replace(f"{folder}/ws/", f"{folder}/{Path(COPY).parent}/")
+        try:
+            return dict(json.loads(text))
+        except (ValueError, TypeError, RecursionError):  # whatever has written it
+            raise Ended(f"the worker's answer is no recording: {text[:60]!r}") from None
 
     def _last_words(self) -> str:
         with contextlib.suppress(subprocess.TimeoutExpired):

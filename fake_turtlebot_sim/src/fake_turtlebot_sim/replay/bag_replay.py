@@ -74,7 +74,7 @@ def topics_of(path: Path) -> dict[str, str]:
 @contextmanager
 def _open(path: Path) -> Iterator[Reader]:
     if not path.is_file():
-        raise ReplayError(f"{path}: no such file")
+        raise ReplayError(f"{path}: {'a folder, no file' if path.is_dir() else 'no such file'}")
     try:
         with Reader(path) as reader:
             yield reader
