@@ -109,7 +109,7 @@ def build_workspace(workspace: Path) -> None:
 def build_both(workspace: Path) -> None:
     """Build the underlay and the overlay."""
     built, log, lower = stamp(), workspace / "build.log", workspace / "lower"
-    say(f"building the catkin workspaces in {workspace}")
+    say(f"building the catkin workspaces in {workspace}, for a minute or two")
     if os.environ.get("SUDO_USER") and not os.environ.get("TUTORIAL_WORKSPACE"):
         own = f"{os.environ['SUDO_USER']}'s own calls do not use"
         say(f"   which {own}: call ./tutorial without sudo, it asks for it itself")
@@ -238,7 +238,9 @@ def install_from_pypi(workspace: Path, name: str, requirements: str, kind: str) 
     with one_at_a_time(workspace):
         if is_same(folder / "installed", wanted) or (not needed and is_same(failed, wanted)):
             return
-        say(f"installing from PyPI what {requirements} names")
+        asked = (REPOSITORY / requirements).read_text()
+        names = " ".join(dict.fromkeys(re.findall(r"^([a-z-]+)[=[]", asked, re.M)))
+        say(f"installing from PyPI what Debian lacks: {names}")
         shared = [] if kind == "alone" else ["--system-site-packages"]
         venv = ["/usr/bin/python3", "-m", "venv", "--clear", *shared, str(folder)]
         subprocess.run(venv, check=True)
@@ -252,8 +254,6 @@ def install_from_pypi(workspace: Path, name: str, requirements: str, kind: str) 
             return
         errors = [line for line in log.read_text().splitlines() if line.startswith("ERROR")]
         print(*errors[:3], sep="\n", file=sys.stderr)
-        asked = (REPOSITORY / requirements).read_text()
-        names = " ".join(dict.fromkeys(re.findall(r"^([a-z-]+)[=[]", asked, re.M)))
         todo = "then run ./tutorial setup again: it goes on where it stopped"
         line = f"not installed from PyPI: {names}. Check the network ({log}), {todo}"
         if needed:

@@ -247,10 +247,10 @@ def _check_finds(file: LaunchFile) -> None:
                 hint = f"it is elsewhere: $(find {package})/{there[0]}"
             expected = f"$(find {shown_as}){rest} in your package"
             hint += "; roslaunch would take another workspace's file and not say so"
-            raise Wrong(expected, "no such file there", f"{file.where}:{number}", hint)
+            raise Wrong(expected, f"no {rest} in it", f"{file.where}:{number}", hint)
 
 
-@check("C21", "the two launch files can be read", "5.1", "C12",
+@check("C21", "the two launch files can be read, and what they name is there", "5.1", "C12",
        look="roslaunch --nodes {n.package} launch_bag.launch", timeless=True)  # fmt: skip
 def files(session: Session) -> Note | str | None:
     return ", ".join(check_file(session, name).where for name in (BAG, STICK))
