@@ -110,3 +110,6 @@ def test_a_patch_changes_adds_and_removes(tmp_path):
     diff.write_text("--- a/changed\n+++ b/changed\n@@\n-a\n")
     with pytest.raises(CannotCheck, match="changed has 2 places for: a"):
         patch(tmp_path, diff)
+    diff.write_text("--- a/gone\n+++ /dev/null\n")
+    with pytest.raises(CannotCheck, match="there is no gone"):
+        patch(tmp_path, diff)

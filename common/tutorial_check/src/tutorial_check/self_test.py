@@ -65,14 +65,17 @@ def _examined(course: Course, underlay: str, check: str, layers: list[Path]) -> 
             else:
                 patch(Path(scratch), layer)
         return examine(
-            scratch, underlay, exercises or list(course.exercises), own=False, course=course.folder
-        )
+            scratch, underlay, exercises or list(course.exercises),
+            only_first=bool(check), own=False, course=course.folder,
+        )  # fmt: skip
 
 
 def patch(folder: Path, file: Path) -> None:
     """Change files as a unified diff says, whatever its line numbers are. Raises CannotCheck."""
     for before, after, hunks in FILES.findall(file.read_text(encoding="utf-8")):
         path = folder / re.sub("^[ab]/", "", before if after == GONE else after)
+        if before != GONE and not path.is_file():
+            raise CannotCheck(f"{file}: there is no {path.relative_to(folder)}")
         if after == GONE:
             path.unlink()
             continue
