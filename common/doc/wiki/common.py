@@ -1,7 +1,7 @@
 """What several exercises need: names, turtlesim on a stage, lines that are to blame."""
 
-from tutorial_check.judge.scripts import crash
-from tutorial_check.model import Wrong
+from tutorial_check.judge.scripts import crash, program_of
+from tutorial_check.model import CannotCheck, Wrong
 from tutorial_check.source.launch_xml import place_of
 
 PACKAGE = "beginner_tutorials"
@@ -15,7 +15,8 @@ def start_turtles(stage, client):
     """Start turtlesim; listen to turtle1."""
     stage.launch(TURTLESIM, trusted=True)
     client.listen("/turtle1/pose", POSE)
-    stage.wait(lambda: client.count("/turtle1/pose"), START_S)
+    if not stage.wait(lambda: client.count("/turtle1/pose"), START_S):
+        raise CannotCheck("turtlesim does not start")
 
 
 def path_of(client, topic="/turtle1/pose", since=0):
@@ -29,6 +30,12 @@ def moves(client, topic="/turtle1/pose"):
     return any(speed or turn for *_, speed, turn in newest)
 
 
+def recorded(session, package, name, recorder, *arguments):
+    """Return what was recorded of a program, and the Blame of it. Raises Wrong."""
+    script = program_of(session, package, name)
+    return session.recording(recorder, script, *arguments), Blame(session, package, script)
+
+
 def must_run(session, package, ran, expected, hint=""):
     """Raise Wrong for a program that ended, or printed a traceback."""
     if ran.ended or "Traceback" in ran.output:
@@ -39,11 +46,11 @@ class Blame:
     """A program of the student's, to name its lines."""
 
     def __init__(self, session, package, script):
-        self.script, self._text = script, session.text(package, script)
+        self._script, self.text = script, session.text(package, script)
 
     def line(self, *words):
         """Return FILE:LINE of the first of these words that is there; else the file."""
-        return place_of(self.script, self._text, *words)
+        return place_of(self._script, self.text, *words)
 
     def wrong(self, words, expected, seen, hint=""):
         """Return the Wrong for the line with the first of these words."""

@@ -4,12 +4,12 @@ import math
 from dataclasses import dataclass
 from typing import Tuple
 
-from tutorial_course.common import Blame, moves, path_of, start_turtles
+from tutorial_course.common import moves, path_of, recorded, start_turtles
 
 from tutorial_check.course import check
 from tutorial_check.course_kit.client import Client
 from tutorial_check.isolation.program import Ran
-from tutorial_check.judge.scripts import crash, program_of
+from tutorial_check.judge.scripts import crash
 
 PACKAGE, PROGRAM = "turtlesim_cleaner", "gotogoal.py"
 GOALS = ((9.0, 8.0), (2.0, 4.0), (8.0, 2.5))
@@ -49,10 +49,8 @@ def drive(ground, script, x: float, y: float) -> Drive:
 @check("W11", "it reaches the goal", "5", look="rostopic echo /turtle1/pose")
 def reaches(session):
     """Look how near each drive comes to its goal, and on which way."""
-    script = program_of(session, PACKAGE, PROGRAM)
-    blame = Blame(session, PACKAGE, script)
     for x, y in GOALS:
-        found = session.recording(drive, script, x, y)
+        found, blame = recorded(session, PACKAGE, PROGRAM, drive, x, y)
         expected = f"turtle1 comes within {TOLERANCE_M} m of ({x}, {y})"
         gaps = found.gaps(x, y)
         if not found.topics:
@@ -73,12 +71,10 @@ def reaches(session):
 @check("W12", "it rests there", "5", "W11", look="rostopic echo /turtle1/cmd_vel")
 def stops(session):
     """Look at the end of each drive."""
-    script = program_of(session, PACKAGE, PROGRAM)
     for x, y in GOALS:
-        found = session.recording(drive, script, x, y)
+        found, blame = recorded(session, PACKAGE, PROGRAM, drive, x, y)
         (*_, speed, turn), gap = found.path[-1], found.gaps(x, y)[-1]
         if speed or turn or gap > 2 * TOLERANCE_M:
             seen = f"{gap:.1f} m from it, {speed:.1f} m/s, {turn:.1f} rad/s"
             words, hint = "while publish(", "once it is there, publish Twist()"
-            blame = Blame(session, PACKAGE, script)
             raise blame.wrong(words, f"at rest at ({x}, {y})", seen, hint)

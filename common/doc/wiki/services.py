@@ -4,12 +4,12 @@ import re
 from dataclasses import dataclass
 from typing import Any, Dict, Tuple
 
-from tutorial_course.common import PACKAGE, START_S, Blame, must_run
+from tutorial_course.common import PACKAGE, START_S, must_run, recorded
 
 from tutorial_check.course import check
 from tutorial_check.course_kit.client import Answer, Client
 from tutorial_check.isolation.program import Ran
-from tutorial_check.judge.scripts import crash, program_of
+from tutorial_check.judge.scripts import crash
 
 SERVER, CLIENT = "add_two_ints_server.py", "add_two_ints_client.py"
 SERVICE, KIND = "/add_two_ints", f"{PACKAGE}/AddTwoInts"
@@ -60,8 +60,7 @@ def ask(ground, script) -> Asked:
 @check("W6", "the server adds", "2", "W5", look=f"rosservice call {SERVICE} 1 2")
 def server(session):
     """Compare the sums."""
-    script = program_of(session, PACKAGE, SERVER)
-    found, blame = session.recording(serve, script), Blame(session, PACKAGE, script)
+    found, blame = recorded(session, PACKAGE, SERVER, serve)
     for (a, b), answer in zip(ASKED, found.answers):
         if answer.values is None:
             must_run(session, PACKAGE, found.program, f"a server of {SERVICE}")
@@ -75,8 +74,7 @@ def server(session):
 @check("W7", "the client asks and prints", "2", "W5", look=f"rosrun {PACKAGE} {CLIENT} 4 5")
 def client(session):
     """Compare what it asked and printed."""
-    script = program_of(session, PACKAGE, CLIENT)
-    found, blame = session.recording(ask, script), Blame(session, PACKAGE, script)
+    found, blame = recorded(session, PACKAGE, CLIENT, ask)
     output = found.program.output
     if not found.waited or "Traceback" in output:
         hint = f"rospy.wait_for_service('{SERVICE[1:]}') before the call"
@@ -85,7 +83,7 @@ def client(session):
         seen, hint = "it does not", "look at the name of the service"
         raise blame.wrong("ServiceProxy( wait_for_service(", f"it calls {SERVICE}", seen, hint)
     if found.requests[0] != GIVEN:
-        proxy = re.search(r"(\w+)\s*=\s*(?:rospy\.)?ServiceProxy", session.text(PACKAGE, script))
+        proxy = re.search(r"(\w+)\s*=\s*(?:rospy\.)?ServiceProxy", blame.text)
         words = f"{proxy[1]}( argv" if proxy else "argv"
         hint = "a is sys.argv[1], b is sys.argv[2]"
         raise blame.wrong(words, f"it asks {GIVEN}", found.requests[0], hint)

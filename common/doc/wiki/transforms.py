@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 from typing import List, Optional, Tuple
 
-from tutorial_course.common import POSE, START_S, Blame, must_run, path_of, start_turtles
+from tutorial_course.common import POSE, START_S, must_run, path_of, recorded, start_turtles
 
 from tutorial_check.course import check
 from tutorial_check.course_kit.client import Client, Transform
@@ -61,18 +61,18 @@ def broadcast(ground, script) -> Broadcast:
         return Broadcast(program.ran, tuple(found), tuple(frames))
 
 
-def follow(ground, launch, broadcaster, listener) -> Following:
-    """Start a launch file; or turtlesim, a broadcaster for each turtle, and the listener."""
+def follow(ground, path, broadcaster) -> Following:
+    """Start a listener, with turtlesim and broadcasters; or, without a broadcaster, a launch file."""
     with ground.stage() as stage:
         client = Client(stage)
         client.listen("/turtle2/pose", POSE)
-        if launch:
-            program = Launch(stage, launch).program
+        if not broadcaster:
+            program = Launch(stage, path).program
         else:
             start_turtles(stage, client)
             for turtle in ("turtle1", "turtle2"):
                 stage.start(PACKAGE, broadcaster, f"_turtle:={turtle}", f"__name:={turtle}_tf")
-            program = stage.start(PACKAGE, listener)
+            program = stage.start(PACKAGE, path)
         stage.wait(lambda: program.ended or client.count("/turtle2/pose"), 2 * START_S)
         if client.count("/turtle2/pose"):
             teleport(client, PLACES[1])
@@ -89,8 +89,7 @@ def _gap(pose):
 @check("W15", "the broadcaster", "7", look="rosrun tf tf_echo /world /turtle1")
 def broadcaster(session):
     """Compare transforms with poses."""
-    script = program_of(session, PACKAGE, BROADCASTER)
-    found, blame = session.recording(broadcast, script), Blame(session, PACKAGE, script)
+    found, blame = recorded(session, PACKAGE, BROADCASTER, broadcast)
     expected = "frames: turtle1 in world"
     must_run(session, PACKAGE, found.program, expected)
     frames = [f"{each['child_frame_id']} in {each['header']['frame_id']}" for each in found.frames]
@@ -125,9 +124,8 @@ def check_following(session, found, where, hint):
 @check("W16", "turtle2 follows", "7", "W15", look="rosrun tf tf_echo /turtle2 /turtle1")
 def follows(session):
     """Look whether it comes near."""
-    script = program_of(session, PACKAGE, LISTENER)
-    found = session.recording(follow, "", program_of(session, PACKAGE, BROADCASTER), script)
-    blame = Blame(session, PACKAGE, script)
+    other = program_of(session, PACKAGE, BROADCASTER)
+    found, blame = recorded(session, PACKAGE, LISTENER, follow, other)
     where, hint = blame.line("spawn", "Spawn"), "call the service spawn"
     if found.gaps:
         where, hint = blame.line("lookup_transform"), "lookup_transform('turtle2', 'turtle1', ...)"
@@ -138,6 +136,6 @@ def follows(session):
 def starts_all(session):
     """Look at the same, started by roslaunch."""
     file = launch_file(session, PACKAGE, DEMO)
-    found = session.recording(follow, file.path, "", "")
+    found = session.recording(follow, file.path, "")
     hint = "a broadcaster for each turtle, each with its parameter turtle; and the listener"
     check_following(session, found, file.at(BROADCASTER, "<launch"), hint)

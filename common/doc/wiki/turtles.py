@@ -9,9 +9,9 @@ from tutorial_course.common import (
     POSE,
     START_S,
     TWIST,
-    Blame,
     moves,
     path_of,
+    recorded,
     start_turtles,
 )
 
@@ -19,7 +19,7 @@ from tutorial_check.course import check
 from tutorial_check.course_kit.client import Client
 from tutorial_check.course_kit.launches import Launch, Launched, launch_file
 from tutorial_check.isolation.program import Ran
-from tutorial_check.judge.scripts import crash, program_of
+from tutorial_check.judge.scripts import crash
 from tutorial_check.model import Wrong
 
 BACKGROUND, MIMIC = "background.py", "turtlemimic.launch"
@@ -82,8 +82,7 @@ def launch_mimic(ground, path) -> Mimic:
 @check("W8", "the background changes", "3", look="rosparam get /turtlesim/background_r")
 def background(session):
     """Compare parameters and color."""
-    script = program_of(session, PACKAGE, BACKGROUND)
-    found, blame = session.recording(change, script), Blame(session, PACKAGE, script)
+    found, blame = recorded(session, PACKAGE, BACKGROUND, change)
     expected = f"/turtlesim/background_r, _g and _b are {RGB}"
     if "Traceback" in found.program.output:
         raise crash(session, PACKAGE, found.program, expected)

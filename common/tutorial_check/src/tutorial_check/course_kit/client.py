@@ -132,9 +132,9 @@ class Client:
         self._stage.wait(
             lambda: self._has(number) or self._node.ended, seconds, or_idle=what == "ask"
         )
-        if not self._has(number) and not self._node.ended:
+        if what == "ask" and not self._has(number) and not self._node.ended:
             raise TimeoutError
-        words = f"the node has ended: {last_lines(self._node.output)}"
+        words = f"the client has ended, or hangs; it printed: {last_lines(self._node.output)}"
         answer = self._answers.pop(number, {"error": words})
         own = [each.name for each in self._stage.session.packages]
         if "fault" in answer and of.partition("/")[0] in own:
