@@ -49,12 +49,12 @@ def test_the_solutions_come_to_what_they_should(name, count):
 
 def test_the_wiki_finds_mistakes_at_their_line(tmp_path):
     src = shutil.copytree(WIKI / "solutions/right", tmp_path / "ws" / "src")
-    for name in ("W6_subtracts", "W9_swapped", "W15_another_parent"):
+    for name in ("W6_another_field", "W9_swapped", "W15_another_parent"):
         patch(src, WIKI / f"solutions/wrong_{name}.patch")
     code, output = check("--course", "wiki", "--in", tmp_path / "ws", "2", "3", "4", "7")
     places = re.findall(r"WRONG +(W\d+)|where: +(.*:\d+)", output)
     assert [*map("".join, places)] == [
-        *("W6", "scripts/add_two_ints_server.py:11"),
+        *("W6", "scripts/add_two_ints_server.py:9"),
         *("W9", "launch/turtlemimic.launch:9"),
         *("W15", "nodes/turtle_tf2_broadcaster.py:15"),
     ], output

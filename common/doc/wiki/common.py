@@ -36,10 +36,10 @@ def recorded(session, package, name, recorder, *arguments):
     return session.recording(recorder, script, *arguments), Blame(session, package, script)
 
 
-def must_run(session, package, ran, expected, hint=""):
+def must_run(session, package, ran, expected):
     """Raise Wrong for a program that ended, or printed a traceback."""
     if ran.ended or "Traceback" in ran.output:
-        raise crash(session, package, ran, expected, hint)
+        raise crash(session, package, ran, expected, "rospy.spin() keeps it running")
 
 
 class Blame:

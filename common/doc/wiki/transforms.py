@@ -62,7 +62,7 @@ def broadcast(ground, script) -> Broadcast:
 
 
 def follow(ground, path, broadcaster) -> Following:
-    """Start a listener, with turtlesim and broadcasters; or, without a broadcaster, a launch file."""
+    """Start a listener, turtlesim and broadcasters; or, without a broadcaster, a launch file."""
     with ground.stage() as stage:
         client = Client(stage)
         client.listen("/turtle2/pose", POSE)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import select
 import socket
@@ -17,7 +18,7 @@ from tutorial_check.source.tracebacks import last_lines
 
 Heard = Tuple[float, str, Dict[str, Any]]  # (when it came [s], from which node, its fields)
 MOST_BYTES = 64 << 20
-SLOW_S = 30.0  # for what needs no program of the student's
+SLOW_S = 15.0  # for what needs no program of the student's
 
 
 @dataclass(frozen=True)
@@ -56,6 +57,7 @@ class Client:
         self._answers: dict[int, Any] = {}
         self._kinds: dict[str, str] = {}  # of topics that are advertised
         self._line, theirs = socket.socketpair()
+        self._line.settimeout(SLOW_S)
         command = ["/usr/bin/python3", str(Path(__file__).with_name("client_node.py"))]
         self._node = stage.runner.start(command, stage.environment, stdin=theirs.fileno())
         theirs.close()
@@ -128,14 +130,15 @@ class Client:
             line = json.dumps({"id": number, "do": what, "with": about})
         except TypeError as error:
             raise CannotCheck(f"{_place()}: {error}") from None
-        self._line.sendall(f"{line}\n".encode())
+        with contextlib.suppress(OSError):  # it has ended, or hangs
+            self._line.sendall(f"{line}\n".encode())
         self._stage.wait(
             lambda: self._has(number) or self._node.ended, seconds, or_idle=what == "ask"
         )
         if what == "ask" and not self._has(number) and not self._node.ended:
             raise TimeoutError
-        words = f"the client has ended, or hangs; it printed: {last_lines(self._node.output)}"
-        answer = self._answers.pop(number, {"error": words})
+        words = f"what uses {of or 'ROS'} ends, or hangs. {last_lines(self._node.output)}".strip()
+        answer = self._answers.pop(number, {"fault": words})
         own = [each.name for each in self._stage.session.packages]
         if "fault" in answer and of.partition("/")[0] in own:
             raise CutShort(NO_TYPE, answer["fault"])
@@ -146,7 +149,8 @@ class Client:
     def _has(self, number: int) -> bool:
         """Return whether an answer has come; read what is there, of others' programs, too."""
         if select.select([self._line], [], [], 0)[0]:
-            self._buffer += self._line.recv(1 << 20)
+            with contextlib.suppress(OSError):
+                self._buffer += self._line.recv(1 << 20)
             if len(self._buffer) > MOST_BYTES:
                 raise CannotCheck(f"{_place()}: an answer of more than {MOST_BYTES >> 20} MB")
             *lines, self._buffer = self._buffer.split(b"\n")
