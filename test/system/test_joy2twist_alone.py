@@ -14,7 +14,11 @@ SECTION = README.partition("## In your own workspace")[2].partition("\n## ")[0]
 BASH, YAML = (
     re.findall(rf"^```{kind}\n(.*?)^```", SECTION, re.M | re.S)[0] for kind in ("bash", "yaml")
 )
-HELD = "{axes: [0.5, 1, 0, 0, 0, 0, 0, 0], buttons: [0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0]}"
+# Of one node: all is released; then LB and the stick are held, which changes as in a hand.
+JOYS = "\n---\n".join(
+    f"{{axes: [{0.5 * held}, {held}, {0.01 * (number % 2)}], buttons: [0, 0, 0, 0, {held}]}}"
+    for number in range(1000) for held in [int(number > 20)]
+)  # fmt: skip
 
 
 @pytest.fixture
@@ -24,6 +28,7 @@ def alone(tmp_path, master_uri, monkeypatch):
         monkeypatch.delenv(name, raising=False)
     (tmp_path / "ros1_tutorial").symlink_to(REPOSITORY)
     (tmp_path / "xbox.yaml").write_text(YAML)
+    (tmp_path / "joys.yaml").write_text(JOYS)
 
     def begin(script):
         return Program("bash", "-ec", f"cd; {script}", PATH="/usr/bin:/bin", HOME=str(tmp_path))
@@ -35,11 +40,15 @@ def alone(tmp_path, master_uri, monkeypatch):
 
 def test_two_folders_and_a_file_of_teleop_twist_joy_drive_another_robot(alone):
     with alone(BASH) as node:
-        wait_for(lambda: "hold button 5" in node.output or node.ended, "joy2twist")
+        wait_for(lambda: "hold button 4" in node.output or node.ended, "joy2twist")
         assert not node.ended, node.output
-        with alone(f'rostopic pub -r 10 joy sensor_msgs/Joy "{HELD}"'), alone(
-            "rostopic echo -n 1 /base/cmd_vel"
-        ) as robot:
-            assert robot.wait() == 0
-            velocity = list(map(float, re.findall(r"[xyz]: (\S+)", robot.output)))
-    assert velocity == pytest.approx([0.7, 0, 0, 0, 0, 0.2])
+        joys = "rostopic pub -r 20 -f joys.yaml joy sensor_msgs/Joy"
+        with alone("rostopic echo -p /base/cmd_vel") as robot:
+            with alone(joys) as stick:
+                wait_for(lambda: ",0.7," in robot.output or stick.ended, "robot that drives")
+                assert ",0.7,0.0,0.0,0.0,0.0,0.2\n" in robot.output, stick.output
+            wait_for(lambda: robot.output.splitlines()[-1].endswith(",0.0" * 6), "zeros at the end")
+    launch = "joy2twist_turtlebot.launch joy_config:=xbox cmd_vel:=/base/cmd_vel"
+    with alone(f". own_ws/devel/setup.bash; roslaunch joy2twist {launch}") as node:
+        wait_for(lambda: "hold button 4, or 5" in node.output or node.ended, "joy2twist")
+        assert not node.ended, node.output

@@ -4,6 +4,8 @@ import os
 import subprocess
 from pathlib import Path
 
+import pytest
+
 from tutorial_testing.waiting import LONGEST_S
 
 # No workspace sourced.

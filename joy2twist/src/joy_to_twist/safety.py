@@ -19,7 +19,7 @@ from joy_to_twist.mapping import approach
 from joy_to_twist.parameters import Parameters
 from joy_to_twist.states import WARNS_BEFORE_S, Notice, State
 from node_kit.arming import ZERO, Arming, Velocity
-from node_kit.throttle import Throttle
+from node_kit.throttle import ThrottleEach
 
 IN_TURN_S = 1.0  # two joystick nodes that send within this time of each other send in turn
 WARNING_PERIOD_S = 5.0  # between such warnings
@@ -62,7 +62,7 @@ class Safety:
         self._next_output = math.inf  # when a zero or a step of the acceleration is due
         self._sender: object = None  # sent the last good message
         self._switched_at = -math.inf  # when that was another one than before
-        self._may_warn = Throttle(1.0 / WARNING_PERIOD_S)
+        self._may_warn = ThrottleEach(1.0 / WARNING_PERIOD_S)
         self.arming = Arming(not p.arm_on_neutral)  # for this sender
         self._unarmed = State.NOT_ARMED  # the state until it is armed
         self.latched = False  # the stop button was pressed
@@ -107,8 +107,8 @@ class Safety:
             why = State.SILENT
         elif sender is not self._sender and self._parameters.arm_on_neutral:
             why = State.ANOTHER
-            if now - self._switched_at < IN_TURN_S and self._may_warn.ready(now):
-                self._warn(Notice.IN_TURN)
+            if now - self._switched_at < IN_TURN_S:
+                self._warn_at_times(Notice.IN_TURN, now)
             self._switched_at = now
         stop = self.lost(why, now) if why else None
         if stop is not None and not self._parameters.arm_on_neutral:
@@ -123,6 +123,8 @@ class Safety:
             self._hears = True
             self._wake()  # the watch over the silence begins
         if not self.arming.hear(rests):
+            if self._unarmed is State.NOT_ARMED and velocity not in (None, ZERO):
+                self._warn_at_times(Notice.NOT_ARMED, now)
             return self._refuse(self._unarmed, now)
         if velocity is None:
             return self._refuse(State.ARMED, now)
@@ -222,6 +224,10 @@ class Safety:
     def _schedule(self, next_output: float) -> None:
         self._next_output = next_output
         self._wake()
+
+    def _warn_at_times(self, notice: Notice, now: float) -> None:
+        if self._may_warn.ready(notice.name, now):
+            self._warn(notice)
 
     def _answer(self, velocity: Velocity) -> Velocity:
         before, self._sent = self._sent, velocity

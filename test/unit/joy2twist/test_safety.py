@@ -97,6 +97,14 @@ def test_two_that_send_in_turn_are_named_now_and_then(pause, times):
     assert warnings == [Notice.IN_TURN] * times
 
 
+def test_a_held_stick_that_moves_nothing_is_named_now_and_then():
+    warnings = []
+    machine = Safety(load(ARMS), lambda: None, warnings.append)
+    for i in range(400):
+        machine.drive((FORWARD, None, ZERO)[i % 3], False, i * 0.02)
+    assert warnings == [Notice.NOT_ARMED] * 2
+
+
 @pytest.mark.parametrize("act", ["forward", "backward", "middle"])
 def test_a_silence_is_named_where_the_robot_moved(act):
     warnings = []

@@ -12,7 +12,7 @@ from tutorial_check.report.class_page import POLICY, Student, table_csv, table_h
 
 NOTED = Outcome("2", [Result("C1", NOTE, "one", seen="a name")], 1.0, True)
 BAD = Outcome("2", [Result("C1", WRONG, "one", seen="=none", hint="mkdir src")], 1.0, True)
-UNDECIDED = Outcome("5", [Result("C21", UNREACHED, "two")], 1.0, True)
+UNDECIDED = Outcome("5", [Result("C21", UNREACHED, "two", seen="first fix C1")], 1.0, True)
 NO_VERDICT = Outcome("5", UNDECIDED.results, 1.0, True, "C21: no space")
 EMPTY = Outcome("5", [Result("C21", OK, "two", empty=True)], done=True)
 TITLES = {"2": "a package", "5": "launch files"}
@@ -43,7 +43,7 @@ def test_the_table_has_what_could_be_checked():
     assert [row[6] for row in rows[1:]] == ["", "'=none", ""]
     page = table_html(students, ["2", "5"], TITLES)
     assert 'title="C21: no space">?</td>' in page and 'class="wrong"' in page
-    assert ">not done<" in page and "<td>1 of 2</td><td>1</td>" in page
+    assert ">-<small>first fix C1</small>" in page and ">not done<" in page and "<td>1 of 2</td><td>1</td>" in page
 
 
 def wrong(seen, check="C16", **more):

@@ -37,7 +37,7 @@ class Ros2Side:
         self._sender = Sender(connection, lambda topic: depth_of(self._routes, topic))
         self._publishers: dict[str, tuple[tuple[str, bool], Any]] = {}
         self._subscriptions: dict[str, tuple[tuple[str, QoSProfile] | None, Any]] = {}
-        self._echoes = Echoes()
+        self._echoes, self._lock = Echoes(), threading.Lock()  # of two threads
         self._said: set[str] = set()
         self._wrong: dict[str, str] = {}  # by topic: why it is not carried
         self.node.create_timer(LOOK_S, self._look)
@@ -87,7 +87,8 @@ class Ros2Side:
             return
         data = bytes(self._store.ros1_to_cdr(frame.data, frame.type))
         if route.to_ros1:
-            self._echoes.expect(frame.topic, data, time.monotonic())
+            with self._lock:
+                self._echoes.expect(frame.topic, data, time.monotonic())
         publisher.publish(data)
         self._wrong.pop(frame.topic, None)
 
@@ -158,8 +159,9 @@ class Ros2Side:
             # It may have waited for this side, which has just been restarted.
             age_s = max(0.0, time.time() - 1e-9 * about["source_timestamp"])
             sent_s = time.monotonic() - age_s
-            if route.to_ros2 and self._echoes.is_one(route.topic, data, time.monotonic()):
-                return
+            with self._lock:
+                if route.to_ros2 and self._echoes.is_one(route.topic, data, time.monotonic()):
+                    return
             try:
                 converted = bytes(self._store.cdr_to_ros1(data, kind))
             except Exception as error:  # only this message is affected

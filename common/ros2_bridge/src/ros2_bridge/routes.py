@@ -5,7 +5,6 @@ from __future__ import annotations
 import collections
 import hashlib
 import re
-import threading
 from dataclasses import dataclass, fields
 from typing import Any, Mapping
 
@@ -67,7 +66,6 @@ class Echoes:
     def __init__(self) -> None:
         """Begin with none."""
         self._marks: dict[str, collections.deque[tuple[float, bytes]]] = {}  # by topic
-        self._lock = threading.Lock()
 
     def _recent(self, topic: str, now_s: float) -> collections.deque[tuple[float, bytes]]:
         marks = self._marks.setdefault(topic, collections.deque())
@@ -77,20 +75,17 @@ class Echoes:
 
     def expect(self, topic: str, data: bytes, now_s: float) -> int:
         """Take what is about to be published; return how much of the topic may come back."""
-        with self._lock:
-            marks = self._recent(topic, now_s)
-            marks.append((now_s, hashlib.md5(data).digest()))
-            return len(marks)
+        marks = self._recent(topic, now_s)
+        marks.append((now_s, hashlib.md5(data).digest()))
+        return len(marks)
 
     def is_one(self, topic: str, data: bytes, now_s: float) -> bool:
         """Return whether what was received is expected; each counts once."""
-        digest = hashlib.md5(data).digest()
-        with self._lock:
-            marks = self._recent(topic, now_s)
-            found = next((each for each in marks if each[1] == digest), None)
-            if found:
-                marks.remove(found)
-            return found is not None
+        marks, digest = self._recent(topic, now_s), hashlib.md5(data).digest()
+        found = next((each for each in marks if each[1] == digest), None)
+        if found:
+            marks.remove(found)
+        return found is not None
 
 
 def _route(topic: Any, defaults: Any, about: Any) -> Route:

@@ -9,8 +9,9 @@ from typing import Any
 from node_kit.rospy_patches.connections import established, header_of, is_connected, renew
 from node_kit.suspension import Suspensions
 
-# After a renewal [s]: rospy gives a connection up for good if its greeting fails once.
-LOOKS_AFTER_S = (0.5, 1.0, 2.0, 4.0)
+# After a renewal [s]: rospy gives a connection up for good if its greeting fails once, as it may do
+# for a while on a machine that is busy.
+LOOKS_AFTER_S = (0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0)
 
 
 class FreshOnly:

@@ -37,7 +37,7 @@ POLICY = "default-src 'none'; style-src 'unsafe-inline'"
 STYLE = """
 body{font-family:sans-serif}td,th{padding:.2em .6em;border:1px solid #ccc;vertical-align:top}
 table{border-collapse:collapse}.ok{background:#cfc}.wrong{background:#fcc}.no{color:#777}
-small{display:block;max-width:16em;overflow-wrap:anywhere}
+small{display:block;max-width:16em;overflow-wrap:break-word}
 @media print{body{font-size:9pt}tr{break-inside:avoid}a{color:#000;text-decoration:none}
 .wrong{font-weight:bold}}
 """
@@ -69,7 +69,9 @@ class Student:
             return "ok", "", ""
         for wrong in outcome.wrong:
             return wrong.id, _short(wrong.seen), "\n".join(lines_of(wrong))
-        return ("?", "", outcome.trouble) if outcome.trouble else ("-", "", "not reached")
+        if outcome.trouble:
+            return "?", "", outcome.trouble
+        return "-", next((_short(one.seen) for one in outcome.results), ""), "not reached"
 
     @property
     def done(self) -> str:
