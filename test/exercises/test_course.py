@@ -47,7 +47,7 @@ def test_the_solutions_come_to_what_they_should(name, count):
     assert output.count("\nok ") + output.startswith("ok ") == count, output
 
 
-def test_the_wiki_finds_mistakes_at_their_line(tmp_path):
+def test_a_student_of_the_wiki_reads_line_and_cause(tmp_path):
     src = shutil.copytree(WIKI / "solutions/right", tmp_path / "ws" / "src")
     for name in ("W6_another_field", "W9_swapped", "W15_another_parent"):
         patch(src, WIKI / f"solutions/wrong_{name}.patch")
@@ -59,6 +59,9 @@ def test_the_wiki_finds_mistakes_at_their_line(tmp_path):
         *("W15", "nodes/turtle_tf2_broadcaster.py:15"),
     ], output
     assert code == 1 and "ok     W8" in output, output
+    assert "exercise 2; see it yourself: rosservice call /add_two_ints 1 2" in output
+    code, output = check("--course", "wiki", "--in", tmp_path / "ws", "4.3")
+    assert (code, "no exercise 4.3; there are 1, 2" in output) == (2, True), output
 
 
 def test_whose_mistake_a_type_is(tmp_path):
@@ -84,16 +87,3 @@ def test_a_self_test_finds_a_check_that_passes_everything(tmp_path):
     code, output = check("--course", course, "--self-test")
     assert code == 1, output
     assert "FAILED wrong_S2_turns_too_little: S2 should be wrong, and nothing is" in output
-
-
-def test_a_student_of_a_course_reads_its_words(tmp_path):
-    src = tmp_path / "ws" / "src"
-    shutil.copytree(SQUARE / "solutions/right", src)
-    script = src / "square/scripts/square.py"
-    script.write_text(script.read_text().replace("rospy.init_node", "rospy.initnode"))
-    code, output = check("--course", SQUARE, "--in", tmp_path / "ws")
-    assert code == 1
-    assert "1 a square of 1 m\n  WRONG  S1  it drives" in output, output
-    assert "where:    scripts/square.py:" in output and "task sheet 1" in output
-    code, output = check("--course", SQUARE, "--in", tmp_path / "ws", "4.3")
-    assert (code, "no exercise 4.3; there are 1" in output) == (2, True), output
