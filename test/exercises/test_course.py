@@ -60,8 +60,8 @@ def test_a_student_of_the_wiki_reads_line_and_cause(tmp_path):
     ], output
     assert code == 1 and "ok     W8" in output, output
     assert "exercise 2; see it yourself: rosservice call /add_two_ints 1 2" in output
-    code, output = check("--course", "wiki", "--in", tmp_path / "ws", "4.3")
-    assert (code, "no exercise 4.3; there are 1, 2" in output) == (2, True), output
+    code, output = check("--course", "wiki", "--in", tmp_path / "ws", "9")
+    assert (code, "no exercise 9; there are 1, 2" in output) == (2, True), output
 
 
 def test_whose_mistake_a_type_is(tmp_path):
