@@ -46,7 +46,9 @@ def class_of(kind: str, of_service: bool = False) -> Any:
 
 def plain(value: Any) -> Any:
     """Return a message, or a value of it, in maps, lists, texts and numbers."""
-    if isinstance(value, (genpy.Message, genpy.Time, genpy.Duration)):
+    if isinstance(value, (genpy.Time, genpy.Duration)):
+        return {"secs": value.secs, "nsecs": value.nsecs}
+    if isinstance(value, genpy.Message):
         return {name: plain(getattr(value, name)) for name in value.__slots__}
     return list(map(plain, value)) if isinstance(value, (list, tuple, bytes)) else value
 
