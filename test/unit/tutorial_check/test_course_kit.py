@@ -17,7 +17,6 @@ from tutorial_check.isolation.program import Ran
 from tutorial_check.model import CannotCheck, CutShort, Wrong
 from tutorial_testing.waiting import wait_for
 
-
 ENDS = {}
 
 
