@@ -20,7 +20,7 @@ from tutorial_check.model import WRONG, CannotCheck, Result
 NEVER, AGAIN, ALWAYS = 0, 1, 2  # --hints
 CACHE = Path(os.environ.get("XDG_CACHE_HOME") or "~/.cache", "ros1_tutorial", "checked.json")
 State = Dict[str, Any]  # {workspace or student: what is kept of it}
-LATER = "check again for one; or with --hints 2"
+LATER = "check once more, and it is here; or with --hints 2"
 
 
 def cause_of(result: Result) -> str:
