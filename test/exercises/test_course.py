@@ -69,8 +69,8 @@ def test_whose_mistake_a_type_is(tmp_path):
     (tmp_path / "asks.py").write_text(OF_A_CLIENT)
     _, output = check("--course", tmp_path, "--in", WIKI / "solutions/right")
     for line in (
-        "could not be checked: asks.py:10: there is no service no_msgs/None",
-        "seen:     there is no service beginner_tutorials/None",
+        "could not be checked: asks.py:10: there is no type no_msgs/None",
+        "seen:     there is no type beginner_tutorials/None",
         "seen:     beginner_tutorials/AddTwoIntsRequest: {'a': 'x'} does not fit",
         "ok     S4  a  (there is no service /own; there are: none)",
     ):

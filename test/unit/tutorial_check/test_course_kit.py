@@ -94,8 +94,8 @@ def test_services_parameters_and_types(stage):
 @pytest.mark.parametrize(
     ("kind", "values", "why"),
     [
-        ("own/None", {}, "there is no service own/None"),
-        ("no_msgs/None", {}, r"test_course_kit.py:\d+: there is no service no_msgs/None"),
+        ("own/None", {}, "there is no type own/None"),
+        ("no_msgs/None", {}, r"test_course_kit.py:\d+: there is no type no_msgs/None"),
         ("std_srvs/SetBool", {"date": 1}, r"No field name \[date\] \(fields: data\)"),
         ("std_srvs/SetBool", [1, 2], "Too many arguments"),
         ("std_srvs/SetBool", {"data": "text"}, "field data is not a bool"),

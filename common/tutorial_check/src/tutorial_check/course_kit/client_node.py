@@ -40,7 +40,7 @@ def class_of(kind: str, of_service: bool = False) -> Any:
     except Exception:  # also of what stands in the student's package
         found = None
     if found is None:
-        raise Fault(f"there is no {'service' if of_service else 'message'} {kind}")
+        raise Fault(f"there is no type {kind}")
     return found
 
 
