@@ -3,6 +3,7 @@
 import re
 from pathlib import Path
 
+from tutorial_testing.cockpit.chromium import SHIFT
 from tutorial_testing.cockpit.hands import Keys
 from tutorial_testing.waiting import wait_for
 
@@ -60,6 +61,23 @@ def test_bag_shows_the_values_at_its_slider_and_publishes_until_it_is_paused(wor
     assert world.stays_at_rest()
 
 
+def test_bag_records_all_topics_into_the_folder_and_offers_the_file(world, page, ros):
+    page.tab("Bag")
+    page.click("Record all topics")
+    page.wait_for_text("#bag-recorder", "Recording page_")
+    name = page.text("#bag-recorder").split()[1]
+    wait_for(lambda: "/record_" in ros("rosnode", "list"), "recorder")
+    count = len(world.odometry)
+    wait_for(lambda: len(world.odometry) > count + 100, "odometry")
+    page.click("Stop recording")
+    page.wait_for_text("#bag-name", name)
+    page.one("#bag-name").send_keys(name)
+    page.click("Open")
+    page.wait_for_text("#bag-about", name)
+    page.wait_for_text("#bag-topics", "/odom")
+    Path(name).unlink()
+
+
 MARKS = """[...document.querySelectorAll('#plot-chart .dygraph-axis-label-x')]
     .map((e) => +e.textContent)"""
 
@@ -102,6 +120,30 @@ def test_plot_shows_the_newest_value_saves_all_and_stays_where_a_person_zooms(
     assert axis(page) == chosen
     page.click("Whole range")
     wait_for(lambda: axis(page)[-1] - axis(page)[0] > 5, "time axis that goes on again")
+
+
+def test_plot_has_whole_arrays_another_axis_the_value_at_the_mouse_and_a_wheel(world, page):
+    wheels = "/joint_states/position"
+    page.driver.get(f"{world.address}#plot?f={wheels}")
+    page.wait_for_text("#plot-values", "2 entries")
+    page.wait_for_text("#plot-fields", f"{wheels}[1]")
+    assert f"{wheels}[2]" not in page.text("#plot-fields")
+    wait_for(lambda: axis(page)[-1] == 1, "index of the last entry")
+    page.mouse("mouseMoved", "#plot-chart")
+    page.wait_for_text("#plot-at", "of index")
+    wait_for(lambda: re.search(r"position -?[\d.]+$", page.text("#plot-values")), "value there")
+    page.driver.get(f"{world.address}#plot?f={POSITION}&f={wheels}[0]&last=30&x={POSITION}")
+    page.wait_for_text("#plot-chart .dygraph-xlabel", POSITION)
+    assert page.driver.current_url.endswith(f"&last=30&x={POSITION}")
+    page.driver.get(f"{world.address}#plot?f={POSITION}&last=10")
+    span = wait_for(lambda: axis(page)[-1] - axis(page)[0] > 3 and axis(page), "time axis")
+    x, y = page.middle("#plot-chart")
+    wheel = {"type": "mouseWheel", "x": x, "y": y, "deltaX": 0, "deltaY": -400}
+    page.send("Input.dispatchMouseEvent", **wheel)
+    wait_for(lambda: axis(page)[-1] - axis(page)[0] < (span[-1] - span[0]) / 2, "zoom")
+    before = axis(page)[0]
+    page.send("Input.dispatchMouseEvent", **{**wheel, "modifiers": SHIFT})
+    wait_for(lambda: axis(page)[0] < before, "pan")
 
 
 def test_log_shows_what_nodes_log_by_level_and_filter_and_sets_a_logger(world, page, ros):

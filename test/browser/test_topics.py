@@ -1,5 +1,7 @@
 """The tab Topics, and links to what a tab shows."""
 
+import re
+
 from tutorial_testing.waiting import wait_for
 
 
@@ -21,7 +23,7 @@ def test_a_link_shows_what_it_names_reload_keeps_it_and_back_goes_back(world, pa
     at(plot)
 
 
-def test_topics_shows_rates_and_messages_publishes_and_calls(world, page):
+def test_topics_shows_rates_and_messages_publishes_calls_and_sets(world, page, ros):
     page.driver.get(f"{world.address}#topics/probe")
     page.one("#topics-search").send_keys("probe")
     with world.run("rostopic", "pub", "-r", "20", "/probe", "std_msgs/String", "a"):
@@ -40,6 +42,28 @@ def test_topics_shows_rates_and_messages_publishes_and_calls(world, page):
         echo.wait()
         assert 'data: "b"' in echo.output
     assert "b" not in page.text("#topics-echo")
+    page.one("#topics-rate").send_keys("20")
+    with world.run("rostopic", "hz", "/probe") as hz:
+        wait_for(lambda: page.ask(cells)[3:4] == ["1"], "its subscriber")
+
+        def rate():
+            if page.text("#topics-send") == "Publish":  # a busy machine ends it
+                page.press("#topics-send")
+            return re.search(r"average rate: (1\d|2[01])\.", hz.output)
+
+        found = wait_for(rate, "20 Hz")
+        page.tab("Log")
+        wait_for(lambda: "no new messages" in hz.output[found.end() :], "end with its tab")
+    page.driver.get(f"{world.address}#topics/probe/rate?kind=parameters")
+    ros("rosparam", "set", "/probe/rate", "[1, 2]")
+    page.wait_for_text("#topics-rows", "/probe/rate")
+    page.press("#topics-rows .link")
+    page.wait_for_text("#topics-definition", "[1, 2]")
+    page.one("#topics-fields input").clear()
+    page.one("#topics-fields input").send_keys("0.5")
+    page.click("Set")
+    wait_for(lambda: ros("rosparam", "get", "/probe/rate") == "0.5\n", "value")
+    ros("rosparam", "delete", "/probe")
     page.driver.get(f"{world.address}#topics/rosout/get_loggers?kind=services")
     page.wait_for_text("#topics-definition", "roscpp/Logger[] loggers")
     page.click("Call")

@@ -69,6 +69,7 @@ ROWS = [
     ("2", "an include folder that git has lost", [put(f"{B}/CMakeLists.txt", "catkin_package()", "catkin_package(INCLUDE_DIRS include)")], "C4", (f"{B}/CMakeLists.txt:6", "include dir 'include' does not exist", "keeps no empty folders: put a file into include,")),
     ("2", "a msg folder that git has lost", [put(f"{B}/CMakeLists.txt", "catkin_package()", "find_package(message_generation REQUIRED)\nadd_message_files()\ncatkin_package()")], "C4", (f"{B}/CMakeLists.txt:7", f"put a file into {B}/msg,")),
     ("2", "a subfolder that git has lost", [put(f"{B}/CMakeLists.txt", "catkin_package()", "catkin_package()\nadd_subdirectory(nodes)")], "C4", (f"{B}/CMakeLists.txt:7", "put a file into nodes,")),
+    ("2", "message_generation not named", [put(f"{B}/CMakeLists.txt", "catkin_package()", "add_service_files(FILES Go.srv)\ncatkin_package()")], "C4", (f"{B}/CMakeLists.txt:6", "add_service_files() is of message_generation")),
     ("2", "CMakeLists.txt missing", [remove(f"{B}/CMakeLists.txt")], "C4", "CMakeLists"),
     ("2", "CMakeLists.txt is a folder", [remove(f"{B}/CMakeLists.txt"), write(f"{B}/CMakeLists.txt/CMakeLists.txt", "")], "C4", "CMakeLists"),
     ("3", "another topic, and CMakeLists.txt is a folder", [remove(f"{B}/CMakeLists.txt"), write(f"{B}/CMakeLists.txt/CMakeLists.txt", ""), put(TALKER, "'chatter'", "'chater'")], "C6", "/chater"),

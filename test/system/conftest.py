@@ -9,12 +9,16 @@ import pytest
 from tutorial_testing.ports import free_port
 from tutorial_testing.processes import Program
 from tutorial_testing.screen import virtual_screen
+from tutorial_testing.student import Student
 from tutorial_testing.two_hosts.network import Host
 from tutorial_testing.two_hosts.scene import Scene
 from tutorial_testing.waiting import DEADLINE_S
 
 REPOSITORY = Path(__file__).resolve().parents[2]
-LONGEST = ("test_handout.py", "test_readme.py", "test_other_programs.py", "test_workspaces.py")
+LONGEST = (
+    "test_handout.py", "test_linked_pages.py", "test_readme.py", "test_other_programs.py",
+    "test_workspaces.py",
+)  # fmt: skip
 
 
 def pytest_collection_modifyitems(items):
@@ -62,6 +66,14 @@ def call(tutorial):
 def suite_workspace():
     """The path of the workspace from which these tests run."""
     return str(Path(os.environ["CMAKE_PREFIX_PATH"].split(":")[0]).parent)
+
+
+@pytest.fixture
+def student(tmp_path, host, tutorial, suite_workspace):
+    """On a host of their own: roscore takes the port 11311 whatever ROS_MASTER_URI says."""
+    one = Student(tmp_path, host, tutorial, suite_workspace)
+    yield one
+    one.close()
 
 
 @pytest.fixture(scope="session")

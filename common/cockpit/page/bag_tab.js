@@ -9,6 +9,8 @@ const PANEL = `
     <label>Recording <select id="bag-name"></select></label>
     <button id="bag-open">Open</button>
     <span id="bag-about" role="status" aria-live="polite"></span>
+    <button id="bag-record" disabled>Record all topics</button>
+    <span id="bag-recorder" role="status"></span>
   </div>
   <div class="card chart"><div id="bag-chart"></div></div>
   <div class="card">
@@ -44,6 +46,7 @@ export class BagTab {
   #position = 0; // of the recording [s], which a zoomed slider may not show
   #hidden = new Set(); // the names of hidden curves
   #tracks = {}; // name of a curve -> Track
+  #records = false; // the cockpit records
   #pointed = null; // the time at which the mouse points, or null
 
   constructor(link, watch, page) {
@@ -60,6 +63,12 @@ export class BagTab {
     link.on("bags", ({ names }) => {
       offer(byId("bag-name"), names.map((name) => [name]));
       if (names.length === 1 && !this.#bag) this.#ask();
+    });
+    link.on("hello", ({ role }) => (byId("bag-record").disabled = role !== "driver"));
+    link.on("recorder", ({ name }) => {
+      this.#records = Boolean(name);
+      say(byId("bag-record"), name ? "Stop recording" : "Record all topics");
+      say(byId("bag-recorder"), name && `Recording ${name}`);
     });
     link.on("bag", (bag) => this.#open(bag));
     link.on("bag_at", (at) => this.#moveTo(at));
@@ -83,6 +92,7 @@ export class BagTab {
   #listen() {
     const position = byId("bag-position");
     byId("bag-open").onclick = () => this.#ask();
+    byId("bag-record").onclick = () => this.link.send("record", { on: !this.#records });
     byId("bag-play").onclick = () => this.#play();
     byId("bag-pause").onclick = () => this.link.send("bag_pause");
     position.oninput = () => {

@@ -5,6 +5,7 @@ import { mark, rowsOf } from "./samples.js";
 
 const MOST_POINTS = 8000; // drawn at once: of more a frame takes too long
 const MARK_PX = 30; // between two marks of the axis, as dygraphs has it
+const TIME = "time [s]"; // the axis across, unless another one is chosen
 const RETRY_MS = 1000;
 
 // Distinct on light and dark backgrounds, and for most colour-blind readers.
@@ -16,6 +17,13 @@ const STROKES = [[null, "solid"], [[7, 3], "dashed"], [[2, 3], "dotted"]];
 function style(i) {
   const [pattern, border] = STROKES[Math.floor(i / COLOURS.length) % STROKES.length];
   return { colour: COLOURS[i % COLOURS.length], pattern, border };
+}
+
+/** From the least to the largest of what rows begin with, and a little more. */
+function around(rows) {
+  const [least, most] = rows.reduce(([low, high], [x]) => [Math.min(low, x), Math.max(high, x)], [Infinity, -Infinity]);
+  const edge = (most - least) * 0.05 || 1;
+  return [least - edge, most + edge];
 }
 
 const page = /** @type {any} */ (globalThis); // which has Dygraph then
@@ -38,6 +46,7 @@ export class Chart {
   #wanted = null; // what is shown, or is to be once the library is there
   #waits = false; // for the library
   #labels = [];
+  #across = ""; // what the axis across has
   #cursor = null;
   #window = []; // from, to: as the page itself has set it last
   #drawn = ""; // the part of the time for which samples were chosen
@@ -52,6 +61,7 @@ export class Chart {
     this.onPoint = onPoint;
     this.onRange = onRange;
     new ResizeObserver(() => this.#graph?.resize()).observe(root);
+    root.addEventListener("wheel", (event) => this.#turn(event), { passive: false });
   }
 
   /** An element that looks as the line of a series. */
@@ -77,9 +87,24 @@ export class Chart {
     return { left: x, right: this.root.clientWidth - x - w, from, to };
   }
 
-  /** tracks: {label: Track}; window: [from, to] [s] to be shown unless a person has zoomed. */
-  show(tracks, window) {
-    this.#wanted = [tracks, window];
+  /** The wheel zooms where the mouse is; with Shift, or to the side, it pans. */
+  #turn(event) {
+    if (!this.#graph) return;
+    event.preventDefault();
+    const [from, to] = this.#graph.xAxisRange();
+    const { deltaX, deltaY, shiftKey, offsetX } = event;
+    const aside = ((shiftKey ? deltaY : deltaX) / 1000) * (to - from);
+    const factor = shiftKey ? 1 : Math.exp(deltaY / 400);
+    const at = this.#graph.toDataXCoord(offsetX);
+    this.#graph.updateOptions({ dateWindow: [from, to].map((t) => at + (t - at) * factor + aside) });
+  }
+
+  /**
+   * tracks: {label: Track}; window: [from, to] [s] to be shown unless a person has zoomed.
+   * other: {label, rows} of another axis across than time, or null.
+   */
+  show(tracks, window, other = null) {
+    this.#wanted = [tracks, window, other];
     if (!this.root.clientWidth) return; // another tab is shown
     if (!page.Dygraph?.PLUGINS) {
       library ??= loadLibrary();
@@ -90,8 +115,10 @@ export class Chart {
     const labels = Object.keys(tracks);
     const [from, to] = this.isZoomed ? this.#graph.xAxisRange() : window;
     const columns = Math.min(this.root.clientWidth, MOST_POINTS / 2 / Math.max(1, labels.length));
-    const rows = rowsOf(Object.values(tracks), from, to, columns);
-    const isSame = rows.length && JSON.stringify(labels) === JSON.stringify(this.#labels);
+    const rows = other?.rows ?? rowsOf(Object.values(tracks), from, to, columns);
+    const across = other?.label ?? TIME;
+    const isSame = rows.length && JSON.stringify([across, labels]) === JSON.stringify([this.#across, this.#labels]);
+    if (other) window = around(rows);
     const range = this.isZoomed ? {} : { dateWindow: window };
     if (range.dateWindow) this.#window = [...window];
     this.#drawn = [from, to].join();
@@ -102,6 +129,7 @@ export class Chart {
     this.#graph?.destroy();
     this.#graph = null; // also while the next one is made, which calls #look()
     this.#labels = labels;
+    this.#across = across;
     if (rows.length) this.#graph = this.#make(labels, rows, range);
     if (this.#graph) this.onRange();
   }
@@ -116,11 +144,11 @@ export class Chart {
   #make(labels, rows, range) {
     const patterns = labels.map((label, i) => [label, { strokePattern: style(i).pattern }]);
     return new page.Dygraph(this.root, rows, {
-      labels: ["time [s]", ...labels],
-      xlabel: "time [s]",
+      labels: [this.#across, ...labels],
+      xlabel: this.#across,
       colors: labels.map((_, i) => style(i).colour),
       series: Object.fromEntries(patterns),
-      connectSeparatedPoints: true,
+      connectSeparatedPoints: this.#across === TIME, // the series have times of their own
       axisLineColor: "#8888",
       gridLineColor: "#8883",
       strokeWidth: 1.6,

@@ -1,12 +1,14 @@
-/** The tab Plot: any numeric field of any topic over time. */
+/** The tab Plot: any numeric field of any topic over time or against another one; and whole arrays. */
 
 import { Chart } from "./chart.js";
 import { byId, element, offer, save, say } from "./dom.js";
-import { Track, written } from "./samples.js";
+import { rowsAgainst, rowsOfArrays, Track, written } from "./samples.js";
 
 const MOST = 20; // fields at a time, as the server has it
 const LISTED = 200; // of the fields that are found
+const FIRST = 20; // of a chosen array's entries, which are offered before a search
 const WINDOWS = [[10, "10 s"], [30, "30 s"], [120, "2 min"], [600, "10 min"]];
+const MOST_ROWS = 4000; // against another field
 const KEEP_S = 600; // the longest window; of a fast topic less, see MOST of samples.js
 const DRAW_MS = 100;
 const SET_BACK_S = 1; // by so much and more
@@ -24,11 +26,12 @@ const PANEL = `
       <button id="plot-zoom">Whole range</button>
       <button id="plot-clear">Clear</button>
       <label>Last <select id="plot-window"></select></label>
+      <label>against <select id="plot-x"></select></label>
       <button id="plot-csv">Save CSV</button>
       <button id="plot-png">Save PNG</button>
     </div>
     <div class="card chart"><div id="plot-chart"></div></div>
-    <p class="hint">Drag across the chart to zoom; Whole range ends it. <output id="plot-at"></output></p>
+    <p class="hint">Drag, or turn the wheel, to zoom, with Shift to pan; Whole range ends it. <output id="plot-at"></output></p>
     <div class="legend" id="plot-values" role="group" aria-label="Values"></div>
   </div>
   <div class="panel">
@@ -43,11 +46,14 @@ export class PlotTab {
   static watches = { fields: [], field_list: false };
 
   #samples = {}; // field -> Track, times since #zero
+  #arrays = {}; // field that is a whole array -> its newest entries
+  #other = null; // another axis across than time, as the chart has it
   #zero = null; // time of the first sample [s]
   #all = [];
   #fresh = false;
   #frozen = null; // the newest time that is shown while the plot is paused
   #pointed = null; // the time at which the mouse points, or null
+  #points = []; // of the curves, there
   #shown = false;
 
   constructor(link, watch, page) {
@@ -56,7 +62,8 @@ export class PlotTab {
     this.chart = new Chart(byId("plot-chart"), {
       onPoint: (t, points) => {
         this.#pointed = t;
-        this.#showValues(points);
+        this.#points = points ?? [];
+        this.#showValues(this.#points);
       },
     });
     link.on("fields", ({ fields }) => {
@@ -68,6 +75,7 @@ export class PlotTab {
     offer(byId("plot-window"), WINDOWS);
     byId("plot-window").value = 30;
     byId("plot-window").onchange = () => this.#showLast(byId("plot-window").value);
+    byId("plot-x").onchange = () => this.#showLast(byId("plot-window").value);
     byId("plot-search").oninput = () => this.#list();
     byId("plot-pause").onclick = () => this.#pause(this.#frozen === null);
     byId("plot-zoom").onclick = () => this.#showLast(KEEP_S);
@@ -86,6 +94,7 @@ export class PlotTab {
   get place() {
     const query = this.fields.map((field) => ["f", field]);
     if (query.length) query.push(["last", byId("plot-window").value]);
+    if (byId("plot-x").value) query.push(["x", byId("plot-x").value]);
     return query.length ? `?${new URLSearchParams(query)}`.replaceAll("%2F", "/") : "";
   }
 
@@ -96,8 +105,10 @@ export class PlotTab {
     const last = Math.min(KEEP_S, Math.max(1, Math.round(Number(query.get("last")) || 30)));
     const isListed = WINDOWS.some(([seconds]) => seconds === last);
     offer(byId("plot-window"), [...WINDOWS, ...(isListed ? [] : [[last, `${last} s`]])]);
-    this.#showLast(last);
+    byId("plot-x").value = "";
     this.#list();
+    byId("plot-x").value = fields.includes(query.get("x")) ? query.get("x") : "";
+    this.#showLast(last);
   }
 
   get fields() {
@@ -105,7 +116,14 @@ export class PlotTab {
   }
 
   #take(samples) {
-    const wanted = Object.entries(samples).filter(([field]) => this.#samples[field]);
+    const known = Object.entries(samples).filter(([field]) => this.#samples[field]);
+    const isArray = ([, [[, value]]]) => Array.isArray(value);
+    for (const [field, points] of known.filter(isArray)) {
+      const [before, now] = [this.#arrays[field], points.at(-1)[1]];
+      if (this.#frozen === null) this.#arrays[field] = now;
+      if (before?.length !== now.length) this.#list();
+    }
+    const wanted = known.filter((one) => !isArray(one));
     const begins = wanted.map(([field, points]) => setBack(points, this.#samples[field].newest + this.#zero));
     if (begins.some((i) => i >= 0)) this.#clear(); // all earlier samples are of another time
     for (const [field, points] of wanted) {
@@ -126,25 +144,40 @@ export class PlotTab {
   #draw() {
     if (!this.#shown || !this.#fresh) return;
     const from = Math.max(0, this.#newest - Number(byId("plot-window").value));
-    this.chart.show(this.#samples, [from, Math.max(this.#newest, from + 1)]);
+    this.#other = this.#across(from);
+    this.chart.show(this.#samples, [from, Math.max(this.#newest, from + 1)], this.#other);
     this.#fresh = false;
-    this.#showValues();
+    this.#showValues(this.#other ? this.#points : []);
+  }
+
+  /** The axis across and its rows where that is not time. */
+  #across(from) {
+    const arrays = this.fields.map((field) => this.#arrays[field] ?? []);
+    if (arrays.some(({ length }) => length)) return { label: "index", rows: rowsOfArrays(arrays) };
+    const label = byId("plot-x").value;
+    if (!label) return null;
+    const tracks = Object.entries(this.#samples).map(([field, track]) => (field === label ? new Track() : track));
+    return { label, rows: rowsAgainst(this.#samples[label], tracks, from, this.#newest, MOST_ROWS) };
   }
 
   /** The values at the mouse, where a point is drawn that of the point; or the newest. */
-  #showValues(points = []) {
+  #showValues(points) {
     const t = this.#pointed ?? this.#newest;
-    say(byId("plot-at"), this.#pointed === null ? "" : `At ${t.toFixed(2)} s:`);
+    const unit = this.#other ? ` of ${this.#other.label}` : " s";
+    say(byId("plot-at"), this.#pointed === null ? "" : `At ${t.toFixed(2)}${unit}:`);
     byId("plot-values").replaceChildren(...this.fields.map((field, i) => {
-      const value = points.find(({ name }) => name === field)?.yval ?? this.#samples[field].at(t);
+      const value = points.find(({ name }) => name === field)?.yval ?? this.#samples[field].at(this.#other ? this.#newest : t);
+      const entries = this.#arrays[field] && `${this.#arrays[field].length} entries`;
       return element("span", { "data-field": field }, this.chart.sample(i), `${field} `,
-        element("output", {}, value === undefined ? "–" : written(value)));
+        element("output", {}, value === undefined ? entries ?? "–" : written(value)));
     }));
   }
 
   #list() {
     const words = byId("plot-search").value.toLowerCase().split(/\s+/).filter(Boolean);
-    const found = this.#all.filter((field) => words.every((word) => field.toLowerCase().includes(word)));
+    const entries = Object.entries(this.#arrays).flatMap(([field, values]) =>
+      values.slice(0, words.length ? LISTED : FIRST).map((_, i) => `${field}[${i}]`));
+    const found = [...entries, ...this.#all].filter((field) => words.every((word) => field.toLowerCase().includes(word)));
     const matching = [...new Set([...this.fields, ...found])]; // the chosen ones first
     const listed = matching.slice(0, LISTED);
     byId("plot-fields").replaceChildren(...listed.map((field) => {
@@ -159,6 +192,7 @@ export class PlotTab {
   }
 
   #limit() {
+    offer(byId("plot-x"), [["", "time"], ...this.fields.map((field) => [field])]);
     for (const box of byId("plot-fields").querySelectorAll("input")) {
       box.disabled = !box.checked && this.fields.length >= MOST;
     }
@@ -167,6 +201,7 @@ export class PlotTab {
   #choose(field, on) {
     if (on) this.#samples[field] = new Track();
     else delete this.#samples[field];
+    delete this.#arrays[field];
     if (!this.fields.length) this.#zero = null;
     this.watch({ fields: this.fields });
     this.#fresh = true;
@@ -177,6 +212,8 @@ export class PlotTab {
   /** Show the last seconds, however the chart was zoomed. */
   #showLast(seconds) {
     byId("plot-window").value = seconds;
+    this.#pointed = null;
+    this.#points = [];
     this.chart.wholeRange();
     this.#fresh = true;
     this.page.moved();

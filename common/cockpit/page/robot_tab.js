@@ -36,6 +36,7 @@ const PANEL = `
       <div id="stick" role="img" aria-label="Stick: drag it with a thumb, or use the arrow keys"><div id="knob"></div></div>
     </div>
   </div>
+  <div id="turtles" role="group" aria-label="Turtles" hidden></div>
   <div class="panel">
     <div class="card" id="drive">
       <h2><label for="look">Robot</label> <select id="look"></select> <small id="me"></small></h2>
@@ -76,7 +77,7 @@ const PANEL = `
 export class RobotTab {
   static title = "Robot";
   static panel = PANEL;
-  static watches = { robots: true, look: null };
+  static watches = { robots: true, look: null, turtles: false };
 
   #teleop = new Map(); // robot -> what its joy2twist reports
   #names = []; // of the robots
@@ -102,6 +103,7 @@ export class RobotTab {
     });
     link.on("around", ({ robots }) => this.floor.around.showRobots(robots));
     link.on("scan", (scan) => this.floor.showScan(scan));
+    link.on("turtles", ({ pictures }) => this.#showTurtles(pictures));
     link.on("pad", (pad) => this.#showPad(pad));
     link.on("teleop", (teleop) => this.#showTeleop(teleop));
     this.#listen();
@@ -113,6 +115,10 @@ export class RobotTab {
 
   connect() {
     this.session.show();
+  }
+
+  show(on) {
+    this.watch({ turtles: on });
   }
 
   #listen() {
@@ -135,6 +141,7 @@ export class RobotTab {
   #showNames(names) {
     this.#names = names = [...names].sort(byName);
     byId("class").hidden = names.length < 2;
+    this.#arrange();
     this.#rows = new Map(names.map((name) => [name, this.#rows.get(name) ?? this.#rowOf(name)]));
     byId("robots").replaceChildren(...this.#rows.values());
     if (this.#look === null && names.length) this.lookAt(names[0]);
@@ -216,6 +223,25 @@ export class RobotTab {
       line.classList.toggle("chosen", name === this.look);
       line.ariaCurrent = String(name === this.look);
     }
+  }
+
+  /** pictures: {node of a turtlesim: PNG in base64, or "" for the one that is shown}. */
+  #showTurtles(pictures) {
+    const shown = new Map([...byId("turtles").children].map((one) => [one.dataset.node, one]));
+    const figures = Object.entries(pictures).map(([node, png]) => {
+      const figure = shown.get(node) ?? element("figure", { "data-node": node },
+        element("img", { alt: `The turtles of ${node}` }), element("figcaption", {}, node));
+      if (png) figure.firstChild.src = `data:image/png;base64,${png}`;
+      return figure;
+    });
+    byId("turtles").replaceChildren(...figures);
+    byId("turtles").hidden = !figures.length;
+    this.#arrange();
+  }
+
+  /** The floor has its place unless there are turtles alone. */
+  #arrange() {
+    byId("floor").parentElement.hidden = !byId("turtles").hidden && !this.#names.length;
   }
 
   #showPad({ robot, axes, buttons, age }) {

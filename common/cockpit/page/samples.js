@@ -92,6 +92,21 @@ function thinned(tracks, spans, width) {
   return [...columns.keys()].sort((a, b) => a - b).flatMap((number) => columns.get(number));
 }
 
+/** Rows [value of x, value of each track] at the times of x, a Track, between two times; at most so many. */
+export function rowsAgainst(x, tracks, from, to, most) {
+  const [first, end] = [from, to].map((t) => firstAt(x.times, t));
+  const step = Math.ceil((end - first) / most);
+  return x.times.slice(first, end + 1)
+    .map((t, i) => [x.values[first + i], ...tracks.map((track) => track.at(t) ?? null)])
+    .filter((_, i) => i % step === 0);
+}
+
+/** Rows [index, entry of each array]. */
+export function rowsOfArrays(arrays) {
+  const length = Math.max(0, ...arrays.map((one) => one.length));
+  return Array.from({ length }, (_, i) => [i, ...arrays.map((one) => one[i] ?? null)]);
+}
+
 /** A number as a person reads it: at most six digits, but seconds since 1970 with their thousandths. */
 export function written(value) {
   const size = Math.abs(value);

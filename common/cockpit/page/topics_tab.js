@@ -1,4 +1,7 @@
-/** The tab Topics: how often messages come, the newest of one, and forms that publish one or call a service. */
+/**
+ * The tab Topics: how often messages come, the newest of one, and forms that publish one, once or again and again,
+ * call a service, or set a parameter.
+ */
 
 import { byId, byName, element, offer, row, say } from "./dom.js";
 
@@ -6,6 +9,12 @@ const LISTED = 100; // of the names that are found
 const MOST_RATES = 40, LONGEST_RATES = 3000; // topics, and characters of their names, as the server takes them
 const LOOK_MS = 500; // between two looks at which topics are in sight
 const ECHOED = 100; // messages that are kept
+const LONGEST_VALUE = 2000; // characters of a field, as the server takes it
+const FORMS = { // of each kind: what the server is asked to describe, and what the form does
+  topics: { what: "message", title: "Publish a message", act: "Publish" },
+  services: { what: "service", title: "Call this service", act: "Call" },
+  parameters: { what: "parameter", title: "Set this parameter", act: "Set" },
+};
 
 const PANEL = `
   <div class="wide">
@@ -30,7 +39,9 @@ const PANEL = `
       <pre id="topics-echo" tabindex="0" role="region" aria-label="Messages"></pre></div>
     <form class="card" id="topics-form" hidden><h2 id="topics-do"></h2>
       <div id="topics-fields"></div>
-      <button id="topics-send" class="primary"></button>
+      <p class="row"><button id="topics-send" class="primary"></button>
+        <label id="topics-repeat">at <input type="number" id="topics-rate" min="0.1" max="50" step="any"
+          placeholder="once"> Hz</label></p>
       <pre id="topics-answer" role="status" hidden></pre></form>
   </div>`;
 
@@ -41,7 +52,8 @@ export class TopicsTab {
 
   #shown = false;
   #drives = false; // whether this page may publish and call
-  #graph = { topics: [], services: [], edges: [] };
+  #graph = { topics: [], services: [], parameters: [], edges: [] };
+  #repeats = 0; // the timer of what is published again and again, or 0
   #chosen = null; // the name
   #type = ""; // of the chosen topic
   #rows = new Map(); // name -> its row
@@ -60,8 +72,12 @@ export class TopicsTab {
     link.on("topic", ({ name, echo }) => name === this.#chosen && !this.#isPaused && this.#showEcho(echo));
     link.on("form", (form) => [this.#type, this.#chosen].includes(form.name) && this.#showForm(form));
     link.on("answer", ({ name, text }) => name === this.#chosen && this.#answer(text || "(an empty answer)"));
-    link.on("refused", ({ what, why }) => what === "call" && this.#answer(why));
-    offer(byId("topics-kind"), [["topics"], ["services"]]);
+    link.on("refused", ({ what, why }) => {
+      if (what === "call") this.#answer(why);
+      if (["repeat", "again"].includes(what)) this.#rest();
+    });
+    document.addEventListener("visibilitychange", () => this.#rest());
+    offer(byId("topics-kind"), Object.keys(FORMS).map((kind) => [kind]));
     byId("topics-kind").onchange = () => this.#choose(null);
     byId("topics-search").oninput = () => this.#list();
     byId("topics-plot").onchange = () => (location.hash = `#plot?f=${this.#chosen}${byId("topics-plot").value}`);
@@ -78,29 +94,34 @@ export class TopicsTab {
   }
 
   get place() {
-    return `${this.#chosen ?? ""}${this.#services ? "?kind=services" : ""}`;
+    return `${this.#chosen ?? ""}${this.#isTopics ? "" : `?kind=${this.#kind}`}`;
   }
 
   go(path, query) {
-    byId("topics-kind").value = query.get("kind") === "services" ? "services" : "topics";
+    byId("topics-kind").value = query.get("kind") in FORMS ? query.get("kind") : "topics";
     this.#choose(/^\/[\w/]{1,199}$/.test(path) ? path : null); // as the server takes it
   }
 
   show(on) {
     this.#shown = on;
-    this.watch({ graph: on, rates: [], topic: on && !this.#services ? this.#chosen : null });
-    if (!on) return;
+    this.watch({ graph: on, rates: [], topic: on && this.#isTopics ? this.#chosen : null });
+    if (!on) return this.#rest();
     this.#list();
     this.#describe();
   }
 
   connect() {
+    this.#rest();
     this.#described = "";
     this.#describe();
   }
 
-  get #services() {
-    return byId("topics-kind").value === "services";
+  get #kind() {
+    return byId("topics-kind").value;
+  }
+
+  get #isTopics() {
+    return this.#kind === "topics";
   }
 
   get #isPaused() {
@@ -109,7 +130,7 @@ export class TopicsTab {
 
   /** The topics whose rows are seen. */
   get #inSight() {
-    if (!byId("topics-measure").checked || this.#services) return [];
+    if (!byId("topics-measure").checked || !this.#isTopics) return [];
     const { top, bottom } = byId("topics-scroll").getBoundingClientRect();
     const names = [...this.#rows].filter(([, line]) => {
       const box = line.getBoundingClientRect();
@@ -121,12 +142,12 @@ export class TopicsTab {
 
   #list() {
     if (!this.#shown) return;
-    const { topics, services, edges } = this.#graph;
+    const { topics, edges } = this.#graph;
     const users = { to: new Map(), from: new Map() }; // how many edges lead to a topic, and from it
     for (const edge of edges) {
       for (const [side, counts] of Object.entries(users)) counts.set(edge[side], (counts.get(edge[side]) ?? 0) + 1);
     }
-    const all = this.#services ? services.map((name) => ({ name, type: "" })) : topics;
+    const all = this.#isTopics ? topics : this.#graph[this.#kind].map((name) => ({ name, type: "" }));
     const words = byId("topics-search").value.toLowerCase().split(/\s+/).filter(Boolean);
     const found = all.filter(({ name, type }) => words.every((word) => `${name} ${type}`.toLowerCase().includes(word)));
     const listed = found.sort((a, b) => byName(a.name, b.name)).slice(0, LISTED);
@@ -140,7 +161,7 @@ export class TopicsTab {
     byId("topics-rows").replaceChildren(...this.#rows.values());
     const rest = found.length - listed.length;
     say(byId("topics-count"), `${found.length} of ${all.length}${rest ? `: the first ${LISTED} are listed` : ""}`);
-    if (this.#chosen && !this.#services) this.#showTopic();
+    if (this.#chosen && this.#isTopics) this.#showTopic();
   }
 
   /** What is known of the chosen topic, also once it is there. */
@@ -169,24 +190,26 @@ export class TopicsTab {
   }
 
   #choose(name) {
+    this.#rest();
     this.#chosen = name;
     this.#type = this.#described = "";
-    byId("topics").dataset.kind = byId("topics-kind").value;
+    byId("topics").dataset.kind = this.#kind;
     byId("topics-echo").replaceChildren();
     this.#pause(false);
     say(byId("topics-title"), name ?? "Choose a name.");
     say(byId("topics-about"), "");
     say(byId("topics-definition"), "");
     for (const part of ["plots", "form", "answer"]) byId(`topics-${part}`).hidden = true;
-    byId("topics-echoes").hidden = this.#services || !name;
-    if (this.#shown) this.watch({ topic: this.#services ? null : name });
+    byId("topics-echoes").hidden = !this.#isTopics || !name;
+    if (this.#shown) this.watch({ topic: this.#isTopics ? name : null });
     this.#list();
     this.#describe();
     this.page.moved(true);
   }
 
   #describe() {
-    const [what, name] = this.#services ? ["service", this.#chosen] : ["message", this.#type];
+    const { what } = FORMS[this.#kind];
+    const name = this.#isTopics ? this.#type : this.#chosen;
     if (this.#shown && name && name !== this.#described && this.link.send("describe", { what, name })) {
       this.#described = name;
     }
@@ -209,21 +232,40 @@ export class TopicsTab {
     say(byId("topics-definition"), definition);
     byId("topics-plots").hidden = !numbers.length;
     offer(byId("topics-plot"), [["", "choose a field"], ...numbers.map((field) => [`/${field}`])]);
-    const act = this.#services ? "Call" : "Publish";
-    say(byId("topics-do"), this.#services ? "Call this service" : "Publish a message");
+    const { what, title, act } = FORMS[this.#kind];
+    say(byId("topics-do"), title);
     say(byId("topics-send"), act);
+    byId("topics-repeat").hidden = !this.#isTopics;
     byId("topics-send").disabled = !this.#drives;
     byId("topics-send").title = this.#drives ? "" : "This page may only look.";
     byId("topics-fields").replaceChildren(...fields.map(([name, type]) =>
       element("label", { className: "long" }, `${name} `, element("input", { name, placeholder: type, autocomplete: "off" }))));
+    if (what === "parameter" && definition.length <= LONGEST_VALUE) byId("topics-fields").querySelector("input").value = definition;
     byId("topics-form").hidden = false;
   }
 
   #send() {
     const inputs = [...byId("topics-fields").querySelectorAll("input")].filter(({ value }) => value !== "");
     const values = Object.fromEntries(inputs.map(({ name, value }) => [name, value]));
-    if (this.#services) this.link.send("call", { service: this.#chosen, values });
-    else this.link.send("publish", { topic: this.#chosen, type: this.#type, values });
+    const message = { topic: this.#chosen, type: this.#type, values };
+    const period = 1 / byId("topics-rate").valueAsNumber;
+    if (this.#kind === "services") this.link.send("call", { service: this.#chosen, values });
+    else if (this.#kind === "parameters") this.link.send("set", { parameter: this.#chosen, values });
+    else if (this.#repeats) this.#rest();
+    else if (!period) this.link.send("publish", message);
+    else if (this.link.send("repeat", { ...message, period })) {
+      this.#repeats = setInterval(() => this.link.send("again", { t: performance.now() }), 1000 * period);
+      say(byId("topics-send"), "Stop publishing");
+    }
+  }
+
+  /** Publish no more; what is hidden, left or not connected publishes nothing. */
+  #rest() {
+    if (!this.#repeats) return;
+    clearInterval(this.#repeats);
+    this.#repeats = 0;
+    this.link.send("repeat_end");
+    say(byId("topics-send"), "Publish");
   }
 
   #answer(text) {

@@ -64,8 +64,12 @@ class Refused(WithCockpit):
             page.say("drive", robot="", mode="D")
             page.say("reset", robot="")
             page.say("bag_play", topic="/joy", rate=1.0, loop=False, robot="")
-            page.say("publish", topic="/cmd_vel", type="geometry_msgs/Twist", values={})
-            for what in ("drive", "reset", "bag_play", "publish"):
+            twist = {"topic": "/cmd_vel", "type": "geometry_msgs/Twist", "values": {}}
+            page.say("publish", **twist)
+            page.say("repeat", **twist, period=0.1)
+            page.say("set", parameter="/fake_turtlebot/rate", values={"value": "1"})
+            page.say("record", on=True)
+            for what in ("drive", "reset", "bag_play", "publish", "repeat", "set", "record"):
                 why = page.wait_for("refused", lambda no, what=what: no["what"] == what)["why"]
                 self.assertIn("may only look", why)
             self.assertEqual([session for session in page.of("session") if session["yours"]], [])

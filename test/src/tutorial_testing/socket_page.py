@@ -34,10 +34,15 @@ GOOD = {
     "bag_play": {"topic": "/joy", "rate": 1, "loop": False, "robot": ""},
     "bag_pause": {},
     "bag_seek": {"position": 3.5},
+    "record": {"on": False},
     "doctor": {},
     "describe": {"what": "message", "name": "std_msgs/String"},
     "publish": {"topic": "/x", "type": "std_msgs/String", "values": {"data": "a"}},
     "call": {"service": "/x/reset", "values": {}},
+    "set": {"parameter": "/x/rate", "values": {"value": "10"}},
+    "repeat": {"topic": "/x", "type": "std_msgs/String", "values": {}, "period": 0.1},
+    "again": {"t": 12.5},
+    "repeat_end": {},
 }  # fmt: skip
 
 

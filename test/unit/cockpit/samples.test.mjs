@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { Track, mark, rowsOf } from "../../../common/cockpit/page/samples.js";
+import { Track, mark, rowsAgainst, rowsOf, rowsOfArrays } from "../../../common/cockpit/page/samples.js";
 
 const sines = (count) => new Track(Array.from({ length: count }, (_, i) => [i / 50, Math.sin(i / 1000)]));
 
@@ -31,4 +31,15 @@ test("the marks of an axis differ", () => {
     [[0, 1e300, 2e300], 1e300, ["0", "1.0e+300", "2.0e+300"]],
     [[0, 2e-9], 1e-9, ["0", "2.0e-9"]],
   ]) assert.deepEqual(values.map((value) => mark(value, step)), texts);
+});
+
+test("against another track each of its times in the window is a row, at most so many", () => {
+  const [x, y] = [new Track([[0, 5], [1, 6], [2, 4], [3, 9]]), new Track([[0, 1], [1.5, 2], [2, 3]])];
+  assert.deepEqual(rowsAgainst(x, [y, new Track()], 1, 2, 100), [[6, 1, null], [4, 3, null]]);
+  assert.deepEqual(rowsAgainst(x, [y], 0, 3, 2).map(([value]) => value), [5, 4]);
+  assert.deepEqual(rowsAgainst(new Track(), [y], 0, 3, 2), []);
+});
+
+test("arrays are rows by index, with a gap where one is shorter", () => {
+  assert.deepEqual(rowsOfArrays([[1, null], [], [7]]), [[0, 1, null, 7], [1, null, null, null]]);
 });

@@ -1,5 +1,7 @@
 """Messages from what a person writes into a form, and who may publish them."""
 
+import json
+import xmlrpc.client
 from types import SimpleNamespace
 
 import pytest
@@ -11,6 +13,13 @@ from cockpit_server.driver_session import RefusedError
 from cockpit_server.graph import Graph
 from cockpit_server.sources import forms
 from tutorial_testing.session_room import page
+
+
+class InPlace:
+    """In the place of a Thread: it runs at once."""
+
+    def __init__(self, target, args, daemon):
+        self.start = lambda: target(*args)
 
 
 @pytest.fixture
@@ -41,6 +50,35 @@ def test_hostile_value_is_one_line(filled, kind, name, text):
 
 
 @pytest.mark.parametrize(
+    ("written", "value"),
+    [("0.5", 0.5), ("[1, 2]", [1, 2]), ('{"a": true}', {"a": True}), ("a b", "a b"), ('"5"', "5")],
+)
+def test_parameter_is_set_as_rosparam_does_and_shown_as_it_is_then(monkeypatch, written, value):
+    master = {}
+    monkeypatch.setattr(forms.rospy, "set_param", master.__setitem__)
+    monkeypatch.setattr(forms.rospy, "get_param", master.get)
+    assert json.loads(forms.set_parameter("/x", written)["definition"]) == master["/x"] == value
+
+
+@pytest.mark.parametrize("written", ["null", "9" * 20, "[" * 2000, "1e999", "\0", "[NaN"])
+def test_hostile_parameter_is_one_line_or_a_value(monkeypatch, written):
+    """Whatever it is, it arrives as XML-RPC has it, or the page gets one line."""
+    arrived = []
+    marshalled = lambda _name, value: arrived.append(xmlrpc.client.dumps((value,)))  # noqa: E731
+    monkeypatch.setattr(forms.rospy, "set_param", marshalled)
+    monkeypatch.setattr(forms.rospy, "get_param", lambda *_: 1)
+    hub = SimpleNamespace(session=SimpleNamespace(driver=None))
+    hub.soon = lambda act: act()
+    client, sent = page()
+    hub.clients = {client.number: client}
+    monkeypatch.setattr(forms.threading, "Thread", InPlace)
+    forms.Forms(hub, SimpleNamespace(graph=Graph())).on_set(client, 0.0, "/x", {"value": written})
+    [said] = sent
+    assert said["kind"] == ("form" if arrived else "refused")
+    assert "\n" not in said.get("why", "") and len(said.get("why", "")) <= 200
+
+
+@pytest.mark.parametrize(
     ("role", "driver", "topic", "kind", "why"),
     [
         ("viewer", None, "/x", "std_msgs/String", LOOKS_ONLY),
@@ -59,3 +97,5 @@ def test_who_may_publish_what(role, driver, topic, kind, why):
     if kind == "std_msgs/String":
         with pytest.raises(RefusedError, match=f"^{why}"):
             source.on_call(client, 0.0, "/x/reset", {})
+        with pytest.raises(RefusedError, match=f"^{why}"):
+            source.on_set(client, 0.0, "/rate", {"value": "1"})

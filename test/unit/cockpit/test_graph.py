@@ -30,7 +30,7 @@ def test_reset_is_of_one_robot():
 
 WELL = {
     "getSystemState": (Answer.WELL, [[["/odom", ["/sim"]]], [], []]), "getPid": (Answer.WELL, 7),
-    "getTopicTypes": (Answer.WELL, [["/odom", ODOMETRY]]),
+    "getTopicTypes": (Answer.WELL, [["/odom", ODOMETRY]]), "getParamNames": (Answer.WELL, ["/a"]),
     "lookupNode": (Answer.WELL, "http://here:1/"),
 }  # fmt: skip
 GONE = [

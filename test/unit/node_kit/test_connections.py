@@ -54,6 +54,14 @@ def test_a_message_that_does_not_end_is_reported(read):
     assert "65536 bytes" in lines[0]
 
 
+def test_a_long_message_may_take_its_time_while_its_bytes_come(read):
+    buffer = io.BytesIO()
+    assert read(b"\0\0\0\1", 0.0, buffer) == ([], [])  # 16 MB
+    for second in range(1, 8):
+        assert read(bytes(1_000_000), float(second), buffer) == ([], [])
+    assert read(b"", 8.0, buffer)[1] is None
+
+
 def passed(throttle, times):
     return sum(throttle.ready(t) for t in times)
 

@@ -1,64 +1,135 @@
-"""Names, pens, teleports and colors of the field, as upstream's."""
+"""Names, pens, teleports, colors and lines of the field, as upstream's."""
+
+import math
+from io import BytesIO
+from unittest import mock
 
 import pytest
+from PIL import Image
 
-from simulated_turtles.field import PERIOD_S, START, Field, wait_s
-from simulated_turtles.turtle import Pen
+from simulated_turtles.field import START, Field
+from simulated_turtles.turtle import FIELD_M, Turtle
 
 BLUE, RED = (69, 86, 255), (255, 0, 0)
-PEN = Pen().color
+PEN = Turtle.color
+PIXEL_M = 1 / 45
 
 
 @pytest.fixture
 def field():
-    made = Field(BLUE)
-    made.spawn("", *START, 0.0)
-    return made
+    return Field(lambda: BLUE, mock.Mock(), mock.Mock(), 0.0)
+
+
+def spawn(field, name, x=1.0, y=1.0, theta=0.0):
+    return field.call("spawn", {"x": x, "y": y, "theta": theta, "name": name}, 0.0)
+
+
+def pen(field, color, width, off=0):
+    values = dict(zip("rgb", color), width=width, off=off)
+    field.call("turtle1/set_pen", values, 0.0)
+
+
+def jump(field, x, y, now_s=0.0, theta=0.0):
+    field.call("turtle1/teleport_absolute", {"x": x, "y": y, "theta": theta}, now_s)
+
+
+def drive(field, ahead, left=0.0, turn=0.0):
+    field.call("turtle1/command", {"ahead": ahead, "left": left, "turn": turn}, 0.0)
 
 
 def test_names_are_chosen_or_given_once(field):
-    assert field.spawn("turtle2", 1.0, 1.0, 0.0, 0.0) == "turtle2"
-    assert field.spawn("", 1.0, 1.0, 0.0, 0.0) == "turtle3"
+    assert spawn(field, "turtle2") == "turtle2"
+    assert spawn(field, "") == "turtle3"
     with pytest.raises(ValueError, match=r"A turtled named \[turtle2\] already exists"):
-        field.spawn("turtle2", 1.0, 1.0, 0.0, 0.0)
+        spawn(field, "turtle2")
     for name in ("a b", "1st", "/", "ü"):
         with pytest.raises(ValueError, match="cannot name a turtle"):
-            field.spawn(name, 1.0, 1.0, 0.0, 0.0)
-    field.kill("turtle2")
+            spawn(field, name)
+    field.call("kill", {"name": "turtle2"}, 0.0)
     with pytest.raises(ValueError, match=r"Tried to kill turtle \[turtle2\], which does not exist"):
-        field.kill("turtle2")
-    assert field.spawn("", 1.0, 1.0, 0.0, 0.0) == "turtle4"  # not the free one, as upstream
-    field.reset(BLUE)
-    assert not field.turtles and field.spawn("", *START, 0.0) == "turtle1"
+        field.call("kill", {"name": "turtle2"}, 0.0)
+    with pytest.raises(ValueError, match=r"there is no turtle \[turtle2\]"):
+        field.call("turtle2/command", {}, 0.0)
+    assert spawn(field, "") == "turtle4"  # not the free one, as upstream
+    field.call("reset", {}, 0.0)
+    assert [*field.turtles] == ["turtle1"] and field.turtles["turtle1"].pose[:3] == START
 
 
 def test_velocities_are_published_without_a_sign_and_end_after_a_second(field):
-    field.turtles["turtle1"].command(-3.0, 4.0, -1.0, 0.0)
-    assert field.step(0.5)[0].pose[3:] == (5.0, -1.0)
-    assert field.step(1.0)[0].pose[3:] == (0.0, 0.0)
+    drive(field, -3.0, 4.0, -1.0)
+    for now_s, velocities in ((0.5, (5.0, -1.0)), (1.0, (0.0, 0.0))):
+        field.step(now_s)
+        assert field.turtles["turtle1"].pose[3:] == velocities
 
 
 def test_a_teleport_draws_the_way_and_the_drive_before_it(field):
-    turtle, x, y = field.turtles["turtle1"], *START[:2]
-    turtle.command(1.0, 0.0, 0.0, 0.0)
-    field.teleport(turtle, lambda: turtle.jump_to(2.0, 2.0, 0.0), 1.0)
-    assert field.paper.color_at(x + 0.5, y) == field.paper.color_at(2.0, 2.0) == PEN
-    assert field.paper.color_at((x + 3.0) / 2, (y + 2.0) / 2) == PEN
-    assert field.paper.color_at(x, 2.0) == BLUE
+    x, y = START[:2]
+    drive(field, 1.0)
+    jump(field, 2.0, 2.0, now_s=1.0)
+    assert field.color_at(x + 0.5, y) == field.color_at(2.0, 2.0) == PEN
+    assert field.color_at((x + 3.0) / 2, (y + 2.0) / 2) == PEN
+    assert field.color_at(x, 2.0) == BLUE
 
 
 def test_a_lifted_pen_draws_nothing_and_keeps_its_color(field):
     turtle = field.turtles["turtle1"]
-    field.set_pen(turtle, RED, 0, 0, 0.0)
-    field.set_pen(turtle, (0, 0, 0), 9, 1, 0.0)
-    assert turtle.pen == (RED, 1, False)
-    field.teleport(turtle, lambda: turtle.jump_to(2.0, 2.0, 0.0), 0.0)
-    assert field.step(0.1)[0].color == BLUE
-    field.set_pen(turtle, RED, 3, 0, 0.2)
-    field.teleport(turtle, lambda: turtle.jump_by(1.0, 0.0), 0.2)
-    assert field.paper.color_at(2.5, 2.0) == RED
+    pen(field, RED, 0)
+    pen(field, (0, 0, 0), 9, off=1)
+    assert (turtle.color, turtle.width, turtle.is_down) == (RED, 1, False)
+    jump(field, 2.0, 2.0)
+    field.step(0.1)
+    assert turtle.seen == BLUE
+    pen(field, RED, 3)
+    field.call("turtle1/teleport_relative", {"linear": 1.0, "angular": 0.0}, 0.2)
+    assert field.color_at(2.5, 2.0) == RED
 
 
-def test_steps_keep_their_rate_and_a_late_one_is_not_made_up_for():
-    assert wait_s(5.0, 4.99) == pytest.approx((0.01, 5.0 + PERIOD_S))
-    assert wait_s(5.0, 7.0) == (0.0, 7.0 + PERIOD_S)
+@pytest.mark.parametrize("value", [math.nan, math.inf, -1e39])
+def test_what_no_message_holds_is_refused_and_moves_nothing(field, value):
+    for call in (
+        lambda: drive(field, value),
+        lambda: jump(field, 1.0, value),
+        lambda: field.call("turtle1/teleport_relative", {"linear": 0.0, "angular": value}, 0.0),
+        lambda: spawn(field, "", x=value),
+    ):
+        with pytest.raises(ValueError, match="is no length"):
+            call()
+    field.step(1.0)
+    assert {name: one.pose[:3] for name, one in field.turtles.items()} == {"turtle1": START}
+
+
+@pytest.mark.parametrize(("width", "reach"), [(1, 0), (3, 1), (9, 4)])
+def test_a_line_is_as_wide_as_its_pen(field, width, reach):
+    jump(field, 1.0, 2.0)
+    pen(field, RED, width)
+    jump(field, 3.0, 2.0)
+    rows = [k for k in range(-9, 10) if field.color_at(2.0, 2.0 + k * PIXEL_M) == RED]
+    assert rows == list(range(-reach, reach + 1))
+    assert field.color_at(0.7, 2.0) == field.color_at(3.3, 2.0) == BLUE
+
+
+def test_where_a_thin_line_ends_is_its_color_in_every_direction(field):
+    for k in range(24):
+        end = 5.0 + math.cos(k), 5.0 + math.sin(k)
+        jump(field, 5.0, 5.0)
+        pen(field, (k, 0, 0), 1)
+        jump(field, *end)
+        assert field.color_at(*end) == (k, 0, 0)
+
+
+def test_lines_to_far_away_are_cut_at_the_edge(field):
+    pen(field, RED, 3)
+    jump(field, 1e38, START[1])
+    assert field.color_at(FIELD_M, START[1]) == RED and field.color_at(0.0, START[1]) == BLUE
+
+
+def test_the_picture_is_new_while_turtles_move_and_shows_them(field):
+    def picture():
+        return field.version, Image.open(BytesIO(field.picture("PNG"))).getpixel((250, 250))
+
+    before = picture()
+    field.step(1.0)
+    assert picture() == before and before[1] not in (BLUE, PEN)
+    drive(field, 5.0)
+    field.step(1.5)
+    assert picture()[0] > before[0] and picture()[1] == PEN

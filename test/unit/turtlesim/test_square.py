@@ -1,23 +1,30 @@
 """draw_square: the corners of a square, driven by the rules of the field."""
 
-import pytest
+import runpy
+from types import SimpleNamespace
+from unittest import mock
 
-from simulated_turtles.field import PERIOD_S, START, Field
-from simulated_turtles.square import NEAR_M, SIDE_M, Square
+import pytest
+import rospkg
+import rospy
+
+from simulated_turtles.field import START, Field
+from simulated_turtles.node import PERIOD_S
+
+SCRIPT = f"{rospkg.RosPack().get_path('turtlesim')}/scripts/draw_square"
 
 
 def test_four_sides_return_to_the_start():
-    field, square, goals, now_s = Field((0, 0, 0)), Square(), [], 0.0
-    field.spawn("turtle1", *START, 0.0)
-    while len(goals) < 9:
-        now_s += PERIOD_S
-        assert now_s < 60.0
-        ((_, pose, *_),) = field.step(now_s)
-        ahead, turn = square.step(pose)
-        field.turtles["turtle1"].command(ahead, 0.0, turn, now_s)
-        if square.goal not in goals:
-            goals.append(square.goal)
+    field = Field(lambda: (0, 0, 0), mock.Mock(), mock.Mock(), 0.0)
+    square, corners, now_s = runpy.run_path(SCRIPT)["square"](), [], 0.0
+    turtle, (ahead, turn) = field.turtles["turtle1"], next(square)
+    with mock.patch.object(rospy, "loginfo", lambda _: corners.append(turtle.place)):
+        while len(corners) < 9:
+            now_s += PERIOD_S
+            assert now_s < 60.0
+            field.call("turtle1/command", {"ahead": ahead, "left": 0.0, "turn": turn}, now_s)
+            names = ("x", "y", "theta", "linear_velocity", "angular_velocity")
+            ahead, turn = square.send(SimpleNamespace(**dict(zip(names, turtle.pose))))
     x, y = START[:2]
-    corners = [(x + SIDE_M, y), (x + SIDE_M, y + SIDE_M), (x, y + SIDE_M), (x, y)]
-    for goal, corner in zip(goals[:8:2], corners):
-        assert goal[:2] == pytest.approx(corner, abs=4 * NEAR_M)
+    for place, corner in zip(corners[1::2], [(2, 0), (2, 2), (0, 2), (0, 0)]):
+        assert place == pytest.approx((x + corner[0], y + corner[1]), abs=0.4)

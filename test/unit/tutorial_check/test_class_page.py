@@ -43,7 +43,8 @@ def test_the_table_has_what_could_be_checked():
     assert [row[6] for row in rows[1:]] == ["", "'=none", ""]
     page = table_html(students, ["2", "5"], TITLES)
     assert 'title="C21: no space">?</td>' in page and 'class="wrong"' in page
-    assert ">-<small>first fix C1</small>" in page and ">not done<" in page and "<td>1 of 2</td><td>1</td>" in page
+    for cell in (">-<small>first fix C1</small>", ">not done<", "<td>1 of 2</td><td>1</td>"):
+        assert cell in page
 
 
 def wrong(seen, check="C16", **more):

@@ -44,6 +44,20 @@ class Input(NamedTuple):
     pad: float | None = None  # the gamepad's own clock, any unit; None: a hand on glass or keys
 
 
+class Delay:
+    """How much later than the fastest one of its page a message came."""
+
+    def __init__(self) -> None:
+        self._least, self._least_at = math.inf, 0.0  # our clock minus the page's, at the least
+
+    def of(self, t: float, now: float) -> float:
+        """Return the delay [s] of a message that the page sent at t of its clock [ms]."""
+        late = now - t / 1000
+        self._least = min(late, self._least + CLOCK_DRIFT * (now - self._least_at))
+        self._least_at = now
+        return late - self._least
+
+
 def neutral_of(axes: Axes, buttons: Buttons) -> tuple[Axes, Buttons]:
     """Return (axes, buttons) of the same gamepad when it is released."""
     triggers = triggers_by_count(len(axes))
@@ -79,7 +93,7 @@ class DriverSession:
         self.newest = 0  # number of the newest input that was taken
         self._last: tuple[Axes, Buttons] | None = None  # (axes, buttons) published last
         self._fresh_at = -math.inf  # when the last fresh input came
-        self._least, self._least_at = math.inf, 0.0  # our clock minus the page's, at the least
+        self._delay = Delay()
         self._pad, self._pad_at = None, 0.0  # the gamepad's clock, and when it last went on
         self._ticks = 0  # how often it did while nothing moved
         self._heard: tuple[Axes, Buttons] | None = None  # (axes, buttons) of the newest input
@@ -143,11 +157,9 @@ class DriverSession:
             self._publish(message.axes, message.buttons)
 
     def _is_fresh(self, message: Input, now: float) -> bool:
-        late = now - message.t / 1000
-        self._least = min(late, self._least + CLOCK_DRIFT * (now - self._least_at))
-        self._least_at = now
+        late_s = self._delay.of(message.t, now)
         seen = self._beats.get(message.beat, -math.inf)
-        return message.n > self.newest and late - self._least <= LATE_S and now - seen <= SILENCE_S
+        return message.n > self.newest and late_s <= LATE_S and now - seen <= SILENCE_S
 
     def _is_frozen(self, message: Input, now: float) -> bool:
         still = (message.axes, message.buttons) == self._heard

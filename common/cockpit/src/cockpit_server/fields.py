@@ -7,13 +7,14 @@ A message class is one that genpy made: __slots__ and _slot_types say what is in
 from __future__ import annotations
 
 import re
+from math import isfinite
 from typing import Any, Callable, Iterable, Iterator, Sequence
 
 NUMBERS = {
     "bool", "byte", "char", "float32", "float64", "int16", "int32", "int64", "int8", "uint16",
     "uint32", "uint64", "uint8", "time", "duration",
 }  # fmt: skip
-FIRST_ENTRIES = 12  # entries of an array that are offered; ask for others by name
+MOST_ENTRIES = 2000  # of an array as a whole
 DEEPEST = 8
 _CONSTANT = re.compile(r"^\s*(\w+)\s+(\w+)\s*=\s*(.*?)\s*$", re.MULTILINE)
 _PART = re.compile(r"([A-Za-z]\w*)(?:\[(\d{1,6})\])?")
@@ -22,24 +23,20 @@ _PART = re.compile(r"([A-Za-z]\w*)(?:\[(\d{1,6})\])?")
 def numeric_fields(
     kind: Any, class_of: Callable[[str], Any], depth: int = DEEPEST
 ) -> Iterator[str]:
-    """Yield the names of a class's numbers. class_of: type name -> class or None."""
+    """Yield the names of a class's numbers. class_of: type name -> class or None.
+
+    An array is one name, as only messages have its length; of messages, the first one's numbers.
+    """
     if depth == 0:
         return
     for name, slot_type in zip(kind.__slots__, kind._slot_types):
-        base, _, length = slot_type.partition("[")
-        if not length:
-            names = [name]
-        else:
-            count = min(int(length.rstrip("]") or FIRST_ENTRIES), FIRST_ENTRIES)
-            # Of an array of messages, which may be any long, only the first.
-            names = [f"{name}[{i}]" for i in range(count if base in NUMBERS else 1)]
+        base, is_array, _ = slot_type.partition("[")
         if base in NUMBERS:
-            yield from names
+            yield name
         elif base != "string":
-            inner = class_of(base)
-            if inner:
-                for inside in numeric_fields(inner, class_of, depth - 1):
-                    yield from (f"{one}/{inside}" for one in names)
+            inner, first = class_of(base), f"{name}[0]" if is_array else name
+            inside = numeric_fields(inner, class_of, depth - 1) if inner else ()
+            yield from (f"{first}/{one}" for one in inside)
 
 
 def definition(kind: Any, class_of: Callable[[str], Any], indent: str = "") -> Iterator[str]:
@@ -76,8 +73,10 @@ def parts_of(field: str) -> list[tuple[str, int | None]]:
     return [(part[1], None if part[2] is None else int(part[2])) for part in parts]
 
 
-def value_at(message: Any, parts: Sequence[tuple[str, int | None]]) -> float | None:
-    """Return the number at parts_of(...) as a float, or None."""
+def value_at(
+    message: Any, parts: Sequence[tuple[str, int | None]]
+) -> float | list[float | None] | None:
+    """Return the finite number at parts_of(...), those of a whole array, or None."""
     for name, index in parts:
         if name not in getattr(message, "__slots__", ()):
             return None
@@ -86,9 +85,16 @@ def value_at(message: Any, parts: Sequence[tuple[str, int | None]]) -> float | N
             if not isinstance(message, (list, tuple, bytes)) or index >= len(message):
                 return None
             message = message[index]
-    if hasattr(message, "to_sec"):
-        return float(message.to_sec())
-    return float(message) if isinstance(message, (int, float)) else None
+    if isinstance(message, (list, tuple, bytes)):
+        return [finite(one) for one in message[:MOST_ENTRIES]]
+    return finite(message)
+
+
+def finite(value: Any) -> float | None:
+    """Return a number or a time of ROS as a float, or None."""
+    if hasattr(value, "to_sec"):
+        return float(value.to_sec())
+    return float(value) if isinstance(value, (int, float)) and isfinite(value) else None
 
 
 def split(field: str, topics: Iterable[str]) -> tuple[str, str]:

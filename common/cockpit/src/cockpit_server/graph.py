@@ -11,13 +11,14 @@ ODOMETRY, JOY = "nav_msgs/Odometry", "sensor_msgs/Joy"
 
 @dataclass(frozen=True)
 class Graph:
-    """By name: nodes of publishers, subscribers, services; types; machines of nodes."""
+    """By name: nodes of publishers, subscribers, services; types; machines of nodes; parameters."""
 
     publishers: Column = field(default_factory=dict)
     subscribers: Column = field(default_factory=dict)
     services: Column = field(default_factory=dict)
     types: dict[str, str] = field(default_factory=dict)
     machines: dict[str, str] = field(default_factory=dict)
+    parameters: list[str] = field(default_factory=list)
 
     @property
     def nodes(self) -> set[str]:
@@ -46,6 +47,7 @@ class Graph:
             "nodes": [{"name": name, "machine": self.machines.get(name, "")} for name in nodes],
             "topics": [{"name": name, "type": self.types.get(name, "")} for name in topics],
             "services": sorted(self.services),
+            "parameters": self.parameters,
             "edges": [edge for topic in topics for edge in self._edges(topic)],
         }
 

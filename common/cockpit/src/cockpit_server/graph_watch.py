@@ -53,7 +53,8 @@ class GraphWatch:
             return
         answered, pid = call(self._uri, "getPid", caller=self._own_name)
         heard, types = call(self._uri, "getTopicTypes", caller=self._own_name)
-        if answer is Answer.WELL and Answer.SILENT in (answered, heard):
+        named, parameters = call(self._uri, "getParamNames", caller=self._own_name)
+        if answer is Answer.WELL and Answer.SILENT in (answered, heard, named):
             return  # it is busy, and is asked again
         if self._pid is None:
             self._pid = pid
@@ -65,7 +66,7 @@ class GraphWatch:
         publishers = without(self._own_name, state[0], shown_in=joysticks)
         subscribers, services = [without(self._own_name, part) for part in state[1:]]
         known = self.graph.machines
-        graph = Graph(publishers, subscribers, services, types)
+        graph = Graph(publishers, subscribers, services, types, parameters=sorted(parameters or []))
         graph.machines.update({n: known.get(n) or self._machine(n) for n in graph.nodes})
         if graph != self.graph:
             self.graph = graph

@@ -22,11 +22,14 @@ from cockpit_server.sources.forms import Forms
 from cockpit_server.sources.graph_view import GraphView
 from cockpit_server.sources.logs import Logs
 from cockpit_server.sources.plots import Plots
+from cockpit_server.sources.recorder import Recorder
+from cockpit_server.sources.repeats import Repeats
 from cockpit_server.sources.resets import Resets
 from cockpit_server.sources.robots import Pads, Robots
 from cockpit_server.sources.surroundings import Surroundings
 from cockpit_server.sources.teleop import Teleop
 from cockpit_server.sources.topics import Topics
+from cockpit_server.sources.turtles import Turtles
 from cockpit_server.web import server
 from node_kit.log import Log
 
@@ -57,11 +60,11 @@ class Cockpit:
         pads = Pads(feeds, graphs, name)
         hub = self._hub = Hub(self._soon, graphs, Joysticks(), pads, log.warn)
         bags, robots, teleop = Bags(hub), Robots(feeds, graphs), Teleop(feeds)
-        drives = DrivingStatus(hub, graphs, teleop, robots)
+        drives, forms = DrivingStatus(hub, graphs, teleop, robots), Forms(hub, graphs)
         sources = (
             robots, pads, teleop, drives, Resets(hub, graphs, drives),
-            GraphView(graphs), Topics(feeds, graphs), Forms(hub, graphs), Plots(feeds, graphs),
-            Logs(feeds), Doctor(), bags, Surroundings(feeds, graphs),
+            GraphView(graphs), Topics(feeds, graphs), forms, Repeats(forms), Plots(feeds, graphs),
+            Logs(feeds), Doctor(), bags, Recorder(), Surroundings(feeds, graphs), Turtles(graphs),
         )  # fmt: skip
         hub.add(sources, player=bags)
         self._server = server(self._hub, access)

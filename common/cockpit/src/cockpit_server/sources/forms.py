@@ -33,6 +33,7 @@ MOST_PUBLISHERS = 20
 UNUSED_S = 5.0  # after which a publisher ends
 CONNECT_S = 1.0  # A new publisher waits so long for its subscribers.
 LOOK_S = 0.02
+VELOCITY = "geometry_msgs/Twist"
 Key = Tuple[str, str]  # topic, type
 
 TEXTS = require(
@@ -89,16 +90,19 @@ class Forms(Source):
     """Publishes and calls for pages that may drive, unless another page does."""
 
     messages: ClassVar = {
-        "describe": {"what": one_of("message", "service"), "name": text},
+        "describe": {"what": one_of("message", "service", "parameter"), "name": text},
         "publish": {"topic": full_name, "type": text, "values": TEXTS},
         "call": {"service": full_name, "values": TEXTS},
+        "set": {"parameter": full_name, "values": TEXTS},
     }
 
     def __init__(self, hub: Any, graph_watch: GraphWatch) -> None:
         self._hub, self._graphs = hub, graph_watch
         self._asked: set[str] = set()  # services that have not answered yet
         self._publishers: dict[Key, Any] = {}  # Publisher, or None until it is connected
+        self._first: dict[Key, Any] = {}  # the message that a new one then publishes
         self._used: dict[Key, float] = {}  # when [s]
+        self._lock = threading.Lock()  # of what one publishes first, and afterwards
 
     def collect(self, clients: Sequence[Client], now: float) -> None:
         for key, publisher in list(self._publishers.items()):
@@ -108,7 +112,10 @@ class Forms(Source):
 
     def on_describe(self, client: Client, _now: float, what: str, name: str) -> None:
         if what == "service":
-            self._ask(client, name, describe_service)
+            self._call(client, name, lambda: describe_service(name))
+            return
+        if what == "parameter":
+            self._ask_master(client, lambda: describe_parameter(name))
             return
         # Of what is there: class_of() remembers each name.
         kind = class_of(name) if name in self._graphs.graph.types.values() else None
@@ -130,20 +137,42 @@ class Forms(Source):
             if len(self._publishers) >= MOST_PUBLISHERS:
                 raise RefusedError(f"at most {MOST_PUBLISHERS} topics in {UNUSED_S:g} s")
             self._publishers[key] = None
-            threading.Thread(target=self._begin, args=(key, kind, message), daemon=True).start()
-        elif self._publishers[key]:
-            self._publishers[key].publish(message)
+            threading.Thread(target=self._begin, args=(key, kind), daemon=True).start()
+        self._send_out(key, message)
         self._used[key] = now
 
+    def rest(self, topic: str, type: str) -> None:
+        """Publish a zero velocity, where velocities were published."""
+        if type == VELOCITY and (topic, type) in self._publishers:
+            self._send_out((topic, type), class_of(type)())
+
+    def _send_out(self, key: Key, message: Any) -> None:
+        with self._lock:
+            if self._publishers.get(key):
+                self._publishers[key].publish(message)
+            else:
+                self._first[key] = message
+
     def on_call(self, client: Client, _now: float, service: str, values: Mapping[str, str]) -> None:
-        self._ask(client, service, lambda name: call(name, values))
+        self._call(client, service, lambda: call(service, values))
+
+    def on_set(
+        self, client: Client, _now: float, parameter: str, values: Mapping[str, str]
+    ) -> None:
+        self._must_be_free(client)
+        if "value" not in values:
+            raise RefusedError('write a value, such as 0.5, [1, 2], a text, or "" for an empty one')
+        self._ask_master(client, lambda: set_parameter(parameter, values["value"]))
+
+    def _ask_master(self, client: Client, ask: Callable[[], dict[str, Any]]) -> None:
+        self._ask(client, f"the master, for page {client.number},", ask)
 
     def _must_be_free(self, client: Client) -> None:
         client.must_drive()
         if self._hub.session.driver not in (None, client.number):
             raise RefusedError("another page drives: until it ends, only that page may do this")
 
-    def _begin(self, key: Key, kind: Any, message: Any) -> None:
+    def _begin(self, key: Key, kind: Any) -> None:
         """Publish a first message once the subscribers are connected."""
         try:
             publisher = rospy.Publisher(key[0], kind, queue_size=10)
@@ -156,28 +185,32 @@ class Forms(Source):
         wanted, end = len(subscribers.get(key[0], ())), time.monotonic() + CONNECT_S
         while publisher.get_num_connections() < wanted and time.monotonic() < end:
             time.sleep(LOOK_S)
-        publisher.publish(message)
-        self._publishers[key] = publisher
+        with self._lock:
+            publisher.publish(self._first.pop(key))
+            self._publishers[key] = publisher
 
-    def _ask(self, client: Client, name: str, ask: Callable[[str], dict[str, Any]]) -> None:
+    def _call(self, client: Client, service: str, ask: Callable[[], dict[str, Any]]) -> None:
         self._must_be_free(client)
-        if name not in self._graphs.graph.services:
-            raise RefusedError(f"there is no service {name}")
-        if name in self._asked:
-            raise RefusedError(f"{name} was called and has not answered yet")
-        self._asked.add(name)
+        if service not in self._graphs.graph.services:
+            raise RefusedError(f"there is no service {service}")
+        self._ask(client, service, ask)
+
+    def _ask(self, client: Client, asked: str, ask: Callable[[], dict[str, Any]]) -> None:
+        if asked in self._asked:
+            raise RefusedError(f"{asked} was called and has not answered yet")
+        self._asked.add(asked)
         # A thread of its own: a service may take its time.
-        arguments = (client.number, name, ask)
+        arguments = (client.number, asked, ask)
         threading.Thread(target=self._answer, args=arguments, daemon=True).start()
 
-    def _answer(self, number: int, name: str, ask: Callable[[str], dict[str, Any]]) -> None:
+    def _answer(self, number: int, asked: str, ask: Callable[[], dict[str, Any]]) -> None:
         try:
-            answer = ask(name)
+            answer = ask()
         except Exception as error:  # whatever the service, its package or the master brings about
             why = without_folders(one_line(error))
             answer = {"kind": "refused", "what": "call", "why": why}
         finally:
-            self._asked.discard(name)
+            self._asked.discard(asked)
         self._hub.soon(lambda: self._send(number, **answer))
 
     def _send(self, number: int, kind: str, **answer: Any) -> None:
@@ -197,3 +230,19 @@ def call(name: str, values: Mapping[str, str]) -> dict[str, Any]:
     kind = rosservice.get_service_class_by_name(name)
     answer = str(rospy.ServiceProxy(name, kind)(filled(kind._request_class, values)))
     return {"kind": "answer", "name": name, "text": answer[:LONGEST_ANSWER]}
+
+
+def describe_parameter(name: str) -> dict[str, Any]:
+    value = json.dumps(rospy.get_param(name, None), default=str)[:LONGEST_ANSWER]
+    form = {"definition": value, "fields": [("value", "JSON, or a text")], "numbers": []}
+    return {"kind": "form", "what": "parameter", "name": name, **form}
+
+
+def set_parameter(name: str, written: str) -> dict[str, Any]:
+    """Set what is JSON as that, as rosparam does, and another text as it is."""
+    try:
+        value = json.loads(written)
+    except ValueError:
+        value = written
+    rospy.set_param(name, value)
+    return describe_parameter(name)

@@ -6,8 +6,7 @@ import threading
 from collections import deque
 from functools import lru_cache
 from itertools import takewhile
-from math import isfinite
-from typing import Any, ClassVar, Sequence
+from typing import Any, ClassVar, Sequence, Tuple
 
 import roslib.message
 import rospy
@@ -19,7 +18,9 @@ from cockpit_server.graph_watch import GraphWatch
 from cockpit_server.schema import MOST_FIELDS, list_of, switch, text
 
 NEAR_S = 1.0  # between a stamp and this clock: curves of two clocks are not side by side
-KEPT = 2000  # samples of a field for a page that is behind
+KEPT = 2000  # samples of a field for a page that is behind; of a whole array the newest
+LONGEST_MESSAGE = 1_000_000  # bytes; a longer one would hold up the driver
+Sample = Tuple[int, float, Any]  # number, time [s], value or values
 
 
 @lru_cache(maxsize=None)
@@ -39,7 +40,7 @@ def fields_of(type_name: str) -> tuple[str, ...]:
     return tuple(sorted(fields, key=lambda field: "header/" in field or "covariance" in field))
 
 
-def newer(samples: deque[tuple[int, float, float]], known: int) -> list[list[float]]:
+def newer(samples: deque[Sample], known: int) -> list[list[Any]]:
     """Return the [t, value] of samples with a larger number, in their order."""
     last = takewhile(lambda sample: sample[0] > known, reversed(samples))
     return [[t, value] for _, t, value in last][::-1]
@@ -55,7 +56,7 @@ class Plots(Source):
         self._lock = threading.Lock()
         self._wanted: dict[str, dict[str, Any]] = {}  # topic -> {field: parts}
         self._classes: dict[str, Any] = {}  # topic -> class of its messages
-        self._samples: dict[str, deque[tuple[int, float, float]]] = {}  # number, time [s], value
+        self._samples: dict[str, deque[Sample]] = {}
         self._number = 0
         self._fields: list[str] = []
         self._fields_of: list[tuple[str, str]] | None = None  # topics and types
@@ -93,7 +94,7 @@ class Plots(Source):
 
     def _hear(self, raw: Any, topic: str) -> None:
         kind = self._classes.get(topic)
-        if kind is None:
+        if kind is None or len(raw.data) > LONGEST_MESSAGE:
             return
         try:
             message = kind().deserialize(raw.data)
@@ -104,8 +105,10 @@ class Plots(Source):
         t = round(stamp if abs(stamp - now) <= NEAR_S else now, 6)
         for field, parts in self._wanted.get(topic, {}).items():
             value = value_at(message, parts)
-            if value is not None and isfinite(value):
+            if value is not None:
                 with self._lock:
                     self._number += 1
+                    if isinstance(value, list) and field in self._samples:
+                        self._samples[field].clear()
                     if field in self._samples:
                         self._samples[field].append((self._number, t, value))

@@ -27,8 +27,9 @@ from rospy.msg import deserialize_messages
 from node_kit.throttle import ThrottleEach
 
 GREETING_S = 2.0  # for a peer to name its topic; on one network it takes milliseconds
-# After this time from its first bytes a message claims to be longer than it is: all here are short.
-LONGEST_ARRIVAL_S = 0.5
+# A message that takes longer from its first bytes on, and comes slower, claims to be longer than it
+# is: what fills it are the next ones, of which no robot's control has so many.
+LONGEST_ARRIVAL_S, SLOWEST_ARRIVAL = 0.5, 1e6  # [s], [bytes/s]
 WARNING_PERIOD_S = 1.0  # a sender may send a hundred of them a second
 _LENGTH = struct.Struct("<I")
 
@@ -158,6 +159,10 @@ def _check_arrival(self: Any, buffer: Any) -> None:
     now = time.monotonic()
     if getattr(self, "incomplete_since", None) is None:
         self.incomplete_since = now
-    elif now - self.incomplete_since > LONGEST_ARRIVAL_S:
-        (length,) = _LENGTH.unpack_from(buffer.getvalue())
+        return
+    taken_s = now - self.incomplete_since
+    with buffer.getbuffer() as arrived:
+        is_slow = len(arrived) < SLOWEST_ARRIVAL * taken_s
+        (length,) = _LENGTH.unpack_from(arrived) if len(arrived) >= _LENGTH.size else (0,)
+    if is_slow and taken_s > LONGEST_ARRIVAL_S:
         raise ValueError(f"it claims to have {length} bytes, which do not come")

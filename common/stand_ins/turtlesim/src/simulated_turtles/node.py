@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+import base64
 import os
 import threading
 import time
-from functools import partial
-from typing import Any, Callable
+from typing import Any
 
 import rospy
 from geometry_msgs.msg import Twist
@@ -14,10 +14,18 @@ from std_srvs.srv import Empty
 from turtlesim import srv
 from turtlesim.msg import Color, Pose
 
-from node_kit.start import run
-from simulated_turtles.field import BACKGROUND, START, Field, State, background, wait_s
-from simulated_turtles.paper import outline
-from simulated_turtles.turtle import Turtle
+from node_kit.rospy_patches.questions import answer
+from simulated_turtles.field import Field
+
+PERIOD_S = 0.016  # 62.5 Hz
+BACKGROUND = {"background_r": 69, "background_g": 86, "background_b": 255}
+# Services are methods of Field, and of Turtle.
+SERVICES = {"clear": Empty, "reset": Empty, "spawn": srv.Spawn, "kill": srv.Kill}
+OF_TURTLES = {
+    "set_pen": srv.SetPen,
+    "teleport_absolute": srv.TeleportAbsolute,
+    "teleport_relative": srv.TeleportRelative,
+}
 
 
 class Turtlesim:
@@ -34,49 +42,38 @@ class Turtlesim:
         """Begin with turtle1; given: private parameters."""
         for name, default in BACKGROUND.items():
             rospy.set_param(f"~{name}", given.get(name, default))
-        self._lock = threading.RLock()
-        self._field = Field(self._background())
-        self._ends: dict[str, list[Any]] = {}  # each turtle's ends of topics and services
         rospy.loginfo(f"Starting turtlesim with node name {rospy.get_name()}")
-        self._spawn("", *START)
-        self._serve("clear", Empty, self._clear)
-        self._serve("reset", Empty, self._reset)
-        self._serve("spawn", srv.Spawn, lambda a: {"name": self._spawn(a.name, a.x, a.y, a.theta)})
-        self._serve("kill", srv.Kill, self._kill)
+        self._lock = threading.RLock()
+        self._field = Field(background, rospy.loginfo, rospy.logwarn, time.monotonic())
+        self._ends: dict[str, list[Any]] = {}  # each turtle's ends of topics and services
+        self._open_and_close()
+        for service, kind in SERVICES.items():
+            self._serve(service, kind)
+        answer("picture", self._picture)
 
-    def _serve(self, name: str, kind: Any, answer: Callable[[Any], Any]) -> rospy.Service:
+    def _picture(self, known: int) -> tuple[int, str]:
+        """Return the version of the picture, and a PNG in base64 unless that is known."""
+        with self._lock:
+            version = self._field.version
+            png = b"" if version == known else self._field.picture("PNG")
+        return version, base64.b64encode(png).decode()
+
+    def _serve(self, name: str, kind: Any) -> rospy.Service:
         def handle(request: Any) -> Any:
             try:
-                with self._lock:
-                    return answer(request) or {}
+                text = self._call(name, {f: getattr(request, f) for f in request.__slots__})
             except ValueError as error:
                 rospy.logerr(str(error))
                 raise rospy.ServiceException(str(error)) from None
+            return text or {}
 
         return rospy.Service(name, kind, handle)
 
-    @staticmethod
-    def _background() -> tuple[int, int, int]:
-        return background({name: rospy.get_param(f"~{name}", None) for name in BACKGROUND})
-
-    def _clear(self, _: object) -> None:
-        rospy.loginfo("Clearing turtlesim.")
-        self._field.paper.fill(self._background())
-
-    def _reset(self, _: object) -> None:
-        rospy.loginfo("Resetting turtlesim.")
-        self._field.reset(self._background())
-        self._spawn("", *START)
-
-    def _spawn(self, name: str, x: float, y: float, theta: float) -> str:
-        name = self._field.spawn(name, x, y, theta, time.monotonic())
-        self._open_and_close()
-        rospy.loginfo(f"Spawning turtle [{name}] at x=[{x:f}], y=[{y:f}], theta=[{theta:f}]")
-        return name
-
-    def _kill(self, request: srv.KillRequest) -> None:
-        self._field.kill(request.name)
-        self._open_and_close()
+    def _call(self, name: str, values: dict[str, Any]) -> str:
+        with self._lock:
+            text = self._field.call(name, values, time.monotonic())
+            self._open_and_close()
+        return text
 
     def _open_and_close(self) -> None:
         """Have topics and services for exactly the turtles of the field."""
@@ -89,64 +86,41 @@ class Turtlesim:
                 rospy.Publisher(f"{name}/pose", Pose, queue_size=1),
                 rospy.Publisher(f"{name}/color_sensor", Color, queue_size=1),
                 rospy.Subscriber(f"{name}/cmd_vel", Twist, self._command, name, queue_size=1),
+                *(self._serve(f"{name}/{service}", kind) for service, kind in OF_TURTLES.items()),
             ]
-            for service, kind, answer in (
-                ("set_pen", srv.SetPen, self._set_pen),
-                ("teleport_absolute", srv.TeleportAbsolute, self._jump_to),
-                ("teleport_relative", srv.TeleportRelative, self._jump_by),
-            ):
-                answers = partial(self._of_turtle, name, answer)
-                self._ends[name].append(self._serve(f"{name}/{service}", kind, answers))
-
-    def _of_turtle(self, name: str, answer: Callable[[Turtle, Any], None], request: Any) -> None:
-        if name not in self._field.turtles:  # killed meanwhile
-            raise ValueError(f"there is no turtle [{name}]")
-        answer(self._field.turtles[name], request)
-
-    def _set_pen(self, turtle: Turtle, pen: srv.SetPenRequest) -> None:
-        color = pen.r, pen.g, pen.b
-        self._field.set_pen(turtle, color, pen.width, pen.off, time.monotonic())
-
-    def _jump_to(self, turtle: Turtle, to: srv.TeleportAbsoluteRequest) -> None:
-        jump = partial(turtle.jump_to, to.x, to.y, to.theta)
-        self._field.teleport(turtle, jump, time.monotonic())
-
-    def _jump_by(self, turtle: Turtle, by: srv.TeleportRelativeRequest) -> None:
-        jump = partial(turtle.jump_by, by.linear, by.angular)
-        self._field.teleport(turtle, jump, time.monotonic())
 
     def _command(self, twist: Twist, name: str) -> None:
+        values = {"ahead": twist.linear.x, "left": twist.linear.y, "turn": twist.angular.z}
         try:
-            with self._lock:
-                if name in self._field.turtles:
-                    velocity = twist.linear.x, twist.linear.y, twist.angular.z
-                    self._field.turtles[name].command(*velocity, time.monotonic())
+            self._call(f"{name}/command", values)
         except ValueError as error:
             rospy.logwarn_throttle(1.0, f"{name}/cmd_vel is ignored: {error}")
 
-    def _step(self) -> list[State]:
-        with self._lock:
-            states = self._field.step(time.monotonic())
-            for state in states:
-                pose, color, *_ = self._ends[state.name]
-                pose.publish(*state.pose)
-                color.publish(*state.color)
-        for place in filter(None, (state.outside for state in states)):
-            words = "[x={:f}, y={:f}]".format(*place)
-            rospy.logwarn(f"Oh no! I hit the wall! (Clamping from {words})")
-        return states
+    def _step(self) -> None:
+        self._field.step(time.monotonic())
+        for name, turtle in self._field.turtles.items():
+            pose, color, *_ = self._ends[name]
+            pose.publish(*turtle.pose)
+            color.publish(*turtle.seen)
 
     def spin(self) -> None:
         """Drive, publish and show until the node or its window is closed."""
         window, due_s = open_window(), time.monotonic()
         while not rospy.is_shutdown() and (window is None or window.is_open):
-            states = self._step()
-            if window:
-                with self._lock:
-                    change = self._field.paper.take_changes()
-                window.show(change, [outline(*state.pose[:3]) for state in states])
-            pause_s, due_s = wait_s(due_s, time.monotonic())
-            time.sleep(pause_s)
+            with self._lock:
+                self._step()
+                if window:
+                    window.show(self._field)
+            now_s = time.monotonic()
+            wait_s, due_s = max(0.0, due_s - now_s), max(due_s, now_s) + PERIOD_S
+            time.sleep(wait_s)  # A late step delays all.
+
+
+def background() -> tuple[int, int, int]:
+    """Return the color of the parameters; the default for what is no integer, as upstream."""
+    given = ((rospy.get_param(f"~{name}", 0.0), value) for name, value in BACKGROUND.items())
+    red, green, blue = (one & 255 if isinstance(one, int) else value for one, value in given)
+    return red, green, blue
 
 
 def open_window() -> Any:
@@ -159,8 +133,3 @@ def open_window() -> Any:
     except Exception as error:  # ImportError, or TclError of the module that may be missing
         rospy.logwarn(f"no window, for which python3-tk and a screen are needed: {error}")
     return None
-
-
-def main() -> int:
-    """Run the node; return its exit code."""
-    return run("turtlesim", dict, lambda given: Turtlesim(given).spin())

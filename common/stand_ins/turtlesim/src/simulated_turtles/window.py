@@ -1,12 +1,10 @@
-"""The window of the field, in tkinter: an image for the paper and a polygon for each turtle."""
+"""The window of the field, in tkinter."""
 
 from __future__ import annotations
 
 import tkinter
 
-from simulated_turtles.paper import SIZE
-
-COLORS = ("#4a7c3a", "#8a6a3a", "#3a6a8a", "#7a4a7a")  # The turtles have them in turn.
+from simulated_turtles.field import SIZE, Field
 
 
 class Window:
@@ -19,21 +17,12 @@ class Window:
         self._root.resizable(False, False)
         self._root.protocol("WM_DELETE_WINDOW", lambda: setattr(self, "is_open", False))
         self._image = tkinter.PhotoImage(width=SIZE, height=SIZE)
-        self._canvas = tkinter.Canvas(self._root, width=SIZE, height=SIZE, highlightthickness=0)
-        self._canvas.create_image(0, 0, image=self._image, anchor="nw")
-        self._canvas.pack()
-        self._shown: list[list[float]] = []
-        self.is_open = True
+        tkinter.Label(self._root, image=self._image, borderwidth=0).pack()
+        self._version, self.is_open = 0, True
 
-    def show(self, change: tuple[int, int, bytes] | None, outlines: list[list[float]]) -> None:
-        """Show the pixels that changed, from a column and row on, and the turtles' polygons."""
-        if change:
-            column, row, ppm = change
-            self._root.tk.call(str(self._image), "put", ppm, "-to", column, row)
-        if outlines != self._shown:
-            self._canvas.delete("turtle")
-            for number, outline in enumerate(outlines):
-                color = COLORS[number % len(COLORS)]
-                self._canvas.create_polygon(outline, fill=color, outline="#222", tags="turtle")
-            self._shown = outlines
+    def show(self, field: Field) -> None:
+        """Show a field as it is now."""
+        if field.version != self._version:
+            self._image.put(field.picture("PPM"))
+            self._version = field.version
         self._root.update()

@@ -218,7 +218,7 @@ def hider(error: str, script: str, others: Collection[str]) -> tuple[str, str]:
         return "", ""
     hint = f"{beside} hides the package {name}: Python looks beside the program first; "
     if beside == script:
-        return "", f"{hint}give the library in src another name than the program"
+        return "", f"{hint}give the program, or what it imports, another name"
     return beside, f"{hint}rename it"
 
 

@@ -199,6 +199,8 @@ def build_new(workspace: Path, student: Path) -> None:
     say(f"building {student}")
     log = workspace / "student.log"
     log.write_text("")
+    # catkin's setup.bash leaves it out where it is not; messages may be built later in a shell.
+    (student / "devel/lib/python3/dist-packages").mkdir(parents=True, exist_ok=True)
     if not clean_catkin_make(workspace / "lower" / "devel" / "setup.bash", student, log):
         lines = log.read_text(errors="replace").splitlines()
         for line in [line for line in lines if WRONG.search(line)][:5] or lines[-1:]:

@@ -40,6 +40,7 @@ def environment_of(workspace: Path, word: str, student: str) -> dict[str, str]:
         PATH=f"{path}:{made['PATH']}",
         PYTHONPATH=":".join([made.get("PYTHONPATH", ""), *from_pypi]),
         ROS_ETC_DIR=etc,  # where roscore and roslaunch look for roscore.xml
+        ROS_ROOT=made.get("ROS_ROOT", etc),  # roswtf wants a folder named ros, which Debian lacks
         TUTORIAL_IN=student,
         TUTORIAL_RESULTS=str(workspace),
         TUTORIAL_ROS2=f"{workspace}/ros2/bin/python",  # if ./tutorial ros2 has set it up

@@ -29,6 +29,8 @@ CMAKE_HINTS = (
      r"|source \"(\w[^\"]*)\" which is not an existing",
      "git keeps no empty folders: put a file into {f}, as .gitkeep, or take it out of the line"),
     (r"non-existing file|Cannot find source file", "look at the spelling of the file's path"),
+    (r'Unknown CMake command "(add_(?:message|service)_files|generate_messages)',
+     "{f}() is of message_generation: name that in find_package(catkin REQUIRED COMPONENTS ...)"),
     (r"Unknown CMake command", "look at the spelling of the command"),
 )  # fmt: skip
 # What genmsg says of a message or service: (file, type) or (file, what it read there).

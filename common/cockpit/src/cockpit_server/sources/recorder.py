@@ -1,0 +1,58 @@
+"""Records all topics for a page that may drive: rosbag record, in the cockpit's folder."""
+
+from __future__ import annotations
+
+import os
+import signal
+import threading
+import time
+from contextlib import suppress
+from subprocess import DEVNULL, Popen
+from typing import Any, ClassVar
+
+import rospy
+
+from cockpit_server.clients import Client, Source
+from cockpit_server.driver_session import RefusedError
+from cockpit_server.schema import switch
+
+# It ends at 150 MB, as Bag opens up to 200 MB, or after an hour.
+COMMAND = ("rosbag", "record", "-q", "-a", "--size=150", "--duration=1h", "-O")
+
+
+class Recorder(Source):
+    """At most one recording, which any page that may drive starts and ends."""
+
+    messages: ClassVar = {"record": {"on": switch}}
+
+    def __init__(self) -> None:
+        self._name = ""  # of the file that is being recorded
+        self._process: Any = None
+        rospy.on_shutdown(self._stop)
+
+    def send_to(self, client: Client, now: float) -> None:
+        if client.watch.bag and client.take_if_new("recorder", self._name):
+            client.send("recorder", name=self._name)
+
+    def on_record(self, client: Client, _now: float, on: bool) -> None:
+        client.must_drive()
+        if not on:
+            self._stop()
+        elif self._name:
+            raise RefusedError(f"{self._name} is being recorded")
+        else:
+            self._name = time.strftime("page_%Y-%m-%d-%H-%M-%S.bag")
+            threading.Thread(target=self._record, daemon=True).start()
+
+    def _record(self) -> None:
+        command = [*COMMAND, self._name]
+        self._process = Popen(command, start_new_session=True, stdin=DEVNULL, stdout=DEVNULL)
+        if self._process.wait() and not os.path.exists(self._name):
+            rospy.logwarn("cockpit: rosbag record cannot write %s here", self._name)
+        self._process, self._name = None, ""
+
+    def _stop(self) -> None:
+        process = self._process
+        if process and process.poll() is None:
+            with suppress(ProcessLookupError):  # it has just ended
+                os.killpg(process.pid, signal.SIGINT)

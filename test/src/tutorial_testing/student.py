@@ -1,0 +1,102 @@
+"""A student who types what a page says, in the terminals of a workspace of their own."""
+
+import contextlib
+import functools
+import os
+import re
+import shutil
+import signal
+import subprocess
+
+from tutorial_testing.processes import signal_all
+from tutorial_testing.waiting import descendants, wait_for
+
+SHORT = "1"  # the terminal of commands that end; in the others each goes on until CTRL_C
+CTRL_C, END = "Ctrl-C", "^done-1007"
+
+
+def _group(pid):
+    with contextlib.suppress(ProcessLookupError):  # it has ended
+        return os.getpgid(pid)
+    return None
+
+
+def interrupt(shell):
+    """Send SIGINT to what runs in the group of a shell (its id), but not to the shell itself.
+
+    A shell without job control is in the same group; SIGINT may cost it what is typed next.
+    """
+
+    def running():
+        found = descendants(shell)[1:]
+        return [pid for pid in found if _group(pid) == shell]
+
+    signal_all(wait_for(running, "program to interrupt"), signal.SIGINT)
+
+
+class Student:
+    """A home, a workspace in it, and terminals: shells in which lines are typed."""
+
+    def __init__(self, home, host, tutorial, suite_workspace):
+        """home: a folder; tutorial: the command ./tutorial; suite_workspace: which is built."""
+        self.workspace, self._terminals, self._begin = home / "ros/hydro/catkin_ws", {}, {}
+        environment = {
+            "HOME": str(home), "ROS_HOME": str(home / ".ros"), "DISPLAY": "",
+            "ROS_MASTER_URI": "http://localhost:11311",
+            "TUTORIAL_WORKSPACE": suite_workspace,  # not of this home
+        }  # fmt: skip
+        self._start = functools.partial(host.start, tutorial, **environment)
+
+    def type(self, name, lines, seen):
+        """Type lines in a terminal, which is opened if it is not; wait for what must be seen.
+
+        Without lines, wait for what the last ones print.
+        """
+        if name not in self._terminals:
+            shell = self._start("shell", "--in", str(self.workspace), stdin=subprocess.PIPE)
+            self._terminals[name] = shell
+        terminal = self._terminals[name]
+        if lines:
+            self._begin[name] = len(terminal.output)
+        if lines == CTRL_C:
+            interrupt(terminal.pid)
+        elif lines:
+            terminal.type(lines)
+
+        def shown(pattern=seen):
+            return re.search(pattern, terminal.output[self._begin[name] :], re.MULTILINE)
+
+        try:
+            if name == SHORT or seen == END:
+                terminal.type("echo done-$((1000 + 7))")
+                wait_for(lambda: shown(END), f"its end after {lines!r}")
+                assert shown(), f"no {seen!r} after {lines!r}"
+            wait_for(shown, f"{seen!r} after {lines!r}")
+        except AssertionError as error:
+            printed = terminal.output[self._begin[name] :]
+            raise AssertionError(f"{error}:\n{printed[-2000:]}") from None
+
+    def close(self, *names):
+        """End terminals, and what runs in them."""
+        for name in names or list(self._terminals):
+            self._terminals.pop(name).__exit__()
+
+    def write(self, folder, source):
+        """Write the files of a folder `source` into a folder of the workspace's src."""
+        for path in source.iterdir():
+            shutil.copyfile(path, self.workspace / "src" / folder / path.name)
+
+    def do(self, rows):
+        """Type rows of (terminal, lines, what must be seen); ("write", folder, source) writes."""
+        for name, lines, third in rows:
+            if name == "write":
+                self.write(lines, third)
+            else:
+                self.type(name, lines, third)
+
+    def run(self, line):
+        """Return what a command prints in a terminal that has just been opened."""
+        command = ("run", "--in", str(self.workspace), "bash", "-c", line)
+        with self._start(*command) as program:
+            program.wait()
+            return program.output

@@ -1,0 +1,40 @@
+"""Who records, how it ends, and that there is one recording."""
+
+import pytest
+
+from cockpit_server.clients import LOOKS_ONLY
+from cockpit_server.driver_session import RefusedError
+from cockpit_server.sources import recorder
+from tutorial_testing.session_room import page
+from tutorial_testing.waiting import wait_for
+
+# In the place of rosbag record: its file has a line once it has ended as it is asked to.
+FAKE = 'trap \'echo whole > "$0"; exit\' INT; touch "$0.active"; while :; do sleep 0.1; done'
+
+
+@pytest.fixture
+def one(monkeypatch, tmp_path):
+    monkeypatch.setattr(recorder, "COMMAND", ("bash", "-c", FAKE))
+    monkeypatch.chdir(tmp_path)
+    made = recorder.Recorder()
+    yield made
+    made._stop()
+
+
+def test_one_recording_ends_whole(one, tmp_path):
+    (driver, sent), (viewer, _) = page(bag=True), page("viewer")
+    one.send_to(driver, 0.0)
+    for on in (True, False):
+        with pytest.raises(RefusedError, match=LOOKS_ONLY):
+            one.on_record(viewer, 0.0, on)
+    one.on_record(driver, 0.0, on=True)
+    with pytest.raises(RefusedError, match="is being recorded"):
+        one.on_record(driver, 0.0, on=True)
+    one.send_to(driver, 0.0)
+    wait_for(lambda: list(tmp_path.glob("*.active")), "recording")
+    one.on_record(driver, 0.0, on=False)
+    [path] = wait_for(lambda: list(tmp_path.glob("page_*.bag")), "file")
+    wait_for(lambda: path.read_text() == "whole\n", "its end")
+    wait_for(lambda: one._name == "", "its name")
+    one.send_to(driver, 0.0)
+    assert [said["name"] for said in sent] == ["", path.name, ""]

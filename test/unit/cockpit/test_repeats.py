@@ -1,0 +1,77 @@
+"""What a page publishes again and again ends when its page is silent, late, gone, or must not."""
+
+from types import SimpleNamespace
+
+import pytest
+
+from cockpit_server.driver_session import RefusedError
+from cockpit_server.graph import Graph
+from cockpit_server.sources import forms
+from cockpit_server.sources.forms import VELOCITY, Forms
+from cockpit_server.sources.repeats import Repeats
+from tutorial_testing.session_room import page
+
+PERIOD_S = 0.1
+VALUES = {"linear/x": "1"}
+
+
+class Desk:
+    """A page that repeats a velocity since 100 s, and what it has published: speeds."""
+
+    def __init__(self):
+        self.session = SimpleNamespace(driver=None)
+        hub, graphs = SimpleNamespace(session=self.session), SimpleNamespace(graph=Graph())
+        desk = Forms(hub, graphs)
+        self.speeds = []
+        self._key = ("/cmd_vel", VELOCITY)
+        publisher = SimpleNamespace(publish=lambda twist: self.speeds.append(twist.linear.x))
+        desk._publishers[self._key] = publisher
+        self.repeats, (self.page, _), self.now = Repeats(desk), page(), 100.0
+        self.repeats.on_repeat(
+            self.page, self.now, topic="/cmd_vel", type=VELOCITY, values=VALUES, period=PERIOD_S
+        )
+
+    def again(self, after_s=PERIOD_S, late_s=0.0):
+        self.now += after_s
+        self.repeats.collect([self.page], self.now)
+        self.repeats.on_again(self.page, self.now, 1000 * (self.now - late_s))
+
+
+@pytest.fixture
+def desk(monkeypatch):
+    monkeypatch.setattr(forms.rospy.Time, "now", lambda: None)
+    made = Desk()
+    made.again()
+    assert made.speeds == [1.0, 1.0]
+    made.speeds.clear()
+    return made
+
+
+@pytest.mark.parametrize("end", ["gone", "silent", "late", "stopped"])
+def test_a_loss_publishes_one_zero_and_nothing_before_a_person_begins_again(desk, end):
+    if end == "late":  # as what a network delivers after a cut
+        desk.again(late_s=0.2)
+        desk.again(late_s=0.2)
+    if end == "stopped":
+        desk.repeats.on_repeat_end(desk.page, desk.now)
+    for _ in range(5):
+        desk.now += 0.1
+        desk.repeats.collect([] if end == "gone" else [desk.page], desk.now)
+    assert desk.speeds == [0.0]
+    with pytest.raises(RefusedError, match="publish again"):
+        desk.again()
+    assert desk.speeds == [0.0]
+
+
+def test_another_page_that_drives_ends_it(desk):
+    desk.session.driver = 3
+    with pytest.raises(RefusedError, match="another page drives"):
+        desk.again()
+    assert desk.speeds == [0.0]
+
+
+def test_a_page_repeats_one_message(desk):
+    desk.repeats.on_repeat(
+        desk.page, desk.now, topic="/cmd_vel", type=VELOCITY, values={}, period=PERIOD_S
+    )
+    assert desk.speeds == [0.0, 0.0]  # the end of the first one, and the second one

@@ -1,0 +1,39 @@
+"""The pictures of turtlesims: asked for while a page shows them, each sent once."""
+
+from types import SimpleNamespace
+
+import pytest
+
+from cockpit_server.graph import Graph
+from cockpit_server.sources import turtles
+from node_kit.ros_api import Answer
+from tutorial_testing.session_room import look, page
+
+GRAPH = Graph(publishers={"/turtle1/pose": {"/sim"}}, types={"/turtle1/pose": turtles.POSE})
+
+
+@pytest.fixture
+def shown(monkeypatch):
+    """A function: what the page is sent while the node gives an answer, or none is asked for."""
+    source, now = turtles.Turtles(SimpleNamespace(graph=GRAPH)), [0.0]
+    monkeypatch.setattr(source._asker, "submit", lambda act, *given: act(*given))
+    one = page(turtles=True)
+
+    def shown(answer, value=None):
+        monkeypatch.setattr(turtles, "call", lambda *_, **__: (answer, value))
+        now[0] += 1
+        return [sent["pictures"] for sent in look(source, one, now=now[0])[0]]
+
+    return shown
+
+
+def test_a_picture_is_sent_once_and_stays_while_its_node_is_busy(shown):
+    assert shown(Answer.WELL, [1, "abc"]) == [{"/sim": "abc"}]
+    assert shown(Answer.WELL, [1, ""]) == shown(Answer.SILENT) == []
+    assert shown(Answer.WELL, [2, "def"]) == [{"/sim": "def"}]
+    assert shown(Answer.REFUSED) == [{}]
+
+
+@pytest.mark.parametrize("given", [None, 7, [1], [True, "a"], [1, "a" * 1_000_001], ["1", "a"]])
+def test_what_is_no_picture_is_none(shown, given):
+    assert shown(Answer.WELL, given) == [{}]
