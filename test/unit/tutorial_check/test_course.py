@@ -4,6 +4,7 @@ import pytest
 
 from tutorial_check.course import checks_of, read_course
 from tutorial_check.model import CannotCheck
+from tutorial_check.self_test import patch
 
 YAML = 'title: T\ndocument: sheet\nexercises: {"2": two, "1": {title: one, points: 3}}\n'
 CHECKS = """
@@ -86,3 +87,29 @@ def test_wrong_checks_are_one_line(course, checks, why):
     with pytest.raises(CannotCheck) as error:
         checks_of(course(checks=checks))
     assert why in str(error.value) and "\n" not in str(error.value)
+
+
+def test_a_course_that_is_shipped_has_a_name():
+    assert read_course("wiki").folder.name == "wiki"
+    with pytest.raises(CannotCheck, match="or one of square, wiki"):
+        read_course("viki")
+
+
+def test_a_patch_changes_adds_and_removes(tmp_path):
+    for name in ("changed", "removed"):
+        (tmp_path / name).write_text("a\nb\n\na\nc\n")
+    diff = tmp_path / "diff"
+    diff.write_text(
+        "--- a/changed\n+++ b/changed\n@@ -9 +9 @@\n a\n-b\n+B\n@@\n\n a\n-c\n"
+        "--- /dev/null\n+++ b/new/file\n@@\n+x\n--- a/removed\n+++ /dev/null\n"
+    )
+    patch(tmp_path, diff)
+    assert (tmp_path / "changed").read_text() == "a\nB\n\na\n"
+    assert (tmp_path / "new/file").read_text() == "x\n"
+    assert not (tmp_path / "removed").exists()
+    diff.write_text("--- a/changed\n+++ b/changed\n@@\n-a\n")
+    with pytest.raises(CannotCheck, match="changed has 2 places for: a"):
+        patch(tmp_path, diff)
+    diff.write_text("--- a/gone\n+++ /dev/null\n")
+    with pytest.raises(CannotCheck, match="there is no gone"):
+        patch(tmp_path, diff)

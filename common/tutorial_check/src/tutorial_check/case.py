@@ -11,6 +11,7 @@ from tutorial_check.isolation.bubblewrap import SYSTEM
 from tutorial_check.model import (
     MASTER_GONE,
     MULTIPLIES,
+    NO_TYPE,
     UNREADABLE,
     CannotCheck,
     Result,
@@ -77,6 +78,9 @@ class Case(Session):
                 "where does it call os.fork, or start programs?",
             )
             return Wrong("a program that is one process, or a few", seen, hint=hint, sure=True)
+        if kind == NO_TYPE:
+            hint = "rosmsg show, or rossrv show, after catkin_make; CMakeLists.txt lists its file"
+            return Wrong("messages and services as they are asked for", seen, hint=hint, sure=True)
         hint = "look at the first line of the file: #!/usr/bin/env python3"
         return Wrong("a program that can be started", seen, hint=hint)
 

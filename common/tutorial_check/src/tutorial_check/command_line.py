@@ -52,7 +52,7 @@ def _parser() -> Parser:
     what = "write what a service takes: gradescope, or github:OWNER/NAME (to --out)"
     where.add_argument("--package", type=path, metavar="SERVICE", help=what)
     add("exercises", nargs="*", metavar="EXERCISE", help="all of the handout without one")
-    what = "a folder with course.yaml and your own checks, in place of the handout"
+    what = "in place of the handout: wiki, or a folder with course.yaml and your own checks"
     add("--course", type=path, default=str(OURS), metavar="FOLDER", help=what)
     what = "check the solutions of the course, right ones and wrong ones"
     where.add_argument("--self-test", action="store_true", help=what)

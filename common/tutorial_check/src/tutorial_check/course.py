@@ -18,6 +18,7 @@ from tutorial_check.model import CannotCheck, Check
 
 FILE = "course.yaml"
 OURS = Path(__file__).resolve().with_name("handout")
+SHIPPED = OURS.parents[3] / "doc"  # a folder in it is also known by its name
 # The modules of a course, which may be anywhere, are those of a package of this name.
 PACKAGE = "tutorial_course"
 
@@ -122,9 +123,13 @@ def read_yaml(file: str | Path, what: str = "") -> object:
 
 @functools.lru_cache(maxsize=None)
 def read_course(folder: str | Path = OURS) -> Course:
-    """Return the Course of a folder. Raises CannotCheck."""
+    """Return the Course of a folder, or of the name of one that is shipped. Raises CannotCheck."""
     file = Path(folder).resolve() / FILE
-    given = read_yaml(file, f"; a course is a folder with {FILE}")
+    shipped = {each.parent.name: each for each in sorted(SHIPPED.glob(f"*/{FILE}"))}
+    if str(folder) in shipped and not file.exists():
+        file = shipped[str(folder)]
+    names = f"; a course is a folder with {FILE}, or one of {', '.join(shipped)}"
+    given = read_yaml(file, names)
     try:
         about = _known(Course, given, ("folder",))
         named, varied = about.pop("exercises", None), about.pop("variants", {})

@@ -67,7 +67,7 @@ class CutShort(Exception):
 
 
 MASTER_GONE, MULTIPLIES, CANNOT_START = "master gone", "multiplies", "cannot start"
-UNREADABLE = "unreadable package.xml"
+UNREADABLE, NO_TYPE = "unreadable package.xml", "no such type"
 
 
 class CannotCheck(Exception):

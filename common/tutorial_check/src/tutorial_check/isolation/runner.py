@@ -59,12 +59,13 @@ class Runner:
         command: Sequence[str],
         environment: Mapping[str, str] | None = None,
         trusted: bool = False,
+        stdin: int = DEVNULL,
     ) -> Program:
-        """Start a program. Raises OSError if there is nothing to start."""
+        """Start a program. stdin: a descriptor. Raises OSError if there is nothing to start."""
         process = subprocess.Popen(
             command,
             bufsize=0,
-            stdin=DEVNULL,
+            stdin=stdin,
             stdout=PIPE,
             stderr=STDOUT,
             cwd=self.environment["HOME"],

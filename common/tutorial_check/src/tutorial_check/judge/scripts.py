@@ -9,6 +9,7 @@ from pathlib import Path
 
 from tutorial_check.isolation.program import Ran
 from tutorial_check.judge.causes import NO_KEYBOARD, explain, hider, syntax_hint, traced
+from tutorial_check.judge.packages import package_of
 from tutorial_check.judge.rows import Row, find
 from tutorial_check.model import Note, Wrong
 from tutorial_check.record.build import built, installed
@@ -58,9 +59,7 @@ def find_script(session: Session, package: str, name: str) -> str:
 
 def program_of(session: Session, package: str, name: str) -> str:
     """Return the path of a program that can be run, within its package. Raises Wrong."""
-    if not session.has(package):
-        there = ", ".join(each.name for each in session.packages) or "no package at all"
-        raise Wrong(f"a package {package} in src", there, hint=f"catkin_create_pkg {package} rospy")
+    package_of(session, package)
     script = find_script(session, package, name)
     check_file(session, package, script)
     return script

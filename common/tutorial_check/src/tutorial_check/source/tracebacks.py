@@ -29,6 +29,8 @@ FRAME = re.compile(r'^\s*File "(?P<file>[^"]+)", line (?P<line>\d+)')
 ERROR = re.compile(r"^(?:[A-Za-z_][\w.]*(?:[Ee]rror|Exception|NotFound|Interrupt|Exit)\b.*)$")
 # Said of a node that is just being ended: rospy closes topics shortly before it says so. No mistake.
 CLOSED = re.compile(r"publish\(\) to a closed topic|topic was closed during publish\(\)")
+# As rospy prints what came up in a service: a list of lines, as Python writes it.
+OF_SERVICE, LINE_END = "['Traceback", re.compile(r"\\n(?:['\"](?:, ['\"]|\]))?")
 ABOVE = "During handling of the above exception"
 
 
@@ -37,6 +39,8 @@ def first_traceback(output: str, folder: str) -> Traceback | None:
 
     folder: the package's; its files count as the student's.
     """
+    if OF_SERVICE in output:
+        output = LINE_END.sub("\n", output)
     found: list[Traceback] = []
     is_closed = False
     for block in reversed(output.split("Traceback (most recent call last)")[1:51]):

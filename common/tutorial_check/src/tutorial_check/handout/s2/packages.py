@@ -10,6 +10,7 @@ from pathlib import Path
 from tutorial_check.course import check
 from tutorial_check.model import Note, Wrong
 from tutorial_check.record.build import built
+from tutorial_check.record.builder import Built
 from tutorial_check.record.session import Session
 from tutorial_check.source.debian_packages import advice, packages_of_ros
 from tutorial_check.source.launch_xml import place_of, read
@@ -31,6 +32,11 @@ CMAKE_HINTS = (
     (r'Unknown CMake command "(add_(?:message|service)_files|generate_messages)',
      "{f}() is of message_generation: name that in find_package(catkin REQUIRED COMPONENTS ...)"),
     (r"Unknown CMake command", "look at the spelling of the command"),
+)  # fmt: skip
+# What genmsg says of a message or service: (file, type) or (file, what it read there).
+DEFINITION = re.compile(
+    r"messages which\s+'([^']+)'\s+depends.+?message\s+\[(\S+)\]"
+    r"|InvalidMsgSpec: (/\S+): (?:Invalid declaration: ([^\n]+)|(\S+) is not a legal)", re.DOTALL
 )  # fmt: skip
 
 
@@ -164,16 +170,8 @@ def _cmake(package: Package) -> str:
 
 @check("C4", "catkin_make builds", "2.1", "C2", look="catkin_make")
 def build(session: Session) -> Note | None:
-    for each in session.needed:
-        _cmake(each)
-    made = session.recording(built)
-    code, output = made.code, made.output
-    if code is None:
-        hint = "catkin_make in your workspace"
-        raise Wrong("catkin_make ends", "it runs for more than two minutes", hint=hint)
-    if code != 0:
-        raise _build_error(session, output)
-    listed = re.search(r"traversing \d+ packages?[^:]*:((?:\s*--\s+~~\s+- .*)+)", output)
+    made = must_build(session)
+    listed = re.search(r"traversing \d+ packages?[^:]*:((?:\s*--\s+~~\s+- .*)+)", made.output)
     names = re.findall(r"- (\S+)", listed[1]) if listed else []
     if listed and "beginner_tutorials" not in names:
         seen = f"it goes through {', '.join(names)}"
@@ -184,6 +182,19 @@ def build(session: Session) -> Note | None:
     seen = f"it builds what the exercises need; another package fails: {wrong.seen}"
     hint = f"{wrong.hint}; or put an empty file CATKIN_IGNORE into that package"
     return Note(seen, wrong.where, hint)
+
+
+def must_build(session: Session) -> Built:
+    """Return what catkin_make has built. Raises Wrong."""
+    for each in session.needed:
+        _cmake(each)
+    made = session.recording(built)
+    if made.code is None:
+        hint = "catkin_make in your workspace"
+        raise Wrong("catkin_make ends", "it runs for more than two minutes", hint=hint)
+    if made.code != 0:
+        raise _build_error(session, made.output)
+    return made
 
 
 def _build_error(session: Session, output: str) -> Wrong:
@@ -201,6 +212,16 @@ def _build_error(session: Session, output: str) -> Wrong:
     if missing:
         words, place, hint = _not_found(session, missing[0])
         where = place or where
+    definition = DEFINITION.search(output)
+    if definition:  # a type that is not there, or what is no field
+        path = Path(definition[1] or definition[3])
+        word = definition[2] or definition[4] or definition[5]
+        inside, text = str(path.relative_to(session.source)), session.read(path)
+        words, where = (
+            f"{path.name}: {word} is no field of a known type",
+            place_of(inside, text, word),
+        )
+        hint = "a field is TYPE NAME, as int64 num; another package's type has that before it"
     return Wrong("catkin_make without an error", words[:300], where, hint)
 
 

@@ -1,0 +1,1 @@
+"""What checks of own courses work with, beside what the handout needs."""

@@ -1,0 +1,185 @@
+"""A node for any type: services, messages, parameters, transforms. See Client, which starts it.
+
+It runs as a program with the student's rights, as it imports what their workspace generates. Standard
+input is a socket: a line of JSON, {"id", "do", "with"}, is answered by {"id", "value"}; by {"id",
+"fault"}, if there is no such type or values do not fit it; or by {"id", "error"}. A line that waits
+keeps no other one from its answer.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import socket
+import threading
+import time
+from typing import Any
+
+import genpy
+import rosgraph
+import roslib.message
+import rospy
+from std_msgs.msg import Header
+
+from node_kit.rospy_patches.connections import connect_once
+
+NAME = "tutorial_check_client"
+MOST_KEPT = 20_000  # messages of a topic
+REFUSED = genpy.MessageException, genpy.SerializationError
+
+
+class Fault(Exception):
+    """There is no such type, or values do not fit it."""
+
+
+def class_of(kind: str, of_service: bool = False) -> Any:
+    """Return the class of a type, as it was generated. Raises Fault."""
+    find = roslib.message.get_service_class if of_service else roslib.message.get_message_class
+    try:
+        found = find(kind)
+    except Exception:  # also of what stands in the student's package
+        found = None
+    if found is None:
+        raise Fault(f"there is no type {kind}")
+    return found
+
+
+def plain(value: Any) -> Any:
+    """Return a message, or a value of it, in maps, lists, texts and numbers."""
+    if isinstance(value, (genpy.Time, genpy.Duration)):
+        return {"secs": value.secs, "nsecs": value.nsecs}
+    if isinstance(value, genpy.Message):
+        return {name: plain(getattr(value, name)) for name in value.__slots__}
+    return list(map(plain, value)) if isinstance(value, (list, tuple, bytes)) else value
+
+
+def message_of(kind: Any, values: Any) -> Any:
+    """Return a message of a class with values as rostopic pub takes them. Raises Fault."""
+    message, now = kind(), rospy.Time.now()
+    words = values if isinstance(values, list) else [values]
+    try:
+        genpy.message.fill_message_args(message, words, {"now": now, "auto": Header(stamp=now)})
+        message._check_types()
+    except (AttributeError, TypeError, ValueError, *REFUSED) as error:
+        fields = ", ".join(message.__slots__) or "none"
+        raise Fault(f"{kind._type}: {values} does not fit: {error} (fields: {fields})") from None
+    return message
+
+
+def _fields_of(found: Any) -> list[str]:
+    return [f"{kind} {name}" for kind, name in zip(found._slot_types, found.__slots__)]
+
+
+class Node:
+    """Its methods are what a line may ask for."""
+
+    def __init__(self) -> None:
+        self._publishers: dict[str, rospy.Publisher] = {}
+        self._subscribers: dict[str, rospy.Subscriber] = {}
+        self._heard: dict[str, list[Any]] = {}  # messages of a topic, or requests of a service
+        self._tf: Any = None
+
+    def fields(self, kind: str) -> list[str]:
+        try:
+            return _fields_of(class_of(kind))
+        except Fault:
+            found = class_of(kind, of_service=True)
+        return [*_fields_of(found._request_class), "---", *_fields_of(found._response_class)]
+
+    def services(self) -> list[str]:
+        found = rosgraph.Master(NAME).getSystemState()[2]
+        return sorted(name for name, _ in found if not name.endswith(("loggers", "logger_level")))
+
+    def ask(self, service: str, kind: str, values: Any) -> tuple[Any, str]:
+        """Return (response, "") or (None, why there is none)."""
+        found = class_of(kind, of_service=True)
+        request = message_of(found._request_class, values)
+        try:
+            rospy.wait_for_service(service)
+            return plain(rospy.ServiceProxy(service, found)(request)), ""
+        except (rospy.ServiceException, rospy.ROSException, rospy.TransportException) as error:
+            text = " ".join(str(error).split())
+            return None, f"{service} is of another type than {kind}" if "md5sum" in text else text
+
+    def serve(self, service: str, kind: str, values: Any) -> None:
+        found = class_of(kind, of_service=True)
+        answer = message_of(found._response_class, values)
+        self._heard[service] = []
+
+        def respond(request: Any) -> Any:
+            self._keep(request, service)
+            return answer
+
+        rospy.Service(service, found, respond)
+
+    def listen(self, topic: str, kind: str) -> None:
+        self._heard[topic] = []
+        self._subscribers[topic] = rospy.Subscriber(topic, class_of(kind), self._keep, topic)
+
+    def _keep(self, message: Any, name: str) -> None:
+        if len(self._heard[name]) < MOST_KEPT:
+            caller = str(message._connection_header.get("callerid", ""))
+            self._heard[name].append((time.monotonic(), caller, plain(message)))
+
+    def heard(self, name: str, since: int) -> list[Any]:
+        return self._heard[name][since:]
+
+    def count(self, name: str) -> int:
+        return len(self._heard[name])
+
+    def advertise(self, topic: str, kind: str) -> None:
+        self._publishers[topic] = rospy.Publisher(topic, class_of(kind), queue_size=1000)
+
+    def send(self, topic: str, values: Any) -> float:
+        publisher = self._publishers[topic]
+        publisher.publish(message_of(publisher.data_class, values))
+        return time.monotonic()
+
+    def connections(self, topic: str) -> int:
+        ends = (
+            topics[topic] for topics in (self._publishers, self._subscribers) if topic in topics
+        )
+        return min(end.get_num_connections() for end in ends)
+
+    def parameter(self, name: str) -> Any:
+        return rospy.get_param(name, None)
+
+    def lookup(self, target: str, source: str) -> Any:
+        """Return a TransformStamped, or None as long as there is none."""
+        import tf2_ros  # noqa: PLC0415  only where it is wanted
+
+        if self._tf is None:
+            buffer = tf2_ros.Buffer()
+            self._tf = buffer, tf2_ros.TransformListener(buffer)
+        try:
+            return plain(self._tf[0].lookup_transform(target, source, rospy.Time(0)))
+        except tf2_ros.TransformException:
+            return None
+
+
+def _answer(node: Node, line: socket.socket, sending: threading.Lock, asked: Any) -> None:
+    answer = {"id": asked["id"]}
+    try:
+        answer["value"] = getattr(node, asked["do"])(*asked["with"])
+    except Fault as fault:
+        answer["fault"] = " ".join(str(fault).split())
+    except Exception as error:
+        answer["error"] = f"{type(error).__name__}: {error}"
+    with sending:
+        line.sendall(json.dumps(answer).encode() + b"\n")
+
+
+def main() -> None:
+    """Answer until the other end of the socket is closed."""
+    line, sending = socket.socket(fileno=os.dup(0)), threading.Lock()
+    connect_once()
+    rospy.init_node(NAME, disable_signals=True, disable_rosout=True)
+    node = Node()
+    for text in line.makefile():
+        about = node, line, sending, json.loads(text)
+        threading.Thread(target=_answer, args=about, daemon=True).start()
+    os._exit(0)  # whatever still waits
+
+
+if __name__ == "__main__":
+    main()

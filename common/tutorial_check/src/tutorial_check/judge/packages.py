@@ -1,0 +1,15 @@
+"""The package that an exercise is about."""
+
+from __future__ import annotations
+
+from tutorial_check.model import Wrong
+from tutorial_check.record.session import Session
+from tutorial_check.source.workspace import Package
+
+
+def package_of(session: Session, name: str) -> Package:
+    """Return the package of that name. Raises Wrong."""
+    if not session.has(name):
+        there = ", ".join(each.name for each in session.packages) or "no package at all"
+        raise Wrong(f"a package {name} in src", there, hint=f"catkin_create_pkg {name} rospy")
+    return session.package(name)

@@ -1,0 +1,166 @@
+"""What own courses work with: a Client and its node, whose rospy is made up here; launch files."""
+
+import os
+import re
+import socket
+import threading
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+
+from tutorial_check.course_kit import client_node
+from tutorial_check.course_kit.client import Answer, Client, Transform
+from tutorial_check.course_kit.launches import Launch, launch_file
+from tutorial_check.handout.s5.launch_facts import facts_of
+from tutorial_check.isolation.program import Ran
+from tutorial_check.model import CannotCheck, CutShort, Wrong
+from tutorial_testing.waiting import wait_for
+
+ENDS = {}
+
+
+class Rospy:
+    """A publisher, subscriber or service; what is sent goes to the first of its name."""
+
+    def __init__(self, name, kind, callback=None, argument=None, queue_size=0):
+        self.name, self.data_class, self._callback = name, kind, callback
+        self._more = [] if argument is None else [argument]
+        ENDS.setdefault(name, self)
+
+    def publish(self, message):
+        message._connection_header = {"callerid": "/me"}
+        ENDS[self.name]._callback(message, *ENDS[self.name]._more)
+
+    def __call__(self, request):
+        request._connection_header = {}
+        return ENDS[self.name]._callback(request)
+
+    def get_num_connections(self):
+        return 1
+
+
+@pytest.fixture
+def stage(monkeypatch):
+    """A Stage on which the node of a Client is a thread; `own` is a package of the student's."""
+    ENDS.clear()
+    for name in ("Publisher", "Subscriber", "Service", "ServiceProxy"):
+        monkeypatch.setattr(client_node.rospy, name, Rospy)
+    for name, value in (("wait_for_service", print), ("get_param", lambda *both: both)):
+        monkeypatch.setattr(client_node.rospy, name, value)
+    monkeypatch.setattr(client_node.rospy.Time, "now", lambda: client_node.rospy.Time(7, 0))
+    monkeypatch.setattr(client_node.Node, "services", lambda _: ["/there"])
+    program = SimpleNamespace(ended=False, output="", rests=lambda: True)
+
+    def start(command, environment, stdin):
+        line, node, lock = socket.socket(fileno=os.dup(stdin)), client_node.Node(), threading.Lock()
+
+        def serve():
+            for text in line.makefile():
+                client_node._answer(node, line, lock, client_node.json.loads(text))
+
+        threading.Thread(target=serve, daemon=True).start()
+        return program
+
+    def wait(condition, seconds=1.0, or_idle=False):
+        return wait_for(condition, "an answer") if seconds else condition()
+
+    own = SimpleNamespace(packages=[SimpleNamespace(name="own")])
+    about = {"runner": SimpleNamespace(start=start), "environment": {}, "session": own}
+    return SimpleNamespace(**about, wait=wait, wait_for_start=wait)
+
+
+def test_messages_of_any_type_go_and_come(stage):
+    client, values = Client(stage), {"header": {"stamp": "now", "frame_id": "f"}, "ranges": [1.5]}
+    client.listen("/a", "sensor_msgs/LaserScan")
+    client.advertise("/a", "sensor_msgs/LaserScan")
+    assert client.meet(SimpleNamespace(ended=False, rests=lambda: True), "/a")
+    at_s = client.send("/a", values)
+    (came_s, node, got), *_ = client.heard("/a")
+    assert (client.count("/a"), node, came_s <= at_s) == (1, "/me", True)
+    assert (got["header"]["stamp"], got["ranges"]) == ({"secs": 7, "nsecs": 0}, [1.5])
+
+
+def test_services_parameters_and_types(stage):
+    client = Client(stage)
+    client.serve("/there", "std_srvs/SetBool", {"success": True, "message": "m"})
+    answer = client.ask("/there", "std_srvs/SetBool", {"data": True})
+    assert answer == Answer({"success": True, "message": "m"})
+    assert [each[2] for each in client.heard("/there")] == [{"data": True}]
+    assert client.parameter("/p") == ["/p", None]
+    assert client.fields("std_srvs/Trigger") == ("---", "bool success", "string message")
+
+
+@pytest.mark.parametrize(
+    ("kind", "values", "why"),
+    [
+        ("own/None", {}, "there is no type own/None"),
+        ("no_msgs/None", {}, r"test_course_kit.py:\d+: there is no type no_msgs/None"),
+        ("std_srvs/SetBool", {"date": 1}, r"No field name \[date\] \(fields: data\)"),
+        ("std_srvs/SetBool", [1, 2], "Too many arguments"),
+        ("std_srvs/SetBool", {"data": "text"}, "field data is not a bool"),
+        ("std_srvs/SetBool", {"data": {1}}, r"test_course_kit.py:\d+: .* not JSON"),
+    ],
+)
+def test_it_is_said_whose_mistake_a_type_is(stage, kind, values, why):
+    whose = CutShort if kind.startswith("own") else CannotCheck
+    with pytest.raises(whose) as error:
+        Client(stage).ask("/there", kind, values)
+    assert re.search(why, str(vars(error.value) or error.value)), error.value
+
+
+@pytest.mark.parametrize(
+    ("name", "why"),
+    [("/x", "there is no service /x; there are: /there"), ("/there", "/there does not respond")],
+)
+def test_a_service_without_a_response(stage, monkeypatch, name, why):
+    hangs = threading.Event()
+    monkeypatch.setattr(client_node.Node, "ask", lambda *_: hangs.wait())
+    client = Client(stage)
+    threading.Timer(0.2, hangs.set).start()
+    assert client.ask(name, "std_srvs/Empty", seconds=0.0) == Answer(None, why)
+
+
+def test_a_transform(stage, monkeypatch):
+    parts = {"translation": {"x": 1, "y": 2, "z": 0}, "rotation": {"x": 0, "y": 0, "z": 0, "w": 1}}
+    found = iter([None, {"transform": parts}])
+    monkeypatch.setattr(client_node.Node, "lookup", lambda *_: next(found))
+    assert Client(stage).lookup("a", "b") == Transform((1, 2, 0), (0, 0, 0, 1))
+
+
+LAUNCH = '<launch>\n  <node pkg="turtlesim" type="mimic" name="m"/>\n</launch>\n'
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "seen", "where"),
+    [
+        ("a.launch", LAUNCH, "", "launch/a.launch:2"),
+        ("b.launch", LAUNCH, "a file b.launch", ""),
+        ("a.launch", LAUNCH.replace("/>", ">"), "mismatched tag", "launch/a.launch:2"),
+        ("a.launch", LAUNCH.replace("mimic", "mimick"), "Cannot locate", "launch/a.launch:2"),
+        ("a.launch", LAUNCH.replace("turtlesim", "turtle"), "Cannot locate", "launch/a.launch:2"),
+    ],
+)
+def test_a_launch_file_is_read(make_session, name, text, seen, where):
+    session = make_session("p", "1")
+    folder = session.package("p").folder / "launch"
+    folder.mkdir()
+    (folder / name).write_text(text)
+    source, session.must_be_launchable = session.source, list
+    session.recording = lambda _, path: SimpleNamespace(files=[facts_of(str(source / path))])
+    try:
+        file = launch_file(session, "p", "a.launch")
+        assert (file.nodes[0]["name"], file.at("mimic"), seen) == ("m", where, "")
+    except Wrong as wrong:
+        assert seen and wrong.seen.startswith(seen) and wrong.where == where, wrong
+
+
+def test_what_a_launch_file_has_started():
+    ran = Ran("roslaunch", "[n/m-2] process has died [pid 1]\n", None, False, False)
+    program = SimpleNamespace(output=ran.output, ended=False, ran=ran)
+    about = {"launch": lambda words: program, "call": lambda _: ({"/rosout": ["/b", "/a"]},)}
+    launch = Launch(
+        SimpleNamespace(session=SimpleNamespace(source=Path("src")), **about), "a.launch"
+    )
+    assert launch.is_over and launch.launched.died == ("n/m",)
+    assert launch.launched.nodes == ("/a", "/b")
