@@ -60,10 +60,13 @@ def _examined(course: Course, underlay: str, check: str, layers: list[Path]) -> 
     exercises = [one.exercise for one in checks_of(course) if one.id == check]
     with tempfile.TemporaryDirectory() as scratch:
         for layer in layers:
-            if layer.is_dir():
-                shutil.copytree(layer, scratch, dirs_exist_ok=True)
-            else:
-                patch(Path(scratch), layer)
+            try:
+                if layer.is_dir():
+                    shutil.copytree(layer, scratch, dirs_exist_ok=True)
+                else:
+                    patch(Path(scratch), layer)
+            except CannotCheck as why:
+                return [Outcome(check, trouble=str(why))]
         return examine(
             scratch, underlay, exercises or list(course.exercises),
             only_first=bool(check), own=False, course=course.folder,
@@ -71,10 +74,13 @@ def _examined(course: Course, underlay: str, check: str, layers: list[Path]) -> 
 
 
 def patch(folder: Path, file: Path) -> None:
-    """Change files as a unified diff says, whatever its line numbers are. Raises CannotCheck."""
+    """Change files as a unified diff says, whatever its line numbers are. Raises CannotCheck.
+
+    The first part of each path, as a/ and b/ of git, does not count.
+    """
     for before, after, hunks in FILES.findall(file.read_text(encoding="utf-8")):
-        path = folder / re.sub("^[ab]/", "", before if after == GONE else after)
-        if before != GONE and not path.is_file():
+        path = folder / re.sub(r"^(\.\./)*[^/]*/", "", before if after == GONE else after)
+        if ".." in path.parts or (before != GONE and not path.is_file()):
             raise CannotCheck(f"{file}: there is no {path.relative_to(folder)}")
         if after == GONE:
             path.unlink()
@@ -100,7 +106,7 @@ def complaint_of(check: str, outcomes: list[Outcome]) -> str:
             return f"could not be checked: {one.id}: {one.trouble}"
     wrong = [result for outcome in outcomes for result in outcome.wrong]
     if not check:
-        return f"{wrong[0].id} is wrong: {wrong[0].seen}" if wrong else ""
+        return f"{wrong[0].id} is wrong: {wrong[0].seen}; hint: {wrong[0].hint}" if wrong else ""
     if not wrong:
         return f"{check} should be wrong, and nothing is"
     if wrong[0].id != check:

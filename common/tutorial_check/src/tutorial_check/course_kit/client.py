@@ -122,6 +122,10 @@ class Client:
         values = (tuple(parts[name].values()) for name in ("translation", "rotation"))
         return Transform(*values) if found else None
 
+    def transforms(self) -> Tuple[str, ...]:
+        """Return "PARENT -> CHILD" of each transform that came since the first lookup()."""
+        return tuple(self._tell("transforms"))
+
     def _tell(self, what: str, *about: object, of: str = "", seconds: float = SLOW_S) -> Any:
         """Return the node's answer. of: the type that it is about. Raises TimeoutError."""
         self._number += 1

@@ -19,6 +19,7 @@ import genpy
 import rosgraph
 import roslib.message
 import rospy
+import yaml
 from std_msgs.msg import Header
 
 from node_kit.rospy_patches.connections import connect_once
@@ -155,6 +156,11 @@ class Node:
             return plain(self._tf[0].lookup_transform(target, source, rospy.Time(0)))
         except tf2_ros.TransformException:
             return None
+
+    def transforms(self) -> list[str]:
+        """Return "PARENT -> CHILD" of each that came since the first lookup."""
+        known = yaml.safe_load(self._tf[0].all_frames_as_yaml()) if self._tf else None
+        return sorted(f"{about['parent']} -> {child}" for child, about in (known or {}).items())
 
 
 def _answer(node: Node, line: socket.socket, sending: threading.Lock, asked: Any) -> None:
