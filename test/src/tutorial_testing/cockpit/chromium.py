@@ -93,7 +93,9 @@ class Chromium(WebDriver):
         self.click(name, "[role=tab]")
 
     def errors(self):
-        return [e["message"] for e in self.driver.get_log("browser") if e["level"] != "INFO"]
+        """Return what the console reports, but for a connection that the page did not wait for."""
+        found = [e["message"] for e in self.driver.get_log("browser") if e["level"] != "INFO"]
+        return [one for one in found if "closed before the connection is established" not in one]
 
     def key(self, kind, code, repeats=False):
         """kind: "rawKeyDown" or "keyUp". repeats: as a key does that is held."""
