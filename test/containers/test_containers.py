@@ -16,7 +16,7 @@ from tutorial_testing.cockpit.chromium import Chromium
 from tutorial_testing.cockpit.hands import Keys
 from tutorial_testing.containers import INSIDE, PAGE, PORT, SOURCE, Compose, RobotInside, run
 from tutorial_testing.processes import Program
-from tutorial_testing.waiting import wait_for
+from tutorial_testing.waiting import DEADLINE_S, wait_for
 
 LARGEST = 1e9  # bytes
 START_S = 60.0
@@ -55,7 +55,7 @@ def wait_for_movement(call, *terminal, robot=""):
             return "0.0" not in call(*echo).splitlines()
         return False
 
-    wait_for(moves, f"movement of {robot}", START_S)
+    wait_for(moves, f"movement of {robot}", DEADLINE_S)
 
 
 def ends_by_itself(container):
