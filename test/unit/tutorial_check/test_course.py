@@ -104,7 +104,7 @@ def test_a_patch_changes_adds_and_removes(tmp_path):
     diff = tmp_path / "diff"
     diff.write_text(
         "--- a/changed\n+++ b/changed\n@@ -9 +9 @@\n a\n-b\n+B\n@@\n\n a\n-c\n"
-        "--- /dev/null\n+++ b/new/file\n@@\n+x\n--- a/removed\n+++ /dev/null\n"
+        "--- /dev/null\n+++ b/new/file\n@@\n+x\n--- ../right/removed\n+++ /dev/null\n"
     )
     patch(tmp_path, diff)
     assert (tmp_path / "changed").read_text() == "a\nB\n\na\n"
@@ -113,9 +113,10 @@ def test_a_patch_changes_adds_and_removes(tmp_path):
     diff.write_text("--- a/changed\n+++ b/changed\n@@\n-a\n")
     with pytest.raises(CannotCheck, match="changed has 2 places for: a"):
         patch(tmp_path, diff)
-    diff.write_text("--- a/gone\n+++ /dev/null\n")
-    with pytest.raises(CannotCheck, match="there is no gone"):
-        patch(tmp_path, diff)
+    for text in ("--- a/gone\n+++ /dev/null\n", "--- /dev/null\n+++ b/../gone\n@@\n+x\n"):
+        diff.write_text(text)
+        with pytest.raises(CannotCheck, match=r"there is no (\.\./)?gone"):
+            patch(tmp_path, diff)
 
 
 def test_the_example_of_the_page_imports_what_there_is():

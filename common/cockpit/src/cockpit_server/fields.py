@@ -14,7 +14,7 @@ NUMBERS = {
     "bool", "byte", "char", "float32", "float64", "int16", "int32", "int64", "int8", "uint16",
     "uint32", "uint64", "uint8", "time", "duration",
 }  # fmt: skip
-MOST_ENTRIES = 2000  # of an array as a whole
+MOST_ENTRIES = 2000  # A longer array is cut.
 DEEPEST = 8
 _CONSTANT = re.compile(r"^\s*(\w+)\s+(\w+)\s*=\s*(.*?)\s*$", re.MULTILINE)
 _PART = re.compile(r"([A-Za-z]\w*)(?:\[(\d{1,6})\])?")

@@ -37,7 +37,7 @@ class Ros2Side:
         self._sender = Sender(connection, lambda topic: depth_of(self._routes, topic))
         self._publishers: dict[str, tuple[tuple[str, bool], Any]] = {}
         self._subscriptions: dict[str, tuple[tuple[str, QoSProfile] | None, Any]] = {}
-        self._echoes, self._lock = Echoes(), threading.Lock()  # of two threads
+        self._echoes, self._lock = Echoes(), threading.Lock()  # Two threads use them.
         self._said: set[str] = set()
         self._wrong: dict[str, str] = {}  # by topic: why it is not carried
         self.node.create_timer(LOOK_S, self._look)

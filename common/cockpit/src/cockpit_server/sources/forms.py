@@ -102,7 +102,7 @@ class Forms(Source):
         self._publishers: dict[Key, Any] = {}  # Publisher, or None until it is connected
         self._first: dict[Key, Any] = {}  # the message that a new one then publishes
         self._used: dict[Key, float] = {}  # when [s]
-        self._lock = threading.Lock()  # of what one publishes first, and afterwards
+        self._lock = threading.Lock()  # It guards _first and _publishers.
 
     def collect(self, clients: Sequence[Client], now: float) -> None:
         for key, publisher in list(self._publishers.items()):

@@ -26,7 +26,7 @@ class Recorder(Source):
     messages: ClassVar = {"record": {"on": switch}}
 
     def __init__(self) -> None:
-        self._name = ""  # of the file that is being recorded
+        self._name = ""  # It names the file while something is recorded.
         self._process: Any = None
         rospy.on_shutdown(self._stop)
 

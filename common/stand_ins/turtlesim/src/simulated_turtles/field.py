@@ -137,5 +137,5 @@ class Field:
         both = (*pixel(*start), *pixel(*turtle.place))
         ends = [round(min(max(one, -FARTHEST), FARTHEST)) for one in both]
         pen.line(ends, turtle.color, turtle.width)
-        for x, y in (ends[:2], ends[2:]):  # which are round
+        for x, y in (ends[:2], ends[2:]):  # The ends are round.
             pen.ellipse((x - reach, y - reach, x + reach, y + reach), turtle.color)
