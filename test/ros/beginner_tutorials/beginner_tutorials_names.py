@@ -1,11 +1,10 @@
-#!/usr/bin/python3
 """Of two nodes with one name the older ends, cleanly, and the newer one goes on."""
 
 import rosnode
 import rospy
 
 from tutorial_testing.nodes import node_path
-from tutorial_testing.rostests import RosTest, run
+from tutorial_testing.rostests import RosTest
 from tutorial_testing.waiting import wait_for
 
 
@@ -23,7 +22,3 @@ class NamesTest(RosTest):
         wait_for(is_known, "second talker")
         self.assertFalse(second.ended)
         self.end(second)
-
-
-if __name__ == "__main__":
-    run()

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """Floods of messages and connections: the driver goes on, and others come in."""
 
 import contextlib
@@ -9,7 +8,6 @@ import sys
 from tutorial_testing import flood
 from tutorial_testing.cockpit_rig import WithCockpit
 from tutorial_testing.processes import Program, memory_kb
-from tutorial_testing.rostests import run
 from tutorial_testing.socket_page import SocketPage
 from tutorial_testing.waiting import wait_for
 
@@ -90,7 +88,3 @@ class Flood(WithCockpit):
             self.upgraded(ELSEWHERE)
             with self.rig.page() as page:
                 self.rig.drive(page)
-
-
-if __name__ == "__main__":
-    run()

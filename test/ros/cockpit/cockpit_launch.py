@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """A browser is the joystick of launch_joy_node.launch; a second cockpit leads to the first."""
 
 import socket
@@ -12,7 +11,7 @@ from node_kit.ros_api import address
 from tutorial_testing.cockpit_rig import CockpitRig
 from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
-from tutorial_testing.rostests import RosTest, run
+from tutorial_testing.rostests import RosTest
 from tutorial_testing.waiting import wait_for
 
 URI = rosgraph.get_master_uri()
@@ -58,7 +57,3 @@ class BrowserJoystick(RosTest):
             with Program("rosrun", *command, DISPLAY="") as window:
                 self.assertEqual(window.wait(), 0)
                 self.assertEqual(window.output, f"{command[0]}: see {self.rig.address}#{at}\n")
-
-
-if __name__ == "__main__":
-    run()

@@ -1,11 +1,9 @@
-#!/usr/bin/python3
 """Clients and messages that are refused: nothing moves, and the driver still drives."""
 
 import contextlib
 import http.client
 
 from tutorial_testing.cockpit_rig import WithCockpit
-from tutorial_testing.rostests import run
 from tutorial_testing.socket_page import DRIVE, SocketPage
 
 
@@ -76,7 +74,3 @@ class Refused(WithCockpit):
         with self.rig.page() as page:
             page.say("release", why="x" * 100_000)
             page.wait_for("closed")
-
-
-if __name__ == "__main__":
-    run()

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """The mux after a suspension: what came meanwhile moves nothing, what comes then does."""
 
 import time
@@ -9,7 +8,7 @@ from std_msgs.msg import String
 
 from tutorial_testing.nodes import pid_of
 from tutorial_testing.rig import suspended
-from tutorial_testing.rostests import RosTest, run
+from tutorial_testing.rostests import RosTest
 from tutorial_testing.waiting import wait_for
 
 TELEOP = "/cmd_vel_mux/input/teleop"
@@ -47,7 +46,3 @@ class LateTest(RosTest):
         wait_for(lambda: teleop.publish(twist(0.4)) or driven[-1] == 0.4, "a command of now")
         # What was sent before it on the same connection was also received before it.
         self.assertEqual(set(driven), {0.2, 0.0, 0.4})
-
-
-if __name__ == "__main__":
-    run()

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """The whole of minimal.launch, seen from outside as a TurtleBot 2 is."""
 
 import rosgraph
@@ -8,7 +7,7 @@ from kobuki_msgs.msg import ButtonEvent, MotorPower, SensorState
 from sensor_msgs.msg import Imu
 
 from tutorial_testing.robot import Robot
-from tutorial_testing.rostests import RosTest, run
+from tutorial_testing.rostests import RosTest
 from tutorial_testing.waiting import wait_for
 
 BASE, MUX = "/mobile_base", "/cmd_vel_mux"
@@ -89,7 +88,3 @@ class MinimalTest(RosTest):
             shown = SensorState.BUTTON1 if state == ButtonEvent.PRESSED else 0
             wait_for(lambda shown=shown: core[-1].buttons == shown, "button")
         self.assertEqual([event.state for event in events], [1, 0])
-
-
-if __name__ == "__main__":
-    run()

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """A room as programs see it: map, scan, bumpers, frames, and the way back from a wall."""
 
 import time
@@ -11,7 +10,7 @@ from sensor_msgs.msg import LaserScan
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import MarkerArray
 
-from tutorial_testing.rostests import RosTest, run
+from tutorial_testing.rostests import RosTest
 from tutorial_testing.waiting import Stopwatch, wait_for
 
 AT_THE_WALL = 4.0 - 0.178  # x of the robot's middle [m]
@@ -72,7 +71,3 @@ class WorldTest(RosTest):
         self.assertTrue(shown)
         self.assertEqual(unmeasured, {"nan"})  # at the wall, as on a real TurtleBot
         drive(-0.5, lambda: truths[-1].pose.pose.position.x < 3.0, "way back, by the stick")
-
-
-if __name__ == "__main__":
-    run()

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """joy_node over a FIFO: what it publishes of events, recordings and scripts, and at what cost."""
 
 import contextlib
@@ -22,7 +21,7 @@ from joy_to_twist.states import State
 from tutorial_testing.keys import LAUNCH, DiagnosedRobot
 from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
-from tutorial_testing.rostests import RosTest, run
+from tutorial_testing.rostests import RosTest
 from tutorial_testing.waiting import BUSY_S, Stopwatch, wait_for
 
 PACKAGE = Path(rospkg.RosPack().get_path("gamepad"))
@@ -170,7 +169,3 @@ def wakings(pid):
     """How often the threads of a process waited so far: unlike their time, the same beside load."""
     states = [path.read_text() for path in Path(f"/proc/{pid}/task").glob("*/status")]
     return sum(int(re.search(r"^voluntary_ctxt_switches:\s*(\d+)", s, re.M)[1]) for s in states)
-
-
-if __name__ == "__main__":
-    run()

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """joy2twist as a program: how it starts, what it shows, how it ends, and without its master."""
 
 import rosgraph
@@ -9,7 +8,7 @@ from sensor_msgs.msg import Joy
 from tutorial_testing.nodes import node_path
 from tutorial_testing.ports import free_port
 from tutorial_testing.processes import Program
-from tutorial_testing.rostests import RosTest, run
+from tutorial_testing.rostests import RosTest
 from tutorial_testing.waiting import BUSY_S, Stopwatch, wait_for
 
 LONGEST_EXIT_S = 1.5 + BUSY_S
@@ -74,7 +73,3 @@ class ProgramTest(RosTest):
         self.assertNotIn(",0.0", echo.output)
         self.end(node, deadline_s=LONGEST_EXIT_S)
         wait_for(lambda: echo.output.endswith(",0.0\n"), "zero")
-
-
-if __name__ == "__main__":
-    run()

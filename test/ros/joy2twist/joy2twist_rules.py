@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """What the node joy2twist sends for what it receives: bare, and set up for a real robot.
 
 Which rules there are is for unit tests: here each parameter, topic and clock reaches them.
@@ -14,7 +13,7 @@ from geometry_msgs.msg import Twist
 from sensor_msgs.msg import Joy
 
 from tutorial_testing.nodes import node_path
-from tutorial_testing.rostests import RosTest, run
+from tutorial_testing.rostests import RosTest
 from tutorial_testing.waiting import wait_for
 
 LB, STOP, RESET = 4, 1, 2
@@ -121,7 +120,3 @@ class RulesTest(RosTest):
         self.wait_for_quiet()
         self.check([joy(0.5, LB)] * 3, [])
         self.check([joy(0.0), joy(0.25, LB)], [0.25, 0.0, 0.0, 0.0])
-
-
-if __name__ == "__main__":
-    run()

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """launch_bag.launch: one velocity for every joystick message, and after Ctrl-C a standing robot."""
 
 import os
@@ -9,7 +8,7 @@ from sensor_msgs.msg import Joy
 
 from tutorial_testing.processes import Program
 from tutorial_testing.robot import Robot
-from tutorial_testing.rostests import RosTest, run
+from tutorial_testing.rostests import RosTest
 from tutorial_testing.waiting import wait_for
 
 RATE_HZ = 50  # joy.bag and simulation
@@ -41,7 +40,3 @@ class LaunchBagTest(RosTest):
             wait_for(lambda: cmd_vel[-1] == Twist(), "zero as the last velocity")
             # Where a node has not ended after 15 s, roslaunch says so, and kills it.
             self.assertNotIn("escalating", launch.output)
-
-
-if __name__ == "__main__":
-    run()

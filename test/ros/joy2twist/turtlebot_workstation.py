@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """launch_joy_node_realTurtlebot.launch: what drives the TurtleBot, and which view opens."""
 
 import os
@@ -10,7 +9,7 @@ from geometry_msgs.msg import Twist
 
 from tutorial_testing.hands import record
 from tutorial_testing.nodes import node_path
-from tutorial_testing.rostests import RosTest, run
+from tutorial_testing.rostests import RosTest
 from tutorial_testing.waiting import wait_for
 
 FILE = "launch_joy_node_realTurtlebot.launch"
@@ -57,7 +56,3 @@ class WorkstationTest(RosTest):
             given = {"PATH": f"{folder}:{os.environ['PATH']}", "ROS_PACKAGE_PATH": path}
             view = self.start(node_path("tutorial_tools", "view_robot"), config, **given)
             self.assertEqual((view.wait(), view.output), (0, f"{folder}/{command}\n"))
-
-
-if __name__ == "__main__":
-    run()

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """A start never harms what runs: a table of what runs, what is started, and what is left."""
 
 import re
@@ -10,7 +9,7 @@ from rospy import AnyMsg
 from node_kit.ros_api import known_nodes
 from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
-from tutorial_testing.rostests import RosTest, run
+from tutorial_testing.rostests import RosTest
 from tutorial_testing.waiting import wait_for
 
 MASTER = rosgraph.get_master_uri()
@@ -98,7 +97,3 @@ class StartsTest(RosTest):
         self.start(*SIMULATOR, "__name:=replaced", "_take_over:=true")
         self.check_end(old)
         self.check_goes_on(odometry)
-
-
-if __name__ == "__main__":
-    run()
