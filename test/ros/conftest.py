@@ -4,7 +4,6 @@ Each has a network of its own where that is granted (to root): a master still ca
 node that died, which may by then be the port of another test's node.
 """
 
-import contextlib
 import functools
 import os
 import shutil
@@ -16,6 +15,8 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
+
+from tutorial_testing.processes import signal_all, with_environment
 
 RESULTS = Path(os.environ["TUTORIAL_RESULTS"]) / "rostests"
 ONE = Path(__file__).with_name("one.test")
@@ -59,8 +60,7 @@ class RosFile(pytest.File):
         if self.path.suffix == ".py":
             if self.path.parent == ONE.parent or self.path.with_suffix(".test").exists():
                 return
-            robot = str(self.path.parent.name == "cockpit").lower()
-            command = [str(ONE), f"name:={self.path.stem}", f"robot:={robot}"]
+            command = [str(ONE), f"name:={self.path.stem}"]
         for turn in range(self.config.option.times):
             name = f"{self.path.stem}_{turn + 1}" if turn else self.path.stem
             yield RosTest.from_parent(self, name=name, command=command)
@@ -106,12 +106,6 @@ def own_network():
 
 def end_all(home):
     """Kill what rostests started, known by ROS_HOME: roslaunch gives each node its own session."""
-    found = [None]
-    while found:
-        found = []
-        for process in Path("/proc").glob("[0-9]*"):
-            with contextlib.suppress(OSError):  # it has ended, or is another user's
-                if f"ROS_HOME={home}".encode() in (process / "environ").read_bytes():
-                    found.append(process)
-                    os.kill(int(process.name), signal.SIGKILL)
-        time.sleep(0.05 * bool(found))
+    for pids in iter(lambda: with_environment(f"ROS_HOME={home}"), []):
+        signal_all(pids, signal.SIGKILL)
+        time.sleep(0.05)

@@ -59,5 +59,4 @@ class FaultsAtTheEnd(RosTest):
 
 
 def master():
-    """Return its process."""
     return [call(rosgraph.get_master_uri(), "getPid")[1]]

@@ -11,8 +11,8 @@ from rosgraph.network import encode_ros_handshake_header, read_ros_handshake_hea
 from sensor_msgs.msg import Joy
 
 from node_kit.ros_api import call
-from tutorial_faults.live.table import HELD, LB, RawJoy, serialised
-from tutorial_testing.nodes import node_path
+from tutorial_faults.live.table import HELD, LB, RawJoy
+from tutorial_testing.nodes import node_path, serialised
 from tutorial_testing.rig import BASE, DRIVER, MUX
 from tutorial_testing.rostests import RosTest
 from tutorial_testing.waiting import DEADLINE_S, wait_for

@@ -4,8 +4,6 @@ import contextlib
 import math
 import os
 import re
-import shutil
-import tempfile
 import time
 from pathlib import Path
 
@@ -37,10 +35,8 @@ NEAR_M = 0.25  # on a busy machine each move may be some hundredths of a second 
 class Stream:
     """The end of a FIFO into which the kernel's part is written."""
 
-    def __init__(self):
-        self._folder = tempfile.mkdtemp()
-        self.path = os.path.join(self._folder, "js0")
-        self._fd = None
+    def __init__(self, path):
+        self.path, self._fd = path, None
 
     def plug_in(self, axes=AXES):
         """Make the device, wait for its reader, send it the state at opening: all zero."""
@@ -54,7 +50,6 @@ class Stream:
             return os.open(self.path, os.O_WRONLY | os.O_NONBLOCK)
 
     def send(self, *events):
-        """Send events as (type, number, value), in one write."""
         os.write(self._fd, b"".join([pack(JsEvent(0, v, kind, n)) for kind, n, v in events]))
 
     def pull_out(self):
@@ -65,17 +60,15 @@ class Stream:
         self._fd = None
         return now
 
-    def remove(self):
-        """Leave nothing behind."""
+    def close(self):
         if self._fd is not None:
             os.close(self._fd)
-        shutil.rmtree(self._folder)
 
 
 class DriverTest(RosTest):
     def setUp(self):
-        self.stream = Stream()
-        self.addCleanup(self.stream.remove)
+        self.stream = Stream(str(self.folder() / "js0"))
+        self.addCleanup(self.stream.close)
         self.joys = []
         self._subscriber = self.hear("joy", Joy, self.joys.append)
 

@@ -17,7 +17,6 @@ FIRST, MIDDLE, FIELD_M = "/turtlesim1/", 5.5444446, 499 / 45
 
 
 def call(name, kind, *values):
-    """Call a service once it is there."""
     rospy.wait_for_service(name)
     return rospy.ServiceProxy(name, kind)(*values)
 

@@ -19,15 +19,12 @@ class RosTest(unittest.TestCase):
         return value
 
     def start(self, *command, **environment):
-        """Start a program: a processes.Program."""
         return self.enter(Program(*command, **environment))
 
     def folder(self):
-        """Return the path of a new folder."""
         return Path(self.enter(tempfile.TemporaryDirectory()))
 
     def publisher(self, topic, kind, **options):
-        """Return a publisher."""
         publisher = rospy.Publisher(topic, kind, **{"queue_size": 1000, **options})
         self.addCleanup(publisher.unregister)
         return publisher
