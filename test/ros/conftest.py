@@ -29,7 +29,6 @@ def pytest_addoption(parser):
 
 
 def pytest_configure(config):
-    config.addinivalue_line("python_files", "*.py")
     signal.signal(signal.SIGHUP, signal.default_int_handler)  # ends all, as Ctrl-C does
     if not hasattr(config, "workerinput"):
         shutil.rmtree(RESULTS, ignore_errors=True)
@@ -42,11 +41,14 @@ def pytest_unconfigure(config):
 
 
 def pytest_collect_file(file_path, parent):
-    is_one = file_path.suffix == ".test" and file_path != ONE
-    return RosFile.from_parent(parent, path=file_path) if is_one else None
+    beside, is_named = file_path.with_suffix(".test"), parent.session.isinitpath(file_path)
+    is_alone = file_path.suffix == ".py" and not beside.exists() and not is_named
+    if file_path.parent != ONE.parent and (is_alone or file_path == beside):
+        return RosFile.from_parent(parent, path=file_path)
+    return None
 
 
-def pytest_pycollect_makemodule(module_path, parent):
+def pytest_pycollect_makemodule(module_path, parent):  # of a file that is named
     return RosFile.from_parent(parent, path=module_path)
 
 
@@ -56,11 +58,8 @@ def pytest_collection_modifyitems(items):
 
 class RosFile(pytest.File):
     def collect(self):
-        command = [str(self.path)]
-        if self.path.suffix == ".py":
-            if self.path.parent == ONE.parent or self.path.with_suffix(".test").exists():
-                return
-            command = [str(ONE), f"name:={self.path.stem}"]
+        beside = self.path.with_suffix(".test")
+        command = [beside] if beside.exists() else [ONE, f"name:={self.path.stem}"]
         for turn in range(self.config.option.times):
             name = f"{self.path.stem}_{turn + 1}" if turn else self.path.stem
             yield RosTest.from_parent(self, name=name, command=command)
