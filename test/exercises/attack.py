@@ -18,14 +18,12 @@ aims = {}
 
 
 def connect(family, address):
-    """Whether a server answers there."""
     with socket.socket(family) as probe:
         probe.settimeout(5.0)
         return probe.connect_ex(address) == 0
 
 
 def read(path):
-    """What a file holds."""
     return pathlib.Path(path).read_text()
 
 
@@ -81,7 +79,6 @@ def leave():
 
 
 def processes():
-    """The command lines of all that run."""
     for path in glob.glob("/proc/[0-9]*/cmdline"):
         try:
             yield pathlib.Path(path).read_bytes()
@@ -123,7 +120,6 @@ ATTACKS = {
 
 
 def main():
-    """Try all."""
     aims.update(json.loads((HERE / "aims.json").read_text()))
     reached = []
     for number, attack in enumerate(ATTACKS.values()):  # a name each would be cut off in the report

@@ -10,12 +10,12 @@ from pathlib import Path
 import kobuki_msgs
 import pytest
 import stored
+from edits import literal  # noqa: F401
 
 from tutorial_check.launcher import examine
 
 HERE = Path(__file__).resolve().parent
 REPOSITORY = HERE.parents[1]
-BAG = REPOSITORY / "joy2twist" / "bag" / "joy.bag"
 OPTIONS = {
     "--every": (1, "only every Nth row of data"),
     "--first": (0, "the row with which --every begins"),
@@ -28,7 +28,6 @@ OPTIONS = {
 
 
 def pytest_addoption(parser):
-    """The rows are many, and each builds a workspace."""
     for name, (default, what) in OPTIONS.items():
         kind = {"action": "store_true"} if default is False else {"type": int, "metavar": "N"}
         parser.addoption(name, default=default, help=what, **kind)
@@ -43,14 +42,12 @@ def pytest_configure(config):
 
 
 def pytest_unconfigure(config):
-    """Leave them in peace."""
     for process in config.loops:
         process.kill()
         process.wait()
 
 
 def pytest_collection_modifyitems(config, items):
-    """Leave out what was not asked for."""
     option = config.getoption
     if not option("--everything"):
         items[:] = [item for item in items if "in_all_exercises" not in item.name]
@@ -61,7 +58,6 @@ def pytest_collection_modifyitems(config, items):
 
 @pytest.fixture(scope="session")
 def underlay():
-    """setup.bash of the underlay."""
     return os.environ["TUTORIAL_UNDERLAY"]
 
 
@@ -112,15 +108,4 @@ def examined(request, underlay, tmp_path):
 
 
 def statuses(outcomes):
-    """{check: what it came to}."""
     return {found.id: found.status for outcome in outcomes for found in outcome.results}
-
-
-@pytest.fixture
-def literal(tmp_path):
-    """A workspace with a literal solution of the handout; its src."""
-    src = tmp_path / "ws" / "src"
-    shutil.copytree(HERE / "literal", src)
-    (src / "joy2twist" / "bag").mkdir()
-    shutil.copy(BAG, src / "joy2twist" / "bag")
-    return src

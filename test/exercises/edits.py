@@ -3,6 +3,8 @@
 import shutil
 from pathlib import Path
 
+import pytest
+
 B, J = "beginner_tutorials", "joy2twist"
 TALKER, LISTENER = f"{B}/scripts/talker.py", f"{B}/scripts/listener.py"
 JOY2TWIST, CLASS = f"{J}/scripts/joy2twist.py", f"{J}/scripts/new_joy2twist.py"
@@ -11,10 +13,18 @@ TURTLEBOT, REAL = (
     f"{J}/launch/joy2twist_turtlebot.launch",
     f"{J}/launch/launch_joy_node_realTurtlebot.launch",
 )
+HERE = Path(__file__).resolve().parent
+
+
+@pytest.fixture
+def literal(tmp_path):
+    """A workspace with a literal solution of the handout; its src."""
+    src = shutil.copytree(HERE / "literal", tmp_path / "ws" / "src")
+    shutil.copytree(HERE.parents[1] / J / "bag", src / J / "bag")
+    return src
 
 
 def put(path, old, new, count=-1):
-    """Replace a text, which must be there."""
 
     def edit(src):
         file = src / path
@@ -32,7 +42,6 @@ def made(path):
 
 
 def write(path, text, mode=0o755):
-    """Write a file."""
 
     def edit(src):
         made(src / path).write_text(text)
@@ -47,22 +56,18 @@ def move(old, new):
 
 
 def copy(old, new):
-    """Copy a file, with its rights."""
     return lambda src: shutil.copy(src / old, made(src / new))
 
 
 def remove(path):
-    """Delete a file."""
     return lambda src: (src / path).unlink()
 
 
 def chmod(path, mode):
-    """Change the rights."""
     return lambda src: (src / path).chmod(mode)
 
 
 def windows(path):
-    """Windows line ends."""
     return lambda src: (src / path).write_bytes((src / path).read_bytes().replace(b"\n", b"\r\n"))
 
 
@@ -87,7 +92,11 @@ def lines(path, *numbers):
     return edit
 
 
+def mistake_in(exercise, path, *first):
+    """Return a function that makes a row of one change in a file."""
+    return lambda what, old, new, *found: (exercise, what, [*first, put(path, old, new, 1)], *found)
+
+
 def apply(edits, src):
-    """Make the changes in a src folder."""
     for edit in edits:
         edit(Path(src))

@@ -9,6 +9,7 @@ from edits import (
     B,
     J,
     copy,
+    mistake_in,
     move,
     put,
     remove,
@@ -27,10 +28,8 @@ COMMENT = (
 )
 REMAP = '<remap from="/cmd_vel" to="/cmd_vel_mux/input/teleop"/>'
 
-
-def bag(what, old, new, check, word):
-    """A row with one change in launch_bag.launch."""
-    return ("5", what, [put(LAUNCH_BAG, old, new, 1)], check, word)
+bag, joy = mistake_in("5", LAUNCH_BAG), mistake_in("5", LAUNCH_JOY)
+mux = mistake_in("6.1", TURTLEBOT)
 
 
 def commented(file, change, check, *words):
@@ -38,16 +37,6 @@ def commented(file, change, check, *words):
     old, new = change
     what = f"{new} below a comment"
     return ("5", what, [put(file, old, new, 1), put(file, *COMMENT)], check, words)
-
-
-def joy(what, old, new, check, word):
-    """A row with one change in launch_joy_node.launch."""
-    return ("5", what, [put(LAUNCH_JOY, old, new, 1)], check, word)
-
-
-def mux(what, old, new, check, word):
-    """A row with one change in joy2twist_turtlebot.launch."""
-    return ("6.1", what, [put(TURTLEBOT, old, new, 1)], check, word)
 
 
 INCLUDED = f"{J}/launch/more.launch"

@@ -24,13 +24,11 @@ PYTHONPATH = f"{SOURCE}:{SOURCE.parents[1] / 'node_kit' / 'src'}"
 
 
 def command(underlay, *words):
-    """The words of a ./tutorial check."""
     words = ["-m", "tutorial_check", "--underlay", *map(str, (underlay, *words))]
     return ["/usr/bin/python3", *words]
 
 
 def environment(**more):
-    """That of a check."""
     return {**os.environ, "PYTHONPATH": PYTHONPATH, **more}
 
 
@@ -103,7 +101,6 @@ def test_a_class_has_a_table_and_reports(literal, underlay, tmp_path):
 
 
 def examines(program):
-    """Return whether a worker runs below a program."""
     lines = map(command_line, descendants(program.pid))
     return any("tutorial_check.worker" in line for line in lines)
 

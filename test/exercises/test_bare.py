@@ -10,7 +10,6 @@ from test_endings import path_without_namespaces
 
 @pytest.fixture(autouse=True)
 def bare(tmp_path, monkeypatch):
-    """No namespaces."""
     monkeypatch.setenv("PATH", path_without_namespaces(tmp_path))
 
 

@@ -41,7 +41,6 @@ GONE = (
 
 @pytest.fixture
 def start():
-    """start(host, ...): a program on a host."""
     with Network(HOSTS) as network, contextlib.ExitStack() as running:
 
         def begin(host, *words):
@@ -76,7 +75,6 @@ def worker(start, underlay, monkeypatch):
 
 @pytest.fixture
 def folder(literal, tmp_path):
-    """A class of one; hand_in makes it larger."""
     shutil.copytree(literal.parent, tmp_path / "class" / "ada")
     return tmp_path / "class"
 

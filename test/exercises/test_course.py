@@ -33,7 +33,6 @@ asks(4, "beginner_tutorials/AddTwoInts", 1)
 
 
 def check(*words):
-    """Return (exit code, output) of ./tutorial check."""
     command = [REPOSITORY / "tutorial", "check", *words]
     done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=3600)
     return done.returncode, done.stdout + done.stderr

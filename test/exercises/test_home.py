@@ -57,7 +57,6 @@ def test_a_workspace_that_is_a_link_was_built_over_the_suite(literal, underlay, 
 @pytest.mark.night
 @pytest.mark.parametrize(("what", "exercise"), [("", "2"), (J, "4.3"), (TALKER, "3")])
 def test_ones_own_links_are_followed(literal, home, verdicts, what, exercise):
-    """The whole src, a package, a file."""
     away(literal / what, home)
     verdicts(exercise)
 

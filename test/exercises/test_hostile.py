@@ -59,7 +59,6 @@ JOINED = {
 
 
 def first_wrong(outcome):
-    """Return the id and the report of what is wrong first."""
     results = [result for result in outcome.results if result.status == "wrong"]
     return (results[0].id, "\n".join(lines_of(results[0]))) if results else (None, "")
 

@@ -24,7 +24,6 @@ INSTALL = "\ncatkin_install_python(PROGRAMS scripts/talker.py scripts/listener.p
 
 
 def another(name, cmake, export=""):
-    """A package besides those of the exercises."""
     xml = f"<package><name>{name}</name><version>0.0.0</version><description>x</description><maintainer email='s@u.example'>s</maintainer><license>x</license><buildtool_depend>catkin</buildtool_depend>{export}</package>"
     text = f"cmake_minimum_required(VERSION 3.5)\nproject({name})\n{cmake}\n"
     return [write(f"{name}/package.xml", xml), write(f"{name}/CMakeLists.txt", text)]

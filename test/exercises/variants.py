@@ -32,12 +32,10 @@ END_OF_CLASS = '    except:\n        rospy.loginfo("The node has ended.")\n'
 
 
 def j(what, old, new):
-    """A row with one change in joy2twist.py."""
     return (what, [put(JOY2TWIST, old, new)], ["4.3"])
 
 
 def c(what, *changes):
-    """A row with changes in the class."""
     return (what, [put(CLASS, old, new) for old, new in changes], ["6.2"])
 
 

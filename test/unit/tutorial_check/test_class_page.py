@@ -48,7 +48,6 @@ def test_the_table_has_what_could_be_checked():
 
 
 def wrong(seen, check="C16", **more):
-    """Return an exercise that is wrong."""
     return Outcome("5", [Result(check, WRONG, "axes", "a sign", seen, **more)], done=True)
 
 

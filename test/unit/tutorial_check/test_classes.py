@@ -35,7 +35,6 @@ def session(make_session):
 
 @pytest.fixture
 def write(session):
-    """write(path, text, mode): a file of the student's package."""
 
     def made(path, text, mode=0o755):
         file = session.package(PACKAGE).folder / path

@@ -46,7 +46,6 @@ def examine(tmp_path, monkeypatch):
 
 
 def found_in(outcomes):
-    """{exercise: (ids of its results, trouble)}."""
     return {one.id: ([result.id for result in one.results], one.trouble) for one in outcomes}
 
 

@@ -49,7 +49,6 @@ class Group:
 
 @pytest.fixture
 def group(tmp_path, monkeypatch):
-    """A Group without students yet."""
     made = Group(tmp_path / "group")
     monkeypatch.setattr(submissions, "examine", made.examine)
     return made

@@ -53,12 +53,10 @@ ARMED = {"/joy2twist": (True, "armed")}
 
 
 def well(**changes):
-    """The well facts, changed."""
     return replace(WELL, **changes)
 
 
 def nodes(**changed):
-    """The well facts with other nodes."""
     return well(nodes={**WELL.nodes, **{f"/{name}": value for name, value in changed.items()}})
 
 
