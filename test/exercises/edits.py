@@ -4,6 +4,8 @@ import shutil
 from pathlib import Path
 
 import pytest
+import rosbag
+from std_msgs.msg import String
 
 B, J = "beginner_tutorials", "joy2twist"
 TALKER, LISTENER = f"{B}/scripts/talker.py", f"{B}/scripts/listener.py"
@@ -13,6 +15,11 @@ TURTLEBOT, REAL = (
     f"{J}/launch/joy2twist_turtlebot.launch",
     f"{J}/launch/launch_joy_node_realTurtlebot.launch",
 )
+SHOW = 'rospy.loginfo(rospy.get_name() + ": axes [%.2f, %.2f, %.2f, %.2f, %.2f, %.2f]" % data.axes)'
+X, Z = "msg.linear.x = data.axes[1]", "msg.angular.z = data.axes[0]"
+PUBLISH = "pub.publish(msg)"
+SUB = 'rospy.Subscriber("/joy", Joy, callback)'
+REMAP = '<remap from="/cmd_vel" to="/cmd_vel_mux/input/teleop"/>'
 HERE = Path(__file__).resolve().parent
 
 
@@ -88,6 +95,31 @@ def lines(path, *numbers):
     def edit(src):
         text = (src / path).read_text().splitlines(keepends=True)
         (src / path).write_text("".join(line for n, line in enumerate(text, 1) if n not in numbers))
+
+    return edit
+
+
+def chatter(path):
+    """Make a recording of another topic."""
+
+    def edit(src):
+        with rosbag.Bag(str(made(src / path)), "w") as bag:
+            bag.write("/chatter", String("x"))
+
+    return edit
+
+
+def built(below, home="", **files):
+    """Make the devel folder of a build over these folders, as far as it is read, and its files."""
+
+    def edit(src):
+        texts = {
+            "_setup_util.py": f"    CMAKE_PREFIX_PATH = r'{below}'.split(';')\n",
+            "setup.sh": f": ${{_CATKIN_SETUP_DIR:={home or src.parent}/devel}}\n",
+            "setup.bash": "# as catkin has it\n",
+        }
+        for name, text in {**texts, **files}.items():
+            made(src.parent / "devel" / name).write_text(text)
 
     return edit
 

@@ -3,7 +3,7 @@
 import re
 import textwrap
 
-from edits import JOY2TWIST, write
+from edits import JOY2TWIST, X, Z, write
 
 HEAD = """#!/usr/bin/env python3
 import queue
@@ -89,7 +89,6 @@ while not rospy.is_shutdown():
         pass
 """
 FRAMES = {"functions": FUNCTIONS, "class": CLASS, "closure": CLOSURE, "queue": QUEUE}
-X, Z = "msg.linear.x = data.axes[1]", "msg.angular.z = data.axes[0]"
 PUBLISH = "my.pub.publish(msg)"
 PLAIN = f"msg = Twist()\n{X}\n{Z}\n"
 HELD = "data.buttons[4]"
@@ -107,12 +106,10 @@ def program(frame, answer, keep="", spin=""):
 
 
 def values(x, z="data.axes[0]", before=""):
-    """Lines that publish these two."""
     return f"{before}msg = Twist()\nmsg.linear.x = {x}\nmsg.angular.z = {z}\n{PUBLISH}"
 
 
 def only_if(condition, answer=PLAIN + PUBLISH):
-    """A gate: published under a condition."""
     return answer.replace(PUBLISH, f"if {condition}:\n    {PUBLISH}")
 
 

@@ -1,12 +1,8 @@
 """Mistakes in joy2twist and in the class, each a row: (exercise, what, edits, check, word or words)."""
 
-from edits import CLASS, JOY2TWIST, J, chmod, copy, lines, mistake_in, move, put, remove, write
+from edits import *
 
-SHOW = 'rospy.loginfo(rospy.get_name() + ": axes [%.2f, %.2f, %.2f, %.2f, %.2f, %.2f]" % data.axes)'
-X, Z = "msg.linear.x = data.axes[1]", "msg.angular.z = data.axes[0]"
-PUBLISH = "pub.publish(msg)"
 PUB = "rospy.Publisher('/cmd_vel', Twist)"
-SUB = 'rospy.Subscriber("/joy", Joy, callback)'
 
 
 def tried(handler):
