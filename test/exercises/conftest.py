@@ -2,8 +2,6 @@
 
 import os
 import shutil
-import subprocess
-import sys
 import tempfile
 from pathlib import Path
 
@@ -23,7 +21,6 @@ OPTIONS = {
     "--submissions": (8, "how many on a cluster"),
     "--everything": (False, "all exercises, and not only those of the mistakes; an hour"),
     "--store": (False, "store what the programs of the rows did, for the unit tests"),
-    "--busy": (False, "beside an endless loop on each processor"),
 }
 
 
@@ -31,20 +28,6 @@ def pytest_addoption(parser):
     for name, (default, what) in OPTIONS.items():
         kind = {"action": "store_true"} if default is False else {"type": int, "metavar": "N"}
         parser.addoption(name, default=default, help=what, **kind)
-
-
-def pytest_configure(config):
-    """Keep the processors busy, if asked to; once, and not in each worker."""
-    is_worker = hasattr(config, "workerinput")
-    count = os.cpu_count() if config.getoption("--busy") and not is_worker else 0
-    loop = [sys.executable, "-c", "while True: pass"]
-    config.loops = [subprocess.Popen(loop) for _ in range(count)]
-
-
-def pytest_unconfigure(config):
-    for process in config.loops:
-        process.kill()
-        process.wait()
 
 
 def pytest_collection_modifyitems(config, items):
