@@ -41,7 +41,7 @@ def with_environment(text):
 def command_line(pid):
     """Return that of a process; empty if it has exited."""
     try:
-        return Path(f"/proc/{pid}/cmdline").read_text()
+        return Path(f"/proc/{pid}/cmdline").read_text(errors="replace")
     except OSError:
         return ""
 
