@@ -18,7 +18,7 @@ from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import MarkerArray
 
 from tutorial_testing.nodes import pid_of
-from tutorial_testing.rig import suspended
+from tutorial_testing.processes import suspended
 from tutorial_testing.robot import Robot
 from tutorial_testing.rostests import RosTest
 from tutorial_testing.waiting import Stopwatch, wait_for

@@ -12,7 +12,8 @@ from geometry_msgs.msg import Twist, Vector3
 from node_kit.ros_api import call
 from tutorial_testing.hands import DRIVE, RELEASED
 from tutorial_testing.nodes import pid_of
-from tutorial_testing.rig import BASE, Rig, suspended
+from tutorial_testing.processes import suspended
+from tutorial_testing.rig import BASE, Rig
 from tutorial_testing.rostests import RosTest
 from tutorial_testing.waiting import BUSY_S, wait_for
 

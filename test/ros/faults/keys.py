@@ -4,7 +4,7 @@ import os
 import subprocess
 
 from tutorial_testing.keys import KeyboardRig
-from tutorial_testing.rig import suspended
+from tutorial_testing.processes import suspended
 from tutorial_testing.rostests import RosTest
 from tutorial_testing.waiting import wait_for
 

@@ -4,16 +4,18 @@ A program that goes on sending is obeyed again.
 """
 
 import itertools
+import signal
 import threading
 
 import rospy
 from geometry_msgs.msg import Twist, Vector3
 
 from tutorial_testing.nodes import pid_of
-from tutorial_testing.rig import BASE, DRIVER, MUX, TIMEOUT_S, Rig, go_on, stop
+from tutorial_testing.processes import signal_all, suspend
+from tutorial_testing.rig import BASE, DRIVER, MUX, TIMEOUT_S, Rig
 from tutorial_testing.robot import PERIOD_S
 from tutorial_testing.rostests import RosTest
-from tutorial_testing.waiting import HOP_S, Stopwatch, wait_for
+from tutorial_testing.waiting import tolerance, wait_for
 
 WATCHED_S = 1.2  # after a node is back
 
@@ -31,14 +33,13 @@ class LostNodes(RosTest):
         """The robot comes to rest in time, and stays."""
         pids = [pid_of(node)]
         rig.drive()
-        watch, began_s = Stopwatch(), stop(pids)
+        late_s, began_s = tolerance(), suspend(pids)
         threading.Event().wait(duration_s)
-        ended_s = go_on(pids)
+        ended_s = signal_all(pids, signal.SIGCONT)
         wait_for(lambda: rig.since(ended_s + WATCHED_S), "odometry")
-        late_s = HOP_S + watch.lost_s
-        rests_s = began_s + TIMEOUT_S + PERIOD_S + late_s
+        rests_s = began_s + TIMEOUT_S + PERIOD_S + late_s()
         if node == BASE:
-            rests_s = max(rests_s, ended_s + late_s)
+            rests_s = max(rests_s, ended_s + late_s())
         self.check_rest(rig, began_s, ended_s, f"{node} for {duration_s} s", rests_s)
 
     def check_restart(self, rig, node):
@@ -63,12 +64,12 @@ class LostNodes(RosTest):
         with Rig(with_mux=False) as rig:
             rig.drive()
             base, driver = pid_of(BASE), pid_of(DRIVER)
-            stop([base])
+            suspend([base])
             threading.Event().wait(1.0)
             rig.kill(DRIVER, pid=driver)
             threading.Event().wait(1.0)
             # The first odometry may still be of the time before.
-            ended_s = go_on([base]) + 0.1
+            ended_s = signal_all([base], signal.SIGCONT) + 0.1
             self.check_rest(rig, ended_s, ended_s, "stale")
 
     def test_a_program_that_never_sends_zero_drives_on_after_the_base_was_suspended(self):
@@ -80,9 +81,9 @@ class LostNodes(RosTest):
             self.addCleanup(timer.shutdown)
             wait_for(lambda: rig.moves, "robot that drives")
             base = [pid_of(BASE)]
-            stop(base)
+            suspend(base)
             stopped = rig.now.stamp
             threading.Event().wait(1.5)
-            go_on(base)
+            signal_all(base, signal.SIGCONT)
             later = stopped + 1.5 + 2 * TIMEOUT_S  # when what was sent before counts no more
             wait_for(lambda: any(one.moves for one in rig.since(later)), "robot that drives on")

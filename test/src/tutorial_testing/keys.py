@@ -47,15 +47,7 @@ class Tmux:
 
     def hold(self, key, until, what):
         """Repeat a key as a keyboard does, until something is true."""
-
-        def pressed():
-            self.press(key)
-            return until()
-
-        try:
-            wait_for(pressed, what)
-        except AssertionError as error:
-            raise AssertionError(f"{error}; the screen:\n{self.screen}") from None
+        wait_for(lambda: self.press(key) or until(), what, seen=lambda: self.screen)
 
     def close(self):
         """Close it, as the X of its window does; return when what ran in it has exited."""

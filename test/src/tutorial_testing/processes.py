@@ -65,10 +65,20 @@ def signal_all(pids, number):
 
 
 def suspend(pids):
-    """Stop processes as Ctrl-Z does; return when all of their threads are stopped."""
-    for pid in pids:
-        os.kill(pid, signal.SIGSTOP)
+    """Stop all threads of processes, as Ctrl-Z does; return the time [s] just before."""
+    now = signal_all(pids, signal.SIGSTOP)
     wait_for(lambda: all(map(_is_stopped, pids)), f"end of the work of {pids}")
+    return now
+
+
+@contextlib.contextmanager
+def suspended(pids):
+    """Suspend processes for a while. A master takes connections then, and does not answer."""
+    suspend(pids)
+    try:
+        yield
+    finally:
+        signal_all(pids, signal.SIGCONT)
 
 
 def _is_stopped(pid):
@@ -167,10 +177,8 @@ class Program:
 
     def wait(self, deadline_s=DEADLINE_S):
         """Wait for the end; return the exit code. If it is late, AssertionError with the output."""
-        try:
-            wait_for(lambda: self.ended, f"end of {self._process.args}", deadline_s)
-        except AssertionError as error:
-            raise AssertionError(f"{error}; it printed:\n{self.output}") from None
+        what = f"end of {self._process.args}"
+        wait_for(lambda: self.ended, what, deadline_s, lambda: self.output)
         return self._process.returncode
 
     def left_behind(self):

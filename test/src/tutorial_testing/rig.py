@@ -3,7 +3,6 @@
 a FIFO -> joy_node -> joy2twist [-> cmd_vel_mux] -> fake_turtlebot -> /odom
 """
 
-import contextlib
 import json
 import os
 import signal
@@ -17,7 +16,7 @@ import yaml
 
 from tutorial_testing.hands import DRIVE, RELEASED, Hands
 from tutorial_testing.nodes import node_path, pid_of
-from tutorial_testing.processes import Program, suspend
+from tutorial_testing.processes import Program
 from tutorial_testing.robot import Robot
 from tutorial_testing.waiting import Stopwatch
 
@@ -102,28 +101,3 @@ class Rig(Robot):
     def drive(self):
         """Release all and hold LB and the stick, until the robot moves."""
         self.drive_by(self.hold)
-
-
-def stop(pids):
-    """Suspend processes; return the time [s] just before."""
-    now = time.time()
-    suspend(pids)
-    return now
-
-
-@contextlib.contextmanager
-def suspended(pids):
-    """Suspend processes for a while. A master takes connections then, and does not answer."""
-    stop(pids)
-    try:
-        yield
-    finally:
-        go_on(pids)
-
-
-def go_on(pids):
-    """Resume suspended processes; return the time [s] just before."""
-    now = time.time()
-    for pid in pids:
-        os.kill(pid, signal.SIGCONT)
-    return now

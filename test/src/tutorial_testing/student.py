@@ -57,18 +57,13 @@ class Student:
         elif lines:
             terminal.type(lines)
 
-        def shown(pattern=seen):
-            return re.search(pattern, terminal.output[self._begin[name] :], re.MULTILINE)
-
-        try:
-            if name == SHORT or seen == END:
-                terminal.type("echo done-$((1000 + 7))")
-                wait_for(lambda: shown(END), f"its end after {lines!r}")
-                assert shown(), f"no {seen!r} after {lines!r}"
-            wait_for(shown, f"{seen!r} after {lines!r}")
-        except AssertionError as error:
-            printed = terminal.output[self._begin[name] :]
-            raise AssertionError(f"{error}:\n{printed[-2000:]}") from None
+        printed = lambda: terminal.output[self._begin[name] :]  # noqa: E731
+        shown = lambda pattern=seen: re.search(pattern, printed(), re.MULTILINE)  # noqa: E731
+        if name == SHORT or seen == END:
+            terminal.type("echo done-$((1000 + 7))")
+            wait_for(lambda: shown(END), f"its end after {lines!r}", seen=printed)
+            assert shown(), f"no {seen!r} after {lines!r}:\n{printed()}"
+        wait_for(shown, f"{seen!r} after {lines!r}", seen=printed)
 
     def close(self, *names):
         for name in names or list(self._terminals):

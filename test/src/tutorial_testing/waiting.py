@@ -58,21 +58,15 @@ class Stopwatch:
 
 
 def tolerance():
-    """Return a function: by how much [s] what is measured from now on may exceed its bound.
-
-    Every bound of what a system or browser test measures is written so:
-        late_s = tolerance()
-        ...
-        assert took_s < LIMIT_S + late_s()
-    """
+    """Return a function: by how much [s] what is measured from now on may exceed its bound."""
     watch = Stopwatch()
     return lambda: HOP_S + watch.lost_s
 
 
-def wait_for(condition, what, deadline_s=DEADLINE_S):
+def wait_for(condition, what, deadline_s=DEADLINE_S, seen=str):
     """Return the first true value of condition(); AssertionError naming `what` at the deadline.
 
-    It asks 100 times a second in the first second, then 20 times; and less often where a question
+    seen: returns what is seen in its place. It asks 100 times a second in the first second, then 20 times; and less often where a question
     takes processor time here, so that it leaves five sixths of it.
     """
     begin = _clock.now()
@@ -84,5 +78,5 @@ def wait_for(condition, what, deadline_s=DEADLINE_S):
         waited_s = _clock.now() - begin
         worked_s = time.thread_time() - worked_s
         if waited_s > deadline_s:
-            raise AssertionError(f"no {what} within {deadline_s:.0f} s")
+            raise AssertionError(f"no {what} within {deadline_s:.0f} s\n{seen()}")
         time.sleep(max(0.01 if waited_s < 1.0 else 0.05, 5 * worked_s))

@@ -26,10 +26,7 @@ class Browser(Started):
         return self.ask(f"document.querySelector({json.dumps(css)})?.textContent ?? ''")
 
     def wait_for_text(self, css, text):
-        try:
-            wait_for(lambda: text in self.text(css), text)
-        except AssertionError as error:
-            raise AssertionError(f"{error}; {css} says {self.text(css)!r}") from None
+        wait_for(lambda: text in self.text(css), f"{text} in {css}", seen=lambda: self.text(css))
 
     def press(self, css):
         """Click on an element, seen or not."""
