@@ -66,8 +66,9 @@ def tolerance():
 def wait_for(condition, what, deadline_s=DEADLINE_S, seen=str):
     """Return the first true value of condition(); AssertionError naming `what` at the deadline.
 
-    seen: returns what is seen in its place. It asks 100 times a second in the first second, then 20 times; and less often where a question
-    takes processor time here, so that it leaves five sixths of it.
+    seen: returns what is seen in its place. It asks 100 times a second in the first second, then 20
+    times; and less often where a question takes processor time here, so that it leaves five sixths
+    of it.
     """
     begin = _clock.now()
     while True:
