@@ -14,7 +14,6 @@ NAMED = re.compile(r"`(test/[^`:]+)(?:::([^`]+))?`")
 
 
 def tests_in(path):
-    """Return the names of the tests in a file of pytest."""
     return re.findall(r"^def (test_\w+)", path.read_text(), re.M)
 
 

@@ -23,12 +23,10 @@ MUTATE = CACHES.parent / "mutation/bin/python"  # with the lowest priority, as i
 
 
 def say(line):
-    """Report to the user."""
     print(f"tutorial: {line}", file=sys.stderr, flush=True)
 
 
 def interrupt(number, _):
-    """Handle a signal as Ctrl-C."""
     raise KeyboardInterrupt(number)
 
 

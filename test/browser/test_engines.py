@@ -7,8 +7,6 @@ from tutorial_testing.cockpit.hands import Hands
 
 
 class EngineHands(Hands):
-    """Shift and the arrow up, as WebDriver presses them."""
-
     def hold(self):
         self.browser.keys("keyDown", Key.SHIFT, Key.ARROW_UP)
 

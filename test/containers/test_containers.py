@@ -72,8 +72,6 @@ class Compose:
 
 
 class RobotInside(Robot):
-    """The robot of a container, seen through its odometry."""
-
     def __init__(self, container):
         super().__init__()
         inside = ("./tutorial", "run", "bash", "-c", WITH_TESTS, "-")
@@ -170,7 +168,6 @@ def test_the_page_drives_and_the_robot_rests_when_it_is_let_go_or_all_ends():
 
 @pytest.fixture
 def workspace(tmp_path):
-    """A student's folder on this host."""
     tmp_path.chmod(0o755)
     for folder in tmp_path.parents:
         if folder.stat().st_uid == os.geteuid() and folder.name.startswith("pytest"):

@@ -18,7 +18,6 @@ OPTIONS = {
     "--every": (1, "only every Nth row of data"),
     "--first": (0, "the row with which --every begins"),
     "--students": (4, "how many in the test of --all"),
-    "--submissions": (8, "how many on a cluster"),
     "--everything": (False, "all exercises, and not only those of the mistakes; an hour"),
     "--store": (False, "store what the programs of the rows did, for the unit tests"),
 }

@@ -62,7 +62,6 @@ def first_wrong(outcome):
 
 
 def processes_like(word):
-    """Return the ids of running processes whose command line has a word."""
     return [pid for pid in filter(str.isdigit, os.listdir("/proc")) if word in command_line(pid)]
 
 

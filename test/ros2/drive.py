@@ -44,15 +44,9 @@ def single(value):
 
 
 class Bridge:
-    """The bridge, and which of its processes is which."""
-
     def __init__(self, program):
         self.program = program
         wait_for(self.is_up, "both sides of the bridge")
-
-    @property
-    def output(self):
-        return self.program.output
 
     def process(self, side):
         """The id of a side's process; None if it does not run."""
@@ -60,7 +54,7 @@ class Bridge:
         return next((pid for pid in pids if SIDES[side] in command_line(pid)), None)
 
     def is_up(self):
-        assert not self.program.ended, self.output
+        assert not self.program.ended, self.program.output
         return all(map(self.process, SIDES))
 
 

@@ -28,8 +28,6 @@ SEEN_S, LONGEST_S = REST_S + HOP_S, 5.0  # a loss of so long is seen; the longes
 
 
 class Way:
-    """The robot, the bridge, the program in ROS 2, and what can be done to each."""
-
     def __init__(self, start, robot):
         self.twists, self.robot = [], robot
         rospy.Subscriber("/cmd_vel", Twist, self.twists.append, tcp_nodelay=True)
@@ -57,7 +55,7 @@ class Way:
             self.send(part, signal.SIGCONT)
         if kind == "kill" and part != PROGRAM:
             line = f"bridge: the side of {part} has ended (signal 9): it is restarted"
-            wait_for(lambda: line in self.bridge.output, "the line about it")
+            wait_for(lambda: line in self.bridge.program.output, "the line about it")
         return kind != "stop" or lasts_s >= SEEN_S
 
 
@@ -69,7 +67,6 @@ def whole_way(start_for_all):
 
 @pytest.fixture
 def way(whole_way, stick):
-    """The way, on which the robot drives."""
     stick.begin()
     wait_for(whole_way.drives, "a robot that drives")
     return whole_way
@@ -136,8 +133,8 @@ def test_random_faults_of_the_bridge_leave_a_robot_that_rests_in_time(whole_way,
         try:
             trial(seed, way)
         except AssertionError as error:
-            output = f"{way.bridge.output}\n{way.program.output}"
+            output = f"{way.bridge.program.output}\n{way.program.output}"
             raise AssertionError(f"seed {seed}: {error}\n{output}") from None
     with Stick().begin():
         wait_for(way.drives, "a robot that drives after all that")
-    assert "Traceback" not in way.bridge.output, way.bridge.output
+    assert "Traceback" not in way.bridge.program.output, way.bridge.program.output

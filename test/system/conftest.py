@@ -63,7 +63,6 @@ def call(tutorial):
 
 @pytest.fixture(scope="session")
 def suite_workspace():
-    """The path of the workspace from which these tests run."""
     return str(Path(os.environ["CMAKE_PREFIX_PATH"].split(":")[0]).parent)
 
 

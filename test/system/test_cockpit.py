@@ -2,7 +2,6 @@
 
 import contextlib
 import http.client
-import json
 import re
 import socket
 import sys
@@ -29,7 +28,6 @@ ELSEWHERE = "127.0.0.2"  # another address of this machine
 
 @contextlib.contextmanager
 def page_of(world):
-    """Have a page that may drive the robot."""
     with SocketPage(world.port, world.token("drive")) as page:
         page.wait_for("drives", lambda message: not message["refusal"])
         yield page
@@ -106,11 +104,8 @@ def test_a_viewer_may_not_drive_and_long_messages_close_the_connection(resting):
         page.say("reset", robot="")
         page.say("bag_play", topic="/joy", rate=1.0, loop=False, robot="")
         twist = {"topic": "/cmd_vel", "type": "geometry_msgs/Twist", "values": {}}
-        page.say("publish", **twist)
         page.say("repeat", **twist, period=0.1)
-        page.say("set", parameter="/fake_turtlebot/rate", values={"value": "1"})
-        page.say("record", on=True)
-        for what in ("drive", "reset", "bag_play", "publish", "repeat", "set", "record"):
+        for what in ("drive", "reset", "bag_play", "repeat"):
             why = page.wait_for("refused", lambda no, what=what: no["what"] == what)["why"]
             assert "may only look" in why
         assert not [session for session in page.of("session") if session["yours"]]
@@ -170,7 +165,7 @@ def test_the_driver_goes_on_beside_thirty_viewers_that_flood(open_world):
                 drive(open_world, page)  # sits down again, in the midst of it
                 drives += 1
             assert program.wait() == 0, program.output
-            assert json.loads(program.output.splitlines()[-1])["sent"] > 1000
+            assert int(program.output.splitlines()[-1]) > 1000
         assert drives > 0
         # A busy machine may lose the operator for a moment; nobody else ever sits there.
         assert {session["driver"] for session in page.of("session")} <= {number, None}

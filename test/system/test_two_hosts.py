@@ -14,12 +14,6 @@ def ends_with(topic, text):
     return text in "".join(topic.output.split("---")[-2:])
 
 
-def drive(scene):
-    """Hold LB and the stick until the robot drives; the moment of it."""
-    began = scene.tell("drive")
-    return scene.first(lambda m: m.stamp > began and m.v > 0, "driving robot")
-
-
 def test_the_readme_commands_drive_the_recording_across_and_the_tools_see_it(scene, tmp_path):
     scene.launch_robot()
     scene.launch_workstation()
@@ -48,7 +42,7 @@ def test_a_pulled_cable_stops_the_robot_which_drives_again_after_neutral(scene):
     wait_for(lambda: "axis 1 -> linear.x" in scene.workstation.output, "joy2twist")
     scene.tell("neutral")
     wait_for(lambda: "Get from Joy" in scene.workstation.output, "joystick heard")
-    drive(scene)
+    scene.drive()
 
     before, late_s = scene.odometry[-1], tolerance()
     scene.network.pull_cable(WORKSTATION)
@@ -70,7 +64,7 @@ def test_a_pulled_cable_stops_the_robot_which_drives_again_after_neutral(scene):
     scene.tell("neutral")
     wait_for(lambda: "is back" in scene.workstation.output, "word of joy2twist")
     wait_for(lambda: ends_with(active, "idle"), "robot that nobody drives")
-    again = drive(scene)
+    again = scene.drive()
     assert again.v == before.v
     for program in (scene.robot, scene.workstation):
         assert "has died" not in program.output

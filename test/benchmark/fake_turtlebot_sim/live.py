@@ -28,7 +28,6 @@ QUIET = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
 
 @contextmanager
 def running(command, **options):
-    """Run a program in the background; end it afterwards."""
     process = subprocess.Popen(command, **options)
     try:
         yield process

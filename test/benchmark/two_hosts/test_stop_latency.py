@@ -25,8 +25,7 @@ def test_stop_latency(figure):
 
 
 def one_stop(scene):
-    began = scene.tell("drive")
-    scene.first(lambda m: m.stamp > began and m.v > 0, "driving robot")
+    scene.drive()
     released = scene.tell("release")
     stands = scene.first(lambda m: m.stamp > released and m.v == 0, "robot at rest")
     return stands.stamp - released

@@ -28,7 +28,6 @@ REST_S = 0.6  # for which all is shown released, until each node has seen it
 
 
 def config(package, name):
-    """Return what is in a file of a package's config/."""
     path = Path(rospkg.RosPack().get_path(package), "config", name)
     return yaml.safe_load(path.read_text())
 
@@ -73,7 +72,6 @@ class Rig(Robot):
         return [simulator("fake_turtlebot.py")], {}, {}
 
     def start(self, node):
-        """Start a node, or restart it."""
         program, parameters, remaps = self.given(node)
         given = [f"_{name}:={json.dumps(value)}" for name, value in parameters.items()]
         command = [*program, *given, *(f"{name}:={to}" for name, to in remaps.items())]
@@ -99,5 +97,4 @@ class Rig(Robot):
         self.hands.show(DRIVE)
 
     def drive(self):
-        """Release all and hold LB and the stick, until the robot moves."""
         self.drive_by(self.hold)

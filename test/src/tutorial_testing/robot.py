@@ -94,7 +94,6 @@ class Robot(Started):
 
     @property
     def moves(self):
-        """Whether the newest odometry says so."""
         return bool(self.odometry) and self.now.moves
 
     def since(self, stamp):

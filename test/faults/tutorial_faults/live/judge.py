@@ -25,8 +25,6 @@ VELOCITIES = COMMAND, WHEELS = "the base receives", "wheels turn at"
 
 
 class Event(NamedTuple):
-    """Something that was seen in a trial."""
-
     at_s: float
     what: str
     value: Any
@@ -55,8 +53,6 @@ def spans(changes):
 
 
 class Trial:
-    """The stream of Events of a trial."""
-
     def __init__(self, stream):
         self.events = sorted(stream, key=lambda event: event.at_s)
         ends = {event.value: event.at_s for event in self.of(ENDS)}

@@ -96,16 +96,11 @@ def stops(part, world):
     world.signal(part, signal.SIGCONT)
 
 
-def unplugs(world):
-    world.hands.plug(False)
+def hands(name, during, world):
+    act = getattr(world.hands, name)
+    act(during)
     yield
-    world.hands.plug(True)
-
-
-def freezes(world):
-    world.hands.freeze(True)
-    yield
-    world.hands.freeze(False)
+    act(not during)
 
 
 def rows():
@@ -115,7 +110,8 @@ def rows():
         yield Fault("stop", name, RESTS, (0.02, 1.5), partial(stops, node))
     for name in ("master", "viewer"):
         yield Fault("stop", name, DRIVES_ON, (0.1, 1.5), partial(stops, name))
-    yield Fault("unplug", "gamepad", RESTS, (0.02, 1.2), unplugs)
+    yield Fault("unplug", "gamepad", RESTS, (0.02, 1.2), partial(hands, "plug", False))
+    freezes = partial(hands, "freeze", True)
     yield Fault("stop", "gamepad", RESTS, (0.7, 1.5), freezes)
     # Out of reach: the receiver keeps the last state, and only joy2twist can notice.
     yield Fault("silence", "gamepad", RESTS, (0.1, 2.5), freezes, VIGILANCE_S)

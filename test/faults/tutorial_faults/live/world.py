@@ -78,7 +78,6 @@ class World(rig.Rig):
         self.start(node)
 
     def hit(self, name):
-        """Do what a fault of the table does."""
         now = time.time()
         self._hits[name] = FAULTS[name].do(self)
         next(self._hits[name])

@@ -86,10 +86,9 @@ class Firefox(Browser):
         self._number += 1
         command = {"id": self._number, "method": method, "params": parameters}
         self._wait(self._socket.write_message, json.dumps(command))
-        while True:
+        answer = {}
+        while answer.get("id") != self._number:
             answer = json.loads(self._wait(self._socket.read_message))
-            if answer.get("id") == self._number:
-                break
         if answer["type"] != "success":
             raise RuntimeError(f"{method}: {answer['message']}")
         return answer["result"]
@@ -108,7 +107,6 @@ class Firefox(Browser):
         return said["result"].get("value")
 
     def keys(self, kind, *keys):
-        """kind: keyDown or keyUp, of each key in turn, as the WebDriver standard codes them."""
         actions = [{"type": kind, "value": key} for key in keys]
         source = {"type": "key", "id": "keyboard", "actions": actions}
         self.send("input.performActions", context=self._context, actions=[source])

@@ -45,7 +45,6 @@ class Scene(Robot):
         return self._stack.enter_context(self.network[host].start(*command, DISPLAY="", **options))
 
     def launch_robot(self):
-        """Start the page's launch on the robot and watch its odometry."""
         self.robot = self.start(ROBOT, self._blocks[ROBOT][2])
         wait_for(lambda: "core service" in self.robot.output, "master of the robot")
         address = self.address(ROBOT)
@@ -67,6 +66,11 @@ class Scene(Robot):
         self._pilot.type(word)
         line = wait_for(lambda: self._pilot_lines()[told:], f"pilot that does {word}")[0]
         return float(line.split()[1])
+
+    def drive(self):
+        """Hold LB and the stick until the robot drives; return the Moment of it."""
+        began = self.tell("drive")
+        return self.first(lambda m: m.stamp > began and m.v > 0, "driving robot")
 
     def _pilot_lines(self):
         return [line for line in self._pilot.output.splitlines(keepends=True) if line[-1] == "\n"]
