@@ -32,7 +32,6 @@ def literal(tmp_path):
 
 
 def put(path, old, new, count=-1):
-
     def edit(src):
         file = src / path
         text = file.read_bytes().decode()
@@ -49,7 +48,6 @@ def made(path):
 
 
 def write(path, text, mode=0o755):
-
     def edit(src):
         made(src / path).write_text(text)
         (src / path).chmod(mode)

@@ -37,17 +37,6 @@ def check(underlay, *words):
     return done.returncode, done.stdout, done.stderr
 
 
-def test_right_is_exit_code_0_with_all_its_files(literal, underlay, tmp_path):
-    names = ("json", "junit", "gradescope", "classroom")
-    files = [word for name in names for word in (f"--{name}", tmp_path / name)]
-    code, out, _ = check(underlay, "--in", literal.parent, "2", *files)
-    assert code == 0, out
-    assert out.endswith(f"1 of 1 exercises done in {literal.parent}\n")
-    reported = json.loads((tmp_path / "json").read_text())["exercises"][0]
-    assert [one["id"] for one in reported["checks"]] == ["C1", "C2", "C3", "C4"]
-    assert all((tmp_path / name).stat().st_size > 100 for name in names)
-
-
 def test_wrong_is_exit_code_1_and_the_second_time_there_is_a_hint(literal, underlay):
     """With whole paths, as a shell wants them."""
     workspace = literal.parent.rename(literal.parent.with_name("my ws"))

@@ -3,7 +3,7 @@
 import socket
 import subprocess
 
-from tutorial_testing.processes import Program, refuse
+from tutorial_testing.processes import Program
 from tutorial_testing.waiting import LONGEST_S
 
 
@@ -13,11 +13,12 @@ def test_completion_in_bash(tutorial, call):
     assert done == (0, "exercises\n")
 
 
-def test_a_port_taken_by_another_program_is_named(tutorial, monkeypatch):
+def test_a_port_taken_by_another_program_is_named(call):
     with socket.create_server(("localhost", 0)) as taken:
         port = taken.getsockname()[1]
-        monkeypatch.setenv("ROS_MASTER_URI", f"http://localhost:{port}")
-        line = refuse(tutorial, "demo", "--for", "1")
+        uri = f"http://localhost:{port}"
+        code, line = call("demo", "--for", "1", ROS_MASTER_URI=uri)
+    assert (code, line.count("\n")) == (1, 1), line
     assert f"port {port} of localhost is taken by a program that is not a ROS master" in line
 
 

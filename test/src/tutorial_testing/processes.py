@@ -9,7 +9,7 @@ import time
 import uuid
 from pathlib import Path
 
-from tutorial_testing.waiting import DEADLINE_S, LONGEST_S, descendants, wait_for  # noqa: F401  for tests
+from tutorial_testing.waiting import DEADLINE_S, descendants, wait_for  # noqa: F401  for tests
 
 # As a terminal has it: tests that run in the background inherit that Ctrl-C is ignored, and what
 # they start would inherit it from them.
@@ -44,15 +44,6 @@ def command_line(pid):
         return Path(f"/proc/{pid}/cmdline").read_text(errors="replace")
     except OSError:
         return ""
-
-
-def refuse(*command):
-    """Run a command that must fail; return the line in which it says why."""
-    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=LONGEST_S)
-    assert done.returncode not in (0, 124)
-    assert "Traceback" not in done.stdout + done.stderr
-    (line,) = (line for line in done.stderr.splitlines() if not line.startswith("usage:"))
-    return line
 
 
 def signal_all(pids, number):

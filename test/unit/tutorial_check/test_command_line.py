@@ -61,7 +61,6 @@ def test_words_that_are_refused(words, error, capsys, monkeypatch):
 
 @pytest.fixture
 def main(monkeypatch):
-
     def called(examine, *words):
         monkeypatch.setattr(one_workspace, "examine", examine)
         monkeypatch.setattr(sys, "argv", ["check", *BEFORE, "2", "5", *map(str, words)])
@@ -75,8 +74,11 @@ def main(monkeypatch):
 @pytest.mark.parametrize(
     ("outcomes", "code"), [([WELL], 0), ([BAD], 1), ([WELL, NO_VERDICT], 2), ([BAD, NO_VERDICT], 2)]
 )
-def test_the_exit_code_tells_right_wrong_and_no_verdict(main, outcomes, code, capsys):
-    assert main(lambda *_, **__: outcomes) == code
+def test_the_exit_code_tells_right_wrong_and_no_verdict(main, outcomes, code, capsys, tmp_path):
+    files = [word for name in FORMATS for word in (f"--{name}", tmp_path / name)]
+    assert main(lambda *_, **__: outcomes, *files) == code
+    written = {path.name for path in tmp_path.iterdir() if path.stat().st_size > 100}
+    assert written == {*FORMATS} - {"classroom" if code == 2 else ""}
     out, err = capsys.readouterr()
     assert f"{sum(one.passed for one in outcomes)} of {len(outcomes)} exercises done" in out
     assert ("check: 5: no verdict: C21: no space\n" in err) == (NO_VERDICT in outcomes)

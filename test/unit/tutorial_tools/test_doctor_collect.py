@@ -1,6 +1,5 @@
 """What the doctor reads from bytes and answers; no ROS runs here."""
 
-import io
 import os
 from pathlib import Path
 
@@ -10,6 +9,7 @@ from sensor_msgs.msg import JointState
 from tf2_msgs.msg import TFMessage
 
 from node_kit.ros_api import Answer
+from tutorial_testing.nodes import serialised
 from tutorial_tools.doctor import collect
 from tutorial_tools.doctor.facts import Joystick, Offset, Transform
 from tutorial_tools.doctor.transforms import of_messages
@@ -19,9 +19,7 @@ ARRIVED_S = 1_700_000_000.0
 
 
 def wire(message):
-    data = io.BytesIO()
-    message.serialize(data)
-    return ARRIVED_S, data.getvalue()
+    return ARRIVED_S, serialised(message)
 
 
 def stamped(late_s):

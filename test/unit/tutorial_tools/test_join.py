@@ -33,7 +33,6 @@ RUN_IDS = ("../../tmp", "..", 5, "a\x1b[2J")
 
 @pytest.fixture
 def answers(monkeypatch):
-
     def answer(value, answer=Answer.WELL, reached=True):
         monkeypatch.setattr(join, "call", lambda *_: (answer, value))
         monkeypatch.setattr(join, "is_called_back", lambda *_: reached)
