@@ -35,12 +35,22 @@ def test_why_bubblewrap_does_not_work_is_known(monkeypatch, tmp_path, why):
     assert bubblewrap.granted.__wrapped__() == Isolation(why=why)
 
 
-def test_a_worker_without_isolation_checks_nothing(monkeypatch):
-    """Also one that was started without ./tutorial worker."""
+NOT_ISOLATED = "cannot isolate programs: bwrap: refused: a student's program could reach the"
+
+
+@pytest.mark.parametrize(
+    ("begin", "why"),
+    [
+        (lambda: cluster._work("tls://host", 1, False), NOT_ISOLATED),
+        (lambda: cluster._work("tcp://host", 1, True), "--not-isolated needs tls://, and root"),
+        (lambda: cluster._examine(b"", ["2"], {}, ""), NOT_ISOLATED),  # not by ./tutorial worker
+    ],
+)
+def test_a_worker_without_isolation_checks_nothing(monkeypatch, begin, why):
     monkeypatch.setattr(bubblewrap, "granted", lambda: Isolation(why="bwrap: refused"))
     monkeypatch.delenv(cluster.INSISTS, raising=False)
-    with pytest.raises(CannotCheck, match=r"cannot isolate programs: bwrap: refused: .* reach the"):
-        cluster._examine(b"", ["2"], {}, "")
+    with pytest.raises(CannotCheck, match=why):
+        begin()
 
 
 def test_landlock_is_not_used_where_the_machine_or_the_kernel_is_unknown(monkeypatch):
