@@ -67,8 +67,7 @@ def test_bag_records_all_topics_into_the_folder_and_offers_the_file(world, page,
     page.wait_for_text("#bag-recorder", "Recording page_")
     name = page.text("#bag-recorder").split()[1]
     wait_for(lambda: "/record_" in ros("rosnode", "list"), "recorder")
-    count = len(world.odometry)
-    wait_for(lambda: len(world.odometry) > count + 100, "odometry")
+    world.more(100)
     page.click("Stop recording")
     page.wait_for_text("#bag-name", name)
     page.one("#bag-name").send_keys(name)
@@ -114,8 +113,7 @@ def test_plot_shows_the_newest_value_saves_all_and_stays_where_a_person_zooms(
     for kind, x in (("mousePressed", xs[0]), ("mouseMoved", xs[1]), ("mouseReleased", xs[1])):
         page.send("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", clickCount=1)
     chosen = wait_for(lambda: axis(page)[-1] - axis(page)[0] < 5 and axis(page), "zoom")
-    count = len(world.odometry)
-    wait_for(lambda: len(world.odometry) > count + 100, "odometry")
+    world.more(100)
     assert axis(page) == chosen
     page.click("Whole range")
     wait_for(lambda: axis(page)[-1] - axis(page)[0] > 5, "time axis that goes on again")

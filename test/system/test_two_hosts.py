@@ -64,8 +64,7 @@ def test_a_pulled_cable_stops_the_robot_which_drives_again_after_neutral(scene):
     scene.tell("neutral")
     wait_for(lambda: "is back" in scene.workstation.output, "word of joy2twist")
     wait_for(lambda: ends_with(active, "idle"), "robot that nobody drives")
-    again = scene.drive()
-    assert again.v == before.v
+    assert scene.drive().v == before.v
     for program in (scene.robot, scene.workstation):
         assert "has died" not in program.output
         assert "restarting" not in program.output

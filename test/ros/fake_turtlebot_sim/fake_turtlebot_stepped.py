@@ -34,9 +34,8 @@ class SteppedRobotTest(RosTest):
 
     def setUp(self):
         self.log, self.joints = self.record("/rosout", Log), self.record("joint_states", JointState)
-        self.cmd_vel, self.clock = self.publisher("cmd_vel", Twist), self.publisher("/clock", Clock)
+        self.cmd_vel, self.clock = self.connected("cmd_vel", Twist), self.publisher("/clock", Clock)
         self.robot = self.enter(Robot())
-        wait_for(self.cmd_vel.get_num_connections, "subscriber")
 
     def test_it_is_limited_stops_by_itself_is_put_elsewhere_and_bears_a_clock_set_back(self):
         transforms = self.record("/tf", TFMessage)
@@ -66,10 +65,8 @@ class SteppedRobotTest(RosTest):
         self.assertIn("not a finite number", rejected)
 
     def check_places(self):
-        initialpose = self.publisher("initialpose", PoseWithCovarianceStamped)
-        reset_odometry = self.publisher("mobile_base/commands/reset_odometry", Empty)
-        for publisher in (initialpose, reset_odometry):
-            wait_for(publisher.get_num_connections, f"subscriber of {publisher.name}")
+        initialpose = self.connected("initialpose", PoseWithCovarianceStamped)
+        reset_odometry = self.connected("mobile_base/commands/reset_odometry", Empty)
         service = rospy.ServiceProxy("/fake_turtlebot/reset", EmptyService)
         given = PoseWithCovarianceStamped()
         given.pose.pose.position.x, given.pose.pose.orientation.w = 3.0, 1.0

@@ -94,8 +94,7 @@ class MinimalTest(RosTest):
             "scan", LaserScan,
             lambda scan: unmeasured.update(str(one) for one in scan.ranges if not isfinite(one)),
         )  # fmt: skip
-        teleop = self.publisher("cmd_vel_mux/input/teleop", Twist, queue_size=1)
-        wait_for(teleop.get_num_connections, "mux")
+        teleop = self.connected("cmd_vel_mux/input/teleop", Twist, queue_size=1)
 
         def drive(v, until, what):
             wait_for(lambda: teleop.publish(ahead(v)) or until(), what)
@@ -133,11 +132,9 @@ class MinimalTest(RosTest):
         imu = self.record("mobile_base/sensors/imu_data", Imu)
         commands = self.record("mobile_base/commands/velocity", Twist)
         events = self.record("mobile_base/events/button", ButtonEvent)
-        navi = self.publisher("cmd_vel_mux/input/navi", Twist)
-        motors = self.publisher("mobile_base/commands/motor_power", MotorPower)
-        press = self.publisher("mobile_base/press", ButtonEvent)
-        for publisher in (navi, motors, press):
-            wait_for(publisher.get_num_connections, f"subscriber of {publisher.name}")
+        navi = self.connected("cmd_vel_mux/input/navi", Twist)
+        motors = self.connected("mobile_base/commands/motor_power", MotorPower)
+        press = self.connected("mobile_base/press", ButtonEvent)
         robot.wait_for_rest()  # after the test before
         core.clear()
         wait_for(lambda: core and imu, "first messages")
@@ -169,8 +166,7 @@ class MinimalTest(RosTest):
         driven = []  # [m/s]
         hear = lambda command: driven.append(command.linear.x)  # noqa: E731
         self.hear("mobile_base/commands/velocity", Twist, hear)
-        teleop = self.publisher("cmd_vel_mux/input/teleop", Twist, queue_size=len(BACKLOG))
-        wait_for(teleop.get_num_connections, "subscriber of teleop")
+        teleop = self.connected("cmd_vel_mux/input/teleop", Twist, queue_size=len(BACKLOG))
         wait_for(lambda: teleop.publish(ahead(0.2)) or 0.2 in driven, "a command that goes through")
         with suspended([pid_of("/cmd_vel_mux")]):
             ends_s = time.monotonic() + OUTAGE_S

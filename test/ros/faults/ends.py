@@ -48,8 +48,7 @@ class FaultsAtTheEnd(RosTest):
         """NaN and a speed beyond the robot's bring a warning of the mux and of the base."""
         with Rig() as rig:
             rig.drive()
-            pilot = self.publisher("/cmd_vel_mux/input/teleop", Twist)
-            wait_for(pilot.get_num_connections, "mux")
+            pilot = self.connected("/cmd_vel_mux/input/teleop", Twist)
             with suspended(master()):
                 for bad in (math.nan, 5.0, math.nan):
                     pilot.publish(Twist(linear=Vector3(x=bad)))

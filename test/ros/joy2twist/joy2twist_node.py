@@ -57,8 +57,7 @@ class RulesTest(RosTest):
         return self.sent
 
     def plug_in(self):
-        self.joystick = self.publisher("joy", Joy)
-        wait_for(self.joystick.get_num_connections, "subscriber of joy")
+        self.joystick = self.connected("joy", Joy)
 
     def wait_for_quiet(self):
         count, since_s = -1, 0.0

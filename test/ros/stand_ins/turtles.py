@@ -27,8 +27,7 @@ class TurtlesimTest(RosTest):
         self.poses = self.record(f"{FIRST}turtle1/pose", Pose)
         self.colors = self.record(f"{FIRST}turtle1/color_sensor", Color)
         self.logs = self.record("/rosout", Log)
-        self.commands = self.publisher(f"{FIRST}turtle1/cmd_vel", Twist)
-        wait_for(self.commands.get_num_connections, "turtle")
+        self.commands = self.connected(f"{FIRST}turtle1/cmd_vel", Twist)
         wait_for(lambda: self.poses and self.colors, "pose and color")
 
     def wait_for_pose(self, *wanted, poses=None):

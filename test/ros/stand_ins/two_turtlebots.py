@@ -20,9 +20,7 @@ class TwoTurtlebotsTest(RosTest):
         for value, given in zip(second.now.pose, (1.5, -0.5, 0.7)):
             self.assertAlmostEqual(value, given)
         for name, robot, other in (("tb1", first, second), ("tb2", second, first)):
-            topic = f"/{name}/cmd_vel_mux/input/teleop"
-            teleop = self.publisher(topic, Twist, queue_size=1)
-            wait_for(teleop.get_num_connections, "mux")
+            teleop = self.connected(f"/{name}/cmd_vel_mux/input/teleop", Twist, queue_size=1)
             other.wait_for_rest()
             before = len(other.odometry)
             drives = lambda r=robot, t=teleop: t.publish(FORWARDS) or r.now.v == 0.3  # noqa: E731

@@ -7,6 +7,7 @@ from pathlib import Path
 import rospy
 
 from tutorial_testing.processes import Program
+from tutorial_testing.waiting import wait_for
 
 
 class RosTest(unittest.TestCase):
@@ -27,6 +28,12 @@ class RosTest(unittest.TestCase):
     def publisher(self, topic, kind, **options):
         publisher = rospy.Publisher(topic, kind, **{"queue_size": 1000, **options})
         self.addCleanup(publisher.unregister)
+        return publisher
+
+    def connected(self, topic, kind, **options):
+        """Return a publisher, once it has a subscriber."""
+        publisher = self.publisher(topic, kind, **options)
+        wait_for(publisher.get_num_connections, f"subscriber of {topic}")
         return publisher
 
     def hear(self, topic, kind, hear):
