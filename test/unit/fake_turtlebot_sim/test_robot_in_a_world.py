@@ -45,6 +45,7 @@ def test_at_a_wall_the_wheels_stall_and_odometry_says_so():
     assert state.left_angle == pytest.approx((1 - R) / 0.035)  # wheel radius: 35 mm
     assert driven(robot, (-0.5, 0.0), 0.5, 4).state().x == pytest.approx(1 - R - 0.25, abs=EXACT)
     assert robot.contact is None and not any(map(any, robot.sensed()))
+    assert not any(map(any, SimulatedRobot(Parameters()).sensed()))  # nor on an empty plane
 
 
 def test_a_robot_with_errors_touches_with_its_true_body():
@@ -59,7 +60,7 @@ def test_a_robot_with_errors_touches_with_its_true_body():
 @pytest.mark.parametrize(
     ("degrees", "pressed"),
     [
-        (90, "L"), (45, "L"), (31, "L"), (29, "C"), (0, "C"), (-29, "C"), (-31, "R"), (-89, "R"),
+        (90, "L"), (45, "L"), (31, "L"), (30, "C"), (0, "C"), (-30, "C"), (-31, "R"), (-90, "R"),
         (91, ""), (-120, ""), (180, ""),
     ],
 )  # fmt: skip

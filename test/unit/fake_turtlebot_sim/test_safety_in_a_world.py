@@ -25,7 +25,8 @@ class Drive:
     """A robot, its safety controller, and a mux that lets the controller win for 0.2 s."""
 
     def __init__(self, world, delay=DELAY):
-        self.robot, self.reaction = SimulatedRobot(Parameters(world=world), world.start), Reaction()
+        self.robot = SimulatedRobot(Parameters(world=world), world.start)
+        self.reaction = Reaction(0.0)
         self.sensed, self.cycle = Sensed(), 0
         self.answers, self.holds_until, self.pushed = [None] * delay, 0.0, 0
         self.longest_push = 0
