@@ -9,11 +9,12 @@ import pytest
 import yaml
 
 import fake_turtlebot_sim
-from fake_turtlebot_sim.safety import parameters as safety
+from fake_turtlebot_sim.safety.parameters import Parameters as SafetyParameters
 from fake_turtlebot_sim.simulator.parameters import Parameters, line_up, parse_parameters
 
 PACKAGE = Path(fake_turtlebot_sim.__file__).parents[2]
-CHECKS = {one.name: one.metadata["check"] for one in (*fields(Parameters), *fields(safety.Parameters))}
+ALL = (*fields(Parameters), *fields(SafetyParameters))
+CHECKS = {one.name: one.metadata["check"] for one in ALL}
 BOUNDS = re.findall(
     r"^\| `~(\w+)` \| .*? \| a (whole )?number from (\S+) to (\S+)(.*? or 0)?",
     (PACKAGE / "README.md").read_text(), re.M,
@@ -40,6 +41,7 @@ def test_nothing_given_is_a_turtlebot_2():
         ({"world": "maze", "robots": 500}, ["~world: 'maze': the world has room for"]),
         ({"world": "maze", "robots": {"ada": [1, 1, 0]}}, ["start: in the world's file or x:="]),
         ({"scan_no_return": "0"}, ["~scan_no_return: '0': must be inf or nan"]),
+        ({"scan_range_min": 11.0}, ["~scan_range_min: must be less than ~scan_range_max"]),
         ({"scan_range_min": 10.0}, ["~scan_range_min: must be less than ~scan_range_max"]),
         ({"robots": 0}, ["~robots: 0", "1 to 1000", "[ada, bob]", "{ada: [0, 0, 0]"]),
         ({"robots": ["ada"] * 1001}, ["~robots: ['ada'", "1 to 1000"]),

@@ -3,6 +3,7 @@
 import pytest
 from kobuki_msgs.msg import BumperEvent
 
+from fake_turtlebot_sim.safety.parameters import parse_parameters
 from fake_turtlebot_sim.safety.reaction import Reaction
 
 LEFT, CENTER, RIGHT = BumperEvent.LEFT, BumperEvent.CENTER, BumperEvent.RIGHT
@@ -18,7 +19,7 @@ BACK = (-0.1, 0.0)
     ],
 )  # fmt: skip
 def test_it_backs_off_and_turns_away(kind, sensors, velocity):
-    reaction = Reaction(0.0)
+    reaction = Reaction(parse_parameters({}).time_to_extend_bump_cliff_events)
     assert reaction.velocity(0.0) is None
     for sensor in sensors:
         reaction.event(kind, sensor, True, 1.0)

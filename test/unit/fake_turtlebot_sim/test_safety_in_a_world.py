@@ -1,7 +1,7 @@
 """A stick that drives on, and a safety controller: in the room, and on the table."""
 
 import random
-from math import hypot
+from math import hypot, remainder, tau
 
 import pytest
 
@@ -63,6 +63,10 @@ def test_random_sticks_never_push_into_a_wall_for_long():
             way += hypot(x - last_x, y - last_y)
     assert drive.longest_push * PERIOD_S <= LONGEST_PUSH_S
     assert way > 10.0  # it is never caught
+    state = drive.robot.state()  # what its wheels have turned, with nothing that slipped
+    assert state[:3] == pytest.approx(drive.robot.true_pose, abs=1e-6)
+    turned = (state.right_angle - state.left_angle) * 0.035 / 0.23
+    assert remainder(turned - state.yaw, tau) == pytest.approx(0.0, abs=1e-6)
 
 
 @pytest.mark.parametrize("seed", range(20))

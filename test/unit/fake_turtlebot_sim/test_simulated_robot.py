@@ -57,16 +57,28 @@ def test_the_pose_depends_on_the_commands_and_not_on_the_rate(model, rate_hz, ji
     assert looked_at == pytest.approx(left_alone, rel=0, abs=1e-9)
 
 
-def test_the_robot_stops_at_the_instant_of_the_timeout():
-    robot = SimulatedRobot(KOBUKI)
-    robot.command((0.7, 1.0), 0)
-    robot.advance(SECOND * 6 // 10 - 1)
-    assert (robot.state().v, robot.state().w, robot.is_driven) == (0.7, 1.0, True)
-    robot.advance(SECOND * 6 // 10)
-    assert (robot.state().v, robot.state().w, robot.is_driven) == (0.0, 0.0, False)
+@pytest.mark.parametrize("velocity", [(0.7, 1.0), (-0.7, 0.0), (0.0, 0.0)])
+def test_the_robot_stops_at_the_instant_of_the_timeout(velocity):
+    robot, moves = SimulatedRobot(KOBUKI), any(velocity)
+    robot.command(velocity, 0)
+    assert not robot.advance(SECOND * 6 // 10 - 1)
+    assert (robot.state()[3:5], robot.is_driven, robot.is_moving) == (velocity, True, moves)
+    assert robot.advance(SECOND * 6 // 10) == moves
+    assert (robot.state()[3:5], robot.is_driven, robot.is_moving) == ((0.0, 0.0), False, False)
     state = robot.state()
     robot.advance(SECOND // 2)  # a time that has passed changes nothing
     assert robot.state() == state
+    assert not robot.advance(SECOND) and not robot.is_driven
+
+
+def test_a_ramp_leads_from_the_velocity_to_the_new_one_at_the_limit():
+    robot = SimulatedRobot(RAMPING)
+    for second, velocity, way in ((0.0, 0.5, 0.125), (0.5, -0.5, 0.125)):
+        robot.command((velocity, 0.0), round(second * SECOND))
+        robot.advance(round((second + 0.25) * SECOND))
+        assert robot.state().v == pytest.approx(0.25)
+        robot.advance(round((second + 0.5) * SECOND))
+        assert robot.state().x == pytest.approx(way + 0.125 * second * 2)
 
 
 @pytest.mark.parametrize("bad", [(nan, 0.0), (0.0, nan), (inf, 0.0), (0.0, -inf)])
