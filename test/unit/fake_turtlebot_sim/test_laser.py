@@ -5,7 +5,10 @@ import math
 import numpy as np
 import pytest
 
-from fake_turtlebot_sim.simulator.laser import Scanner
+from fake_turtlebot_sim.simulator.differential_drive import composed
+from fake_turtlebot_sim.simulator.laser import Laser, Scanner
+from fake_turtlebot_sim.simulator.parameters import Parameters
+from fake_turtlebot_sim.simulator.world import World
 
 
 def crossings(pose, angles, walls, discs):
@@ -34,6 +37,19 @@ def test_twenty_thousand_random_beams(view):
         pose = tuple(random.uniform(-3, 3, 3))
         expected = crossings(pose, angles, walls, discs)
         assert scanner.ranges(pose, walls, discs) == pytest.approx(expected, rel=0, abs=1e-9)
+
+
+def test_a_scan_is_right_wherever_the_one_before_was():
+    random = np.random.default_rng(7)
+    walls = random.uniform(-9, 9, (30, 2, 2))
+    posts = np.column_stack((random.uniform(-9, 9, (9, 2)), random.uniform(0.05, 0.5, 9)))
+    world = World(tuple(map(tuple, walls.tolist())), tuple(map(tuple, posts.tolist())))
+    far = Parameters(scan_range_min=0.0, scan_range_max=2.0, scan_beams=30, scan_angle=5.0)
+    laser, angles = Laser(far, world), np.linspace(-2.5, 2.5, 30)
+    for pose in random.uniform(-6, 6, (100, 3)):
+        expected = crossings(composed(pose, (-0.087, 0.0125, 0)), angles, walls.reshape(-1, 4), posts)
+        expected[expected > 2.0] = math.inf
+        assert laser.measure(tuple(pose), np.empty((0, 5))) == pytest.approx(expected, abs=1e-9)
 
 
 def test_a_wall_in_line_with_a_beam_is_met_at_its_end_and_nothing_is_far():
