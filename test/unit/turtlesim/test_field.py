@@ -109,9 +109,7 @@ def test_a_line_is_as_wide_as_its_pen_and_has_round_ends(field, width, reach):
         pen(field, PEN, width)
     jump(field, 3.0, 2.0)
     around = [(k, n) for k in range(-20, 111) for n in range(-20, 21)]
-    drawn = {
-        (k, n) for k, n in around if field.color_at(1 + k * PIXEL_M, 2 + n * PIXEL_M) == PEN
-    }
+    drawn = {(k, n) for k, n in around if field.color_at(1 + k * PIXEL_M, 2 + n * PIXEL_M) == PEN}
     assert drawn >= {(k, n) for k in range(91) for n in range(-reach, reach + 1)}
     assert {k for k, _ in drawn} == set(range(-reach, 91 + reach))
     assert all(math.hypot(max(-k, k - 90, 0), n) < reach + 0.6 for k, n in drawn)

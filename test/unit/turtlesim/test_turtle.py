@@ -38,12 +38,6 @@ def test_a_command_is_an_arc_of_one_second_however_it_is_cut(times, theta):
     assert turtle.velocity == (0.0, 0.0, 0.0)
 
 
-def test_straight_and_sideways_go_by_the_turtle_s_own_axes():
-    turtle = driven((2.0, -1.0, 0.0), 0.5, theta=math.pi / 2)
-    assert pose(turtle) == approx(MIDDLE + 0.5, MIDDLE + 1.0, math.pi / 2)
-    assert turtle.velocity == (2.0, -1.0, 0.0)
-
-
 def test_a_new_command_replaces_the_old_one_where_the_turtle_is_then():
     turtle = driven((1.0, 0.0, 0.0), 0.1)
     turtle.advance(0.25)
