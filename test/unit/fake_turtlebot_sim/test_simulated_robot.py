@@ -71,14 +71,17 @@ def test_the_robot_stops_at_the_instant_of_the_timeout(velocity):
     assert not robot.advance(SECOND) and not robot.is_driven
 
 
-def test_a_ramp_leads_from_the_velocity_to_the_new_one_at_the_limit():
-    robot = SimulatedRobot(RAMPING)
-    for second, velocity, way in ((0.0, 0.5, 0.125), (0.5, -0.5, 0.125)):
-        robot.command((velocity, 0.0), round(second * SECOND))
-        robot.advance(round((second + 0.25) * SECOND))
-        assert robot.state().v == pytest.approx(0.25)
-        robot.advance(round((second + 0.5) * SECOND))
-        assert robot.state().x == pytest.approx(way + 0.125 * second * 2)
+def test_a_ramp_takes_as_long_as_the_slower_part():
+    robot = SimulatedRobot(Parameters(**RAMPS, cmd_vel_timeout=60.0))
+    for second, target, halfway in (
+        (0, (0.5, 2.0), (0.25, 1.0)),
+        (1, (-0.5, 2.0), (0.0, 2.0)),
+        (2, (-0.5, 0.0), (-0.5, 1.0)),
+    ):
+        robot.command(target, second * SECOND)
+        for half, velocity in ((1, halfway), (2, target)):
+            robot.advance(second * SECOND + half * SECOND // 2)
+            assert robot.state()[3:5] == pytest.approx(velocity)
 
 
 @pytest.mark.parametrize("bad", [(nan, 0.0), (0.0, nan), (inf, 0.0), (0.0, -inf)])
