@@ -33,7 +33,6 @@ def test_nothing_given_is_a_turtlebot_2():
 @pytest.mark.parametrize(
     ("given", "parts"),
     [
-        ({"rate": 4.9}, ["~rate: 4.9", "must be a number from 5 to 1000 Hz"]),
         ({"odom_frame": "/odom"}, ["~odom_frame: '/odom'", "leading slash"]),
         ({"base_frame": "odom"}, ["~base_frame: 'odom'", "differ from ~odom_frame"]),
         ({"left_wheel_joint": "a", "right_wheel_joint": "a"}, ["~right_wheel_joint: 'a'"]),
