@@ -12,7 +12,7 @@ HERE, FAR = Publisher("/here"), Publisher("/far", is_remote=True)
 
 def test_the_highest_input_that_is_not_silent_drives():
     arbiter = Arbiter(INPUTS)
-    assert arbiter.active(0.0) == IDLE
+    assert arbiter.active(0.0) == IDLE and not arbiter.must_stop(0.0)
     for name, now in (("navi", 0.0), ("safety", 0.1), ("teleop", 0.2)):
         arbiter.command(name, (0.1,), now)
     assert [arbiter.active(now) for now in (0.25, 0.35, 1.15, 1.25)] == [
