@@ -13,14 +13,13 @@ README's table.
 from __future__ import annotations
 
 import difflib
-from dataclasses import MISSING, Field, dataclass, field, fields
+from dataclasses import MISSING, Field, field, fields
 from math import inf
 from sys import float_info
-from typing import Any, Callable, Collection, Mapping
+from typing import Any, Callable, Collection, Mapping, NamedTuple
 
 
-@dataclass(frozen=True)
-class Check:
+class Check(NamedTuple):
     """What a value must be, in words, and how this is decided; keep() converts a good value."""
 
     allowed: str
