@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import itertools
 from dataclasses import dataclass
-from typing import Any, Callable, Mapping
+from typing import Any, Callable, Mapping, NamedTuple
 
 from node_kit.parameters import (
     Check,
@@ -29,8 +29,7 @@ COMPONENTS = ("linear.x", "linear.y", "linear.z", "angular.x", "angular.y", "ang
 LARGEST_SCALE = 100
 
 
-@dataclass(frozen=True)
-class Axis:
+class Axis(NamedTuple):
     """One joystick axis that drives one component of the velocity."""
 
     component: int  # index into COMPONENTS
@@ -131,7 +130,7 @@ def load(given: Mapping[str, Any]) -> Parameters:
     values = checked(Parameters, given)
     enable, turbo = values["enable_button"], values["enable_turbo_button"]
     if values["require_enable_button"] is None:
-        values["require_enable_button"] = enable != -1
+        values["require_enable_button"] = enable >= 0
     _check_buttons(values)
     if values["require_enable_button"] and max(enable, turbo) < 0:
         raise ValueError(
@@ -151,7 +150,7 @@ def load(given: Mapping[str, Any]) -> Parameters:
 def _check_buttons(values: dict[str, Any]) -> None:
     names = ("enable_button", "enable_turbo_button", "stop_button", "stop_reset_button")
     for one, other in itertools.combinations(names, 2):
-        if values[one] == values[other] != -1:
+        if values[one] == values[other] >= 0:
             raise ValueError(f"~{other}: {values[other]}: must be a button other than ~{one}")
     for one, other in (("stop_button", "stop_reset_button"), ("stop_reset_button", "stop_button")):
         if values[one] >= 0 > values[other]:
@@ -171,7 +170,7 @@ def _axes(values: dict[str, Any], kind: str, names: tuple[str, ...], first: int)
     indices, scale = values[f"axis_{kind}"], values[f"scale_{kind}"]
     if not isinstance(indices, dict):
         indices = {"x" if kind == "linear" else "yaw": indices}
-    used = [name for name in names if indices.get(name, -1) >= 0]
+    used = [name for name in names if name in indices and indices[name] >= 0]
     normal, turbo = of_each(scale), values[f"scale_{kind}_turbo"]
     missing = [name for name in used if name not in normal]
     if missing:

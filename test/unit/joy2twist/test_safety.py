@@ -87,31 +87,40 @@ def test_what_silence_sends(given, acts, sent):
     assert machine.due == inf
 
 
-@pytest.mark.parametrize(("pause", "times"), [(0.02, 1), (1.0, 0), (0.999, 34)])
-def test_two_that_send_in_turn_are_named_now_and_then(pause, times):
+ADA, BOB = [], []  # which are equal, and not the same
+
+
+@pytest.mark.parametrize(
+    ("given", "messages", "pause", "times", "notices"),
+    [
+        # Two that send in turn; a held stick that moves nothing; a silence where the robot moved.
+        ({}, [(None, True, ADA), (None, True, BOB)], 0.02, 200, [Notice.IN_TURN]),
+        ({}, [(None, True, ADA), (None, True, BOB)], 1.0, 200, []),
+        ({}, [(None, True, ADA), (None, True, BOB)], 0.999, 200, [Notice.IN_TURN] * 34),
+        ({}, [(FORWARD, False), (None, False), (ZERO, False)], 0.02, 400, [Notice.NOT_ARMED] * 2),
+        *[({"arm_on_neutral": False, "joy_timeout": 0.5}, [(sent, False)], 0.5, 1, notices)
+          for sent, notices in ((FORWARD, [Notice.SILENT]), (BACKWARD, [Notice.SILENT]), (ZERO, []))
+        ],
+    ],
+)  # fmt: skip
+def test_what_is_wrong_is_named_now_and_then(given, messages, pause, times, notices):
     warnings = []
-    given = {**DEAD_MAN, "arm_on_neutral": True, "joy_timeout": 0}
-    machine = Safety(load(given), lambda: None, warnings.append)
-    for i in range(200):
-        machine.drive(None, True, 100.0 + i * pause, "ada" if i % 2 else "bob")
-    assert warnings == [Notice.IN_TURN] * times
+    machine = Safety(load({**ARMS, **given}), lambda: None, warnings.append)
+    for i in range(times):
+        velocity, rests, *sender = messages[i % len(messages)]
+        machine.drive(velocity, rests, 100.0 + i * pause, *sender)
+    machine.tick(100.0 + times * pause)
+    assert warnings == notices
 
 
-def test_a_held_stick_that_moves_nothing_is_named_now_and_then():
-    warnings = []
-    machine = Safety(load(ARMS), lambda: None, warnings.append)
-    for i in range(400):
-        machine.drive((FORWARD, None, ZERO)[i % 3], False, i * 0.02)
-    assert warnings == [Notice.NOT_ARMED] * 2
-
-
-@pytest.mark.parametrize("act", ["forward", "backward", "middle"])
-def test_a_silence_is_named_where_the_robot_moved(act):
-    warnings = []
-    machine = Safety(load({"joy_timeout": 0.5}), lambda: None, warnings.append)
-    ACTS[act](machine, 0.0)
-    machine.tick(0.5)
-    assert warnings == [Notice.SILENT] * (act != "middle")
+def test_the_node_is_woken_where_something_is_due_sooner():
+    woken = []
+    machine = Safety(load({}), lambda: woken.append(True))
+    # Its silence is watched from the first message on, its stillness while it moves.
+    for act, count in (("forward", 2), ("backward", 2), ("forward", 2), ("middle", 2),
+                       ("backward", 3), ("forward", 3), ("backward", 3)):  # fmt: skip
+        ACTS[act](machine, 0.0)
+        assert len(woken) == count
 
 
 @pytest.mark.parametrize(
