@@ -40,8 +40,9 @@ class Axis(NamedTuple):
 
 def _one_or_each(names: tuple[str, ...], fits: Callable[[Any], bool], allowed: str) -> Check:
     def all_fit(value: Any) -> bool:
-        each = value if isinstance(value, dict) else {names[0]: value}
-        return bool(each) and all(name in names and fits(one) for name, one in each.items())
+        if not isinstance(value, dict):
+            return fits(value)
+        return bool(value) and all(name in names and fits(one) for name, one in value.items())
 
     return Check(f"a number ({allowed}), or a map from {', '.join(names)} to such", all_fit)
 

@@ -90,10 +90,10 @@ class ArbiterWorld(World):
             del self._waiting[sender]
         through = list(self._arbiter.waited(self.now))
         for velocity, sender in through:
-            if sender in due and due[sender].velocity == velocity:
-                yield from self._through(due[sender])
-            else:
+            if sender not in due or due[sender].velocity != velocity:
                 yield "f", f"{velocity} goes through, and did not wait"
+        for _, sender in through[-1:]:  # which replaces the others at once
+            yield from self._through(due[sender])
         if not through and any(self._is_highest(one.input) for one in due.values()):
             yield "e", "the highest that sends has waited, and does not go through"
         if self._arbiter.must_stop(self.now):

@@ -144,7 +144,7 @@ class TeleoperationWorld(World):
         if self.now >= self._settled_s:
             self._believe(joy)
         if self._meaning.stops(joy) or self._latched:
-            self._is_reset = False
+            self._is_reset, self._zeros = False, self._p.stop_messages  # while latched: (e)
             self._latched = self.now < self._settled_s or not self._meaning.resets(joy)
             self._lose()
         elif self._all_released:
@@ -175,7 +175,7 @@ class TeleoperationWorld(World):
             yield "b", f"{velocity} before all was seen released"
         change = math.hypot(*(new - old for new, old in zip(velocity[:3], self._sent[:3])))
         most = (p.max_linear_acceleration or math.inf) / p.output_rate
-        if change > most * (1 + ROUNDING):
+        if moves(velocity[:3]) and change > most * (1 + ROUNDING):
             yield "c", f"from {self._sent[0]} to {velocity[0]} at once"
 
     def _must_stand(self, event):
