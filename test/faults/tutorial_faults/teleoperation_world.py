@@ -192,8 +192,8 @@ class TeleoperationWorld(World):
             if must_stand and moves(self._sent):
                 yield "d", f"no stop: {why}"
         stands = self._all_released if arms else not moves(self._sent)
-        if self._machine.safety.released and self._has_moved and not stands:
-            yield "b", "a robot that was lost is driven on"
+        if self._machine.safety.released is not stands and self._has_moved:
+            yield "b", "a robot that was lost is driven on, or never"
 
     def _must_watch(self, event, due, answer):
         """Yield what is wrong with the time of the next call, and with repeated stops."""

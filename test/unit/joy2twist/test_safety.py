@@ -123,21 +123,6 @@ def test_the_node_is_woken_where_something_is_due_sooner():
         assert len(woken) == count
 
 
-@pytest.mark.parametrize(
-    ("given", "acts"),
-    [
-        (ARMS, [("release", True), ("forward", False), ("pushed", False), ("release", True),
-                ("bad", False), ("release", True), ("leaves", False)]),
-        (DEAD_MAN, [("forward", False), ("backward", False), ("pushed", True)]),
-    ],
-)  # fmt: skip
-def test_when_a_robot_that_was_lost_may_be_driven_again(given, acts):
-    machine = safety(**given)
-    for number, (act, released) in enumerate(acts):
-        ACTS[act](machine, 0.1 * number)
-        assert machine.released is released, number
-
-
 def hold(machine, speed, start, end):
     """Send a message every 0.05 s; return what drive() and tick() send."""
     sent = []
