@@ -1,8 +1,7 @@
 #!/usr/bin/python3
 """Run tests: ./tutorial test [KIND] [ARGUMENT ...] in the environment of the suite's workspace.
 
-The file `failed` in $TUTORIAL_RESULTS has the kinds that failed, for `test again`. It is removed at
-the start, so that after an interruption nothing is known to have failed.
+What failed is in pytest's caches, one for each kind, and one for what ./tutorial test runs.
 """
 
 import os
@@ -13,16 +12,14 @@ import sys
 from pathlib import Path
 
 REPOSITORY = Path(__file__).resolve().parents[1]
-RESULTS = Path(os.environ["TUTORIAL_RESULTS"])
-FAILED, CACHES = RESULTS / "failed", RESULTS / "pytest"
+CACHES = Path(os.environ["TUTORIAL_RESULTS"]) / "pytest"
 PYTEST = ["/usr/bin/python3", "-m", "pytest"]
 JOBS = int(os.environ.get("TUTORIAL_JOBS", "2"))  # tests at a time
 NUMBER_OF_INTERRUPT = 130
-TOGETHER = ("ros", "system", "launch")  # they mostly wait, so they run at the same time
-ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-RUNNING = []  # in the background
+TOGETHER = "ros system launch"  # they mostly wait, so they run at the same time
+ALL = "all"  # the cache of ./tutorial test
 BRIDGE = "--bridge"  # option of the faults
-MUTATE = RESULTS / "mutation/bin/python"  # with the lowest priority, as it takes hours
+MUTATE = CACHES.parent / "mutation/bin/python"  # with the lowest priority, as it takes hours
 
 
 def say(line):
@@ -31,7 +28,7 @@ def say(line):
 
 
 def interrupt(number, _):
-    """Handle a signal of ENDING."""
+    """Handle a signal as Ctrl-C."""
     raise KeyboardInterrupt(number)
 
 
@@ -47,35 +44,29 @@ def run(*command):
         raise
 
 
-def end_background():
-    """End what runs in the background, as Ctrl-C does."""
-    for number in ENDING:
-        signal.signal(number, signal.SIG_IGN)
-    for process in RUNNING:
-        if process.poll() is None:
-            os.killpg(process.pid, signal.SIGINT)
-    for process in RUNNING:
-        process.wait()
+def tests(kinds, given, *options, cache=""):
+    """Run pytest on the folders of some kinds, or on what is named in them; it notes what fails."""
+    folders = [f"test/{kind}" for kind in kinds.split()]
+    where = [] if any(argument.startswith(tuple(folders)) for argument in given) else folders
+    noted = ["-o", f"cache_dir={CACHES / (cache or kinds)}"]
+    return run(*PYTEST, "-p", "no:benchmark", *noted, *options, *where, *given)
 
 
-def tests(kind, given, *options):
-    """Run pytest on the folder of a kind, or on what is named in it; it notes what fails."""
-    folder = f"test/{kind}"
-    where = [] if any(argument.startswith(folder) for argument in given) else [folder]
-    cache = ["-o", f"cache_dir={CACHES / kind}"]  # one per kind, as several run at a time
-    return run(*PYTEST, "-p", "no:benchmark", *cache, *options, *where, *given)
+def run_all(_):
+    """Run unit tests, then the others at once."""
+    shutil.rmtree(CACHES / ALL, ignore_errors=True)  # a killed run may have left some
+    options = os.environ.get("TUTORIAL_UNIT", f"-n {JOBS}").split()  # of pytest: .ci/run
+    failed = tests("unit", options, cache=ALL)
+    together = ["-n", 5 * JOBS, "--dist", "loadgroup"]
+    return tests(TOGETHER, [], *together, cache=ALL) or failed
 
 
-def again(_):
-    """Run what failed once more, with little else beside it; no unit test goes by the clock."""
-    if not FAILED.exists():
-        todo = "./tutorial test must run to its end first"
-        sys.exit(f"tutorial: test again: it is not known what failed: {todo}")
-    kinds = FAILED.read_text().split()
-    say(f"what failed: {' '.join(kinds) or 'nothing'}")
-    if not set(kinds) <= set(TOGETHER):
-        sys.exit(f"tutorial: test again: only for {', '.join(TOGETHER)}; failed: {' '.join(kinds)}")
-    return any([KINDS[kind](["--last-failed", "-n", "1"]) for kind in kinds])
+def again(given):
+    """Run what failed of all once more, one by one: there may be less beside it."""
+    if not (CACHES / ALL).exists():
+        sys.exit("tutorial: test again: first run ./tutorial test to its end")
+    only = ["--last-failed", "--last-failed-no-failures", "none", "-n", "1"]
+    return tests(f"unit {TOGETHER}", given, *only, cache=ALL)
 
 
 def faults(arguments):
@@ -87,6 +78,7 @@ def faults(arguments):
 
 
 KINDS = {
+    "": run_all,
     # Several at a time; with arguments in turn, so that -s shows what they print.
     "unit": lambda given: tests("unit", given or ["-n", str(JOBS)]),
     "launch": lambda given: tests("launch", given, "-n", JOBS),
@@ -105,52 +97,22 @@ KINDS = {
 }
 
 
-def run_all():
-    """Run unit tests, then the others at once; return the kinds that failed."""
-    shutil.rmtree(CACHES, ignore_errors=True)  # a killed run may have left some
-    say("tests: unit")
-    options = os.environ.get("TUTORIAL_UNIT", "").split()  # pytest options: .ci/run
-    failed = ["unit"] if KINDS["unit"](options) else []
-    logs = [RESULTS / f"test_{kind}.log" for kind in TOGETHER]
-    for kind, log in zip(TOGETHER, logs):
-        with log.open("w") as output:
-            command = subprocess.Popen(
-                [__file__, kind], cwd=REPOSITORY, start_new_session=True,
-                stdin=subprocess.DEVNULL, stdout=output, stderr=output,
-            )  # fmt: skip
-        RUNNING.append(command)
-    say("tests: ros, system and launch at once, for some minutes; until then see")
-    say(f"   {RESULTS}/test_*.log")
-    for kind, log, process in zip(TOGETHER, logs, RUNNING):
-        failed += [kind] if process.wait() else []
-        say(f"tests: {kind}")
-        sys.stdout.write(log.read_text(errors="replace"))
-        sys.stdout.flush()
-    return failed
-
-
 def main():
     """Run one kind, or all; exit code 1 if a test failed."""
-    for number in ENDING:
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, interrupt)
     folders = [str(REPOSITORY / "test" / name) for name in ("src", "faults")]
     os.environ["PYTHONPATH"] = ":".join([*folders, os.environ.get("PYTHONPATH", "")])
     kind, *arguments = sys.argv[1:] or [""]
     try:
-        if kind in ("again", "faults", "bench"):
-            sys.exit(KINDS[kind](arguments))
-        FAILED.unlink(missing_ok=True)
-        failed = run_all() if not kind else [kind] if KINDS[kind](arguments) else []
+        code = KINDS[kind](arguments)
     except KeyboardInterrupt:
-        end_background()
-        FAILED.unlink(missing_ok=True)
+        shutil.rmtree(CACHES / ALL, ignore_errors=True)  # what failed is not known
         say("test: interrupted")
         sys.exit(NUMBER_OF_INTERRUPT)
-    FAILED.write_text("".join(f"{kind}\n" for kind in failed))
-    if failed and set(failed) <= set(TOGETHER):
-        say("next: ./tutorial test again")
-    if failed:
-        sys.exit(f"tutorial: failed: {' '.join(failed)}")
+    if code and kind not in ("again", "faults", "bench"):
+        sys.exit(f"tutorial: failed: {kind or 'see above, or ./tutorial test again'}")
+    sys.exit(code)
 
 
 if __name__ == "__main__":

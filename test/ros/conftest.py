@@ -30,7 +30,6 @@ def pytest_addoption(parser):
 
 
 def pytest_configure(config):
-    config.addinivalue_line("python_files", "*.py")
     signal.signal(signal.SIGHUP, signal.default_int_handler)  # ends all, as Ctrl-C does
     if not hasattr(config, "workerinput"):
         shutil.rmtree(RESULTS, ignore_errors=True)
@@ -43,12 +42,10 @@ def pytest_unconfigure(config):
 
 
 def pytest_collect_file(file_path, parent):
-    is_one = file_path.suffix == ".test" and file_path != ONE
-    return RosFile.from_parent(parent, path=file_path) if is_one else None
-
-
-def pytest_pycollect_makemodule(module_path, parent):
-    return RosFile.from_parent(parent, path=module_path)
+    known = {".test": lambda path: path != ONE, ".py": is_rostest}
+    if known.get(file_path.suffix, lambda path: False)(file_path):
+        return RosFile.from_parent(parent, path=file_path)
+    return None
 
 
 def pytest_collection_modifyitems(items):
@@ -59,8 +56,6 @@ class RosFile(pytest.File):
     def collect(self):
         command = [str(self.path)]
         if self.path.suffix == ".py":
-            if not is_rostest(self.path):
-                return
             robot = str(self.path.parent.name == "cockpit").lower()
             command = [str(ONE), f"name:={self.path.stem}", f"robot:={robot}"]
         for turn in range(self.config.option.times):

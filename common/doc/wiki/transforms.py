@@ -109,7 +109,9 @@ def broadcaster(session):
         wanted = (0.0, 0.0, math.sin(theta / 2), math.cos(theta / 2))
         if one and math.dist(one.translation, (x, y, 0.0)) > NEAR:
             seen = ", ".join(f"{each:.1f}" for each in one.translation)
-            raise blame.wrong("translation sendTransform", f"at ({x}, {y}, 0)", seen, "those of the pose")
+            raise blame.wrong(
+                "translation sendTransform", f"at ({x}, {y}, 0)", seen, "those of the pose"
+            )
         if not one or abs(sum(a * b for a, b in zip(one.rotation, wanted))) < 1.0 - NEAR:
             rotation = found.frames[0]["transform"]["rotation"].values()
             seen, meant = (", ".join(f"{each:.2f}" for each in many) for many in (rotation, wanted))
