@@ -112,28 +112,16 @@ def test_teleoperation(given, happens):
 
 
 timeouts = st.sampled_from([0.02, 0.5, 1.0]) | st.floats(0.02, 60)
-inputs = st.lists(
-    st.builds(
-        lambda timeout, priority: Input(f"in {priority}", f"topic_{priority}", timeout, priority),
-        timeouts,
-        st.integers(0, 99),
-    ),
-    min_size=1,
-    max_size=4,
-    unique_by=lambda one: one.priority,
+inputs = st.dictionaries(st.integers(0, 99), timeouts, min_size=1, max_size=4).map(
+    lambda drawn: [Input(f"in {n}", f"topic_{n}", timeout_s, n) for n, timeout_s in drawn.items()]
 )
 any_speed = st.floats(-10, 10) | st.floats()
 velocities = chosen(lambda x: (x, *ZERO[1:]), [0.0, 0.5, 0.5, math.nan]) | st.builds(
     lambda x, yaw: (x, *ZERO[2:], yaw), any_speed, any_speed
 )
-commands = st.builds(
-    lambda sent, velocity: series((*sent[:3], velocity), *sent[3:]),
-    chosen(
-        lambda *one: one,
-        range(4), ["ada", "bob"], [False, True], [1, 1, 3], [0.0, 0.019, 0.02, 0.1],
-    ),
-    velocities,
-)  # fmt: skip
+senders = chosen(lambda *one: one, range(4), ["ada", "bob"], [False, True])
+times = chosen(lambda *one: one, [1, 1, 3], [0.0, 0.019, 0.02, 0.1])
+commands = st.builds(lambda who, what, when: series((*who, what), *when), senders, velocities, times)
 
 
 @SETTINGS

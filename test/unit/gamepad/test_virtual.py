@@ -40,10 +40,7 @@ def test_a_gamepad_is_what_the_kernel_shows(mode, usb_id, axes, ranges, buttons,
     assert [(axis.low, axis.high, axis.raw(0.0)) for axis in pad.axes] == ranges
     assert (pad.usb_id, pad.triggers) == (usb_id, triggers)
     assert f"in {mode} mode:" in mode_hint(usb_id)
-
-
-def test_no_other_gamepad_has_a_hint():
-    assert [mode_hint(usb_id) for usb_id in ("0000:0000", "046d:c21a", "ffff:ffff")] == [None] * 3
+    assert [mode_hint(other) for other in ("0000:0000", "046d:c21a", "ffff:ffff")] == [None] * 3
 
 
 @given(st.sampled_from([*F710_D.axes, *F710_X.axes]), st.floats(-1, 1) | st.sampled_from([-1, 1]))
