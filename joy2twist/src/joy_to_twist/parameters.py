@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import itertools
 from dataclasses import dataclass
-from typing import Any, Callable, Mapping, NamedTuple
+from typing import Any, Callable, Mapping
 
 from node_kit.parameters import (
     Check,
@@ -29,7 +29,8 @@ COMPONENTS = ("linear.x", "linear.y", "linear.z", "angular.x", "angular.y", "ang
 LARGEST_SCALE = 100
 
 
-class Axis(NamedTuple):
+@dataclass(frozen=True)
+class Axis:
     """One joystick axis that drives one component of the velocity."""
 
     component: int  # index into COMPONENTS

@@ -121,7 +121,14 @@ velocities = chosen(lambda x: (x, *ZERO[1:]), [0.0, 0.5, 0.5, math.nan]) | st.bu
 )
 senders = chosen(lambda *one: one, range(4), ["ada", "bob"], [False, True])
 times = chosen(lambda *one: one, [1, 1, 3], [0.0, 0.019, 0.02, 0.1])
-commands = st.builds(lambda who, what, when: series((*who, what), *when), senders, velocities, times)
+commands = st.builds(
+    lambda who, what, when: series((*who, what), *when), senders, velocities, times
+)
+
+
+def command(inputs, number, who, is_stick, velocity):
+    name = inputs[number % len(inputs)].name
+    return Command(name, velocity, Publisher(f"{who} on {name}", is_stick, is_remote=True))
 
 
 @SETTINGS
@@ -129,8 +136,4 @@ commands = st.builds(lambda who, what, when: series((*who, what), *when), sender
 def test_mux(inputs, happens):
     world = ArbiterWorld(inputs)
     for event in itertools.chain(*happens):
-        if isinstance(event, tuple):
-            number, who, is_stick, velocity = event
-            name = inputs[number % len(inputs)].name
-            event = Command(name, velocity, Publisher(f"{who} on {name}", is_stick, is_remote=True))
-        world.take(event)
+        world.take(command(inputs, *event) if isinstance(event, tuple) else event)

@@ -45,7 +45,7 @@ CAR = {"inverted_reverse": True}
         ("a car goes ahead", CAR, (0.3, 0.4), (), (0.4, 0, 0, 0, 0, 0.3)),
         ("a curve", {"axis_curve": 2.0}, (0.3, -0.4), (), (-0.16, 0, 0, 0, 0, 0.09)),
         ("no linear axis", {"axis_linear": -1}, (0.5, 0.4), (), (0, 0, 0, 0, 0, 0.5)),
-        ("as far as any axis goes", {"max_linear_speed": 2.0}, (0.0, 1e6), (), (2.0, 0, 0, 0, 0, 0)),
+        ("as far as it goes", {"max_linear_speed": 2.0}, (0.0, 1e6), (), (2.0, 0, 0, 0, 0, 0)),
         ("no axis at all", {"axis_linear": -1, "axis_angular": -1}, (), (), ZERO),
     ],
 )  # fmt: skip

@@ -13,13 +13,14 @@ README's table.
 from __future__ import annotations
 
 import difflib
-from dataclasses import MISSING, Field, field, fields
+from dataclasses import MISSING, Field, dataclass, field, fields
 from math import inf
 from sys import float_info
-from typing import Any, Callable, Collection, Mapping, NamedTuple
+from typing import Any, Callable, Collection, Mapping
 
 
-class Check(NamedTuple):
+@dataclass(frozen=True)
+class Check:
     """What a value must be, in words, and how this is decided; keep() converts a good value."""
 
     allowed: str
