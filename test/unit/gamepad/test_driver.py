@@ -34,6 +34,7 @@ PUSHED = ((AXIS, 5, 32767), (AXIS, 1, -32767), (BUTTON, 4, 1))
     [
         ({"triggers": (2, 5)}, PUSHED, ((0.0, 0.0, 1.0, 0.0, 0.0, 1.0), (0,) * 5)),
         # A gamepad of which only the number of axes is known.
+        ({"triggers": None}, PUSHED, ((0.0,) * 6, (0,) * 5)),
         ({"triggers": None, "kernel_device": False}, ((AXIS, 7, 32767), *PUSHED),
          ((0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0), (0,) * 5)),
     ],

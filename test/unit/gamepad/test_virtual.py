@@ -37,7 +37,7 @@ def test_a_gamepad_is_what_the_kernel_shows(mode, usb_id, axes, ranges, buttons,
     pad = F710[mode]
     assert [ecodes.ecodes[f"ABS_{name}"] for name in axes.split()] == [a.code for a in pad.axes]
     assert [ecodes.ecodes[f"BTN_{name}"] for name in buttons.split()] == list(pad.button_codes)
-    assert [(axis.low, axis.high, axis.raw(0.0)) for axis in pad.axes] == ranges
+    assert [(axis.raw(1.0), axis.high, axis.raw(0.0)) for axis in pad.axes] == ranges
     assert (pad.usb_id, pad.triggers) == (usb_id, triggers)
     assert f"in {mode} mode:" in mode_hint(usb_id)
     assert [mode_hint(other) for other in ("0000:0000", "046d:c21a", "ffff:ffff")] == [None] * 3

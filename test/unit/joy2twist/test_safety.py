@@ -34,7 +34,6 @@ ACTS = {
     "pushed": lambda machine, now: machine.drive(None, False, now),
     "bad": lambda machine, now: machine.reject(now),
     "leaves": lambda machine, now: machine.lost(S.LEFT, now),
-    "tick": lambda machine, now: machine.tick(now),
     "bob forward": lambda machine, now: machine.drive(FORWARD, False, now, "bob"),
 }
 # Name: parameters, then (time, what happens, what is sent at once, the state if it matters).
@@ -51,9 +50,6 @@ STORIES = {
     "a released dead-man stops, also in the first message": (DEAD_MAN, [
         (0.0, "release", ZERO, S.ARMED), (0.1, "forward", FORWARD, S.DRIVING),
         (0.12, "pushed", ZERO)]),
-    "a bad message stops hard and ends the ramp": (LIMITS, [
-        (0.0, "forward", (0.1, 0, 0, 0, 0, 0)), (0.05, "bad", ZERO), (0.1, "tick", None),
-        (0.4, "tick", None)]),
 }  # fmt: skip
 
 
