@@ -9,10 +9,6 @@ import sys
 from pathlib import Path
 
 REPOSITORY = Path(__file__).resolve().parents[1]
-sys.path.append(str(REPOSITORY / "test/src"))
-
-from tutorial_testing.rostest_files import is_rostest  # noqa: E402
-
 CLAIMS = REPOSITORY / "test/CLAIMS.md"
 NAMED = re.compile(r"`(test/[^`:]+)(?:::([^`]+))?`")
 
@@ -28,9 +24,8 @@ def to_be_named():
         for path in sorted((REPOSITORY / "test" / folder).glob("test_*.py")):
             yield from ((path, name) for name in tests_in(path))
     for path in sorted((REPOSITORY / "test/ros").glob("*/*.py")):
-        if is_rostest(path):
-            yield path, ""
-    yield from ((path, "") for path in sorted((REPOSITORY / "test/ros").glob("*/*.test")))
+        beside = path.with_suffix(".test")
+        yield (beside if beside.exists() else path), ""
 
 
 def complaints():

@@ -17,7 +17,6 @@ def figure(request):
 
 
 def pytest_terminal_summary(terminalreporter):
-    """Print the tables."""
     for package, rows in _rows.items():
         terminalreporter.section(f"figures of {package}")
         terminalreporter.line(

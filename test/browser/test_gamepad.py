@@ -17,14 +17,9 @@ CASES = (
 
 
 def call(page, name, *values):
-    """Return what a function of the page's f710.js returns."""
     script = """const [name, values, done] = arguments;
         import('/page/f710.js').then((module) => done(module[name](...values)));"""
     return page.driver.execute_async_script(script, name, values)
-
-
-def button(pressed):
-    return {"pressed": bool(pressed), "value": float(pressed)}
 
 
 def test_hands_on_glass_and_on_a_gamepad_of_the_kernel_give_the_same_message(page):
@@ -35,7 +30,8 @@ def test_hands_on_glass_and_on_a_gamepad_of_the_kernel_give_the_same_message(pag
             "triggers": controls.triggers, "held": sorted(controls.held),
         }  # fmt: skip
         # Without the standard mapping right and down are positive.
-        raw = {"mapping": "", "axes": [-v for v in axes], "buttons": [button(b) for b in buttons]}
+        held = [{"pressed": bool(one), "value": float(one)} for one in buttons]
+        raw = {"mapping": "", "axes": [-v for v in axes], "buttons": held}
         for hands in (glass, call(page, "handsOfGamepad", raw, NAMES)):
             shown = call(page, "positions", mode, NAMES[mode], hands)
             assert shown["axes"] == pytest.approx(axes, abs=0.05)  # the dead zone is rescaled

@@ -168,7 +168,6 @@ def come_back(way, it):
 
 
 def lose_and_come_back(request, name, world, browser_of=Chromium):
-    """As often as --trials says."""
     way, count = WAYS[name], 0
     while count < request.config.getoption("--trials"):
         with browser_of() as browser:

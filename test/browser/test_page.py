@@ -11,7 +11,6 @@ LOADED = "performance.getEntries().filter((e) => 'encodedBodySize' in e)"
 
 
 def tabs(page):
-    """The names of the page's tabs, in their order."""
     return page.ask("[...document.querySelectorAll('[role=tabpanel]')].map((one) => one.id)")
 
 

@@ -83,7 +83,6 @@ MARKS = """[...document.querySelectorAll('#plot-chart .dygraph-axis-label-x')]
 
 
 def axis(page):
-    """Return the times [s] at the marks of the plot's time axis."""
     return sorted(page.ask(MARKS)) or [0.0]
 
 

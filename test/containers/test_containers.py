@@ -6,18 +6,26 @@ import os
 import re
 import shutil
 import socket
+import subprocess
 import urllib.error
 import urllib.request
 import zipfile
+from pathlib import Path
 
 import pytest
 
 from tutorial_testing.cockpit.chromium import Chromium
 from tutorial_testing.cockpit.hands import Keys
-from tutorial_testing.containers import INSIDE, PAGE, PORT, SOURCE, Compose, RobotInside, run
+from tutorial_testing.ports import free_port
 from tutorial_testing.processes import Program
+from tutorial_testing.robot import OBSERVER, Robot
 from tutorial_testing.waiting import DEADLINE_S, wait_for
 
+SOURCE = Path(os.environ.get("CHECKED_SOURCE") or Path(__file__).resolve().parents[2])
+INSIDE = "/home/student/ros1_tutorial"
+PORT = free_port()  # 8080 may be another test's
+PAGE = f"http://localhost:{PORT}/"
+WITH_TESTS = f'PYTHONPATH=$PYTHONPATH:{INSIDE}/test/src exec "$@"'
 LARGEST = 1e9  # bytes
 START_S = 60.0
 STUDENT = 4321  # a user number of the host that the image does not know
@@ -27,6 +35,58 @@ import urllib.request, urllib.error
 request = urllib.request.Request("http://%s:8080/", headers={"Host": "localhost"})
 try: print(urllib.request.urlopen(request).status)
 except urllib.error.HTTPError as error: print(error.code)"""
+
+
+def run(*command, text="", **environment):
+    """Run a command to its end; return what it prints. AssertionError if it fails.
+
+    text: for its standard input.
+    """
+    done = subprocess.run(
+        command, env={**os.environ, **environment}, cwd=SOURCE, text=True, timeout=300, input=text,
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False,
+    )  # fmt: skip
+    assert done.returncode == 0, f"{' '.join(command)}: {done.returncode}\n{done.stdout}"
+    return done.stdout
+
+
+class Compose:
+    """The services of a file in docker/: a context manager that ends them."""
+
+    def __init__(self, file="compose.yaml", **environment):
+        self._command = ("docker-compose", "-f", f"docker/{file}")
+        self._environment = {"COCKPIT_PORT": str(PORT), **environment}
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        with contextlib.suppress(AssertionError):
+            self("down", "--timeout", "5")
+
+    def __call__(self, *words):
+        return run(*self._command, *words, **self._environment)
+
+    def container(self, service):
+        return self("ps", "-q", service).split()[-1]
+
+
+class RobotInside(Robot):
+    """The robot of a container, seen through its odometry."""
+
+    def __init__(self, container):
+        super().__init__()
+        inside = ("./tutorial", "run", "bash", "-c", WITH_TESTS, "-")
+        self._inside = ("docker", "exec", "-i", container, *inside)
+
+    def begin(self):
+        wait_for(self._answers, "the simulated robot in the container")
+        self.observe([*self._inside, *OBSERVER])
+
+    def _answers(self):
+        command = [*self._inside, "rosnode", "ping", "-c", "1", "/fake_turtlebot"]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        return "time=" in done.stdout
 
 
 def status(**headers):

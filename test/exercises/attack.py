@@ -18,14 +18,12 @@ aims = {}
 
 
 def connect(family, address):
-    """Whether a server answers there."""
     with socket.socket(family) as probe:
         probe.settimeout(5.0)
         return probe.connect_ex(address) == 0
 
 
 def read(path):
-    """What a file holds."""
     return pathlib.Path(path).read_text()
 
 
@@ -67,10 +65,8 @@ def plant():
 def leave():
     """Leave files, shared memory and a process; whether they are left shows later."""
     for folder in LEAVE:
-        try:
+        with contextlib.suppress(OSError):
             write(f"{folder}/{aims['name']}")
-        except OSError:
-            pass
     ctypes.CDLL(None).shmget(aims["number"], 4096, 0o1666)
     if os.fork() == 0:
         os.setsid()
@@ -81,12 +77,9 @@ def leave():
 
 
 def processes():
-    """The command lines of all that run."""
     for path in glob.glob("/proc/[0-9]*/cmdline"):
-        try:
+        with contextlib.suppress(OSError):
             yield pathlib.Path(path).read_bytes()
-        except OSError:
-            pass
 
 
 def in_memory(folder):
@@ -123,15 +116,12 @@ ATTACKS = {
 
 
 def main():
-    """Try all."""
     aims.update(json.loads((HERE / "aims.json").read_text()))
     reached = []
     for number, attack in enumerate(ATTACKS.values()):  # a name each would be cut off in the report
-        try:
+        with contextlib.suppress(OSError):
             if attack():
                 reached.append(str(number))
-        except OSError:
-            pass
     forge()
     leave()
     plant()

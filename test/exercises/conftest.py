@@ -2,20 +2,18 @@
 
 import os
 import shutil
-import subprocess
-import sys
 import tempfile
 from pathlib import Path
 
 import kobuki_msgs
 import pytest
 import stored
+from edits import literal  # noqa: F401
 
 from tutorial_check.launcher import examine
 
 HERE = Path(__file__).resolve().parent
 REPOSITORY = HERE.parents[1]
-BAG = REPOSITORY / "joy2twist" / "bag" / "joy.bag"
 OPTIONS = {
     "--every": (1, "only every Nth row of data"),
     "--first": (0, "the row with which --every begins"),
@@ -23,34 +21,16 @@ OPTIONS = {
     "--submissions": (8, "how many on a cluster"),
     "--everything": (False, "all exercises, and not only those of the mistakes; an hour"),
     "--store": (False, "store what the programs of the rows did, for the unit tests"),
-    "--busy": (False, "beside an endless loop on each processor"),
 }
 
 
 def pytest_addoption(parser):
-    """The rows are many, and each builds a workspace."""
     for name, (default, what) in OPTIONS.items():
         kind = {"action": "store_true"} if default is False else {"type": int, "metavar": "N"}
         parser.addoption(name, default=default, help=what, **kind)
 
 
-def pytest_configure(config):
-    """Keep the processors busy, if asked to; once, and not in each worker."""
-    is_worker = hasattr(config, "workerinput")
-    count = os.cpu_count() if config.getoption("--busy") and not is_worker else 0
-    loop = [sys.executable, "-c", "while True: pass"]
-    config.loops = [subprocess.Popen(loop) for _ in range(count)]
-
-
-def pytest_unconfigure(config):
-    """Leave them in peace."""
-    for process in config.loops:
-        process.kill()
-        process.wait()
-
-
 def pytest_collection_modifyitems(config, items):
-    """Leave out what was not asked for."""
     option = config.getoption
     if not option("--everything"):
         items[:] = [item for item in items if "in_all_exercises" not in item.name]
@@ -61,7 +41,6 @@ def pytest_collection_modifyitems(config, items):
 
 @pytest.fixture(scope="session")
 def underlay():
-    """setup.bash of the underlay."""
     return os.environ["TUTORIAL_UNDERLAY"]
 
 
@@ -112,15 +91,4 @@ def examined(request, underlay, tmp_path):
 
 
 def statuses(outcomes):
-    """{check: what it came to}."""
     return {found.id: found.status for outcome in outcomes for found in outcome.results}
-
-
-@pytest.fixture
-def literal(tmp_path):
-    """A workspace with a literal solution of the handout; its src."""
-    src = tmp_path / "ws" / "src"
-    shutil.copytree(HERE / "literal", src)
-    (src / "joy2twist" / "bag").mkdir()
-    shutil.copy(BAG, src / "joy2twist" / "bag")
-    return src

@@ -3,6 +3,10 @@
 import shutil
 from pathlib import Path
 
+import pytest
+import rosbag
+from std_msgs.msg import String
+
 B, J = "beginner_tutorials", "joy2twist"
 TALKER, LISTENER = f"{B}/scripts/talker.py", f"{B}/scripts/listener.py"
 JOY2TWIST, CLASS = f"{J}/scripts/joy2twist.py", f"{J}/scripts/new_joy2twist.py"
@@ -11,10 +15,23 @@ TURTLEBOT, REAL = (
     f"{J}/launch/joy2twist_turtlebot.launch",
     f"{J}/launch/launch_joy_node_realTurtlebot.launch",
 )
+SHOW = 'rospy.loginfo(rospy.get_name() + ": axes [%.2f, %.2f, %.2f, %.2f, %.2f, %.2f]" % data.axes)'
+X, Z = "msg.linear.x = data.axes[1]", "msg.angular.z = data.axes[0]"
+PUBLISH = "pub.publish(msg)"
+SUB = 'rospy.Subscriber("/joy", Joy, callback)'
+REMAP = '<remap from="/cmd_vel" to="/cmd_vel_mux/input/teleop"/>'
+HERE = Path(__file__).resolve().parent
+
+
+@pytest.fixture
+def literal(tmp_path):
+    """A workspace with a literal solution of the handout; its src."""
+    src = shutil.copytree(HERE / "literal", tmp_path / "ws" / "src")
+    shutil.copytree(HERE.parents[1] / J / "bag", src / J / "bag")
+    return src
 
 
 def put(path, old, new, count=-1):
-    """Replace a text, which must be there."""
 
     def edit(src):
         file = src / path
@@ -32,7 +49,6 @@ def made(path):
 
 
 def write(path, text, mode=0o755):
-    """Write a file."""
 
     def edit(src):
         made(src / path).write_text(text)
@@ -47,22 +63,18 @@ def move(old, new):
 
 
 def copy(old, new):
-    """Copy a file, with its rights."""
     return lambda src: shutil.copy(src / old, made(src / new))
 
 
 def remove(path):
-    """Delete a file."""
     return lambda src: (src / path).unlink()
 
 
 def chmod(path, mode):
-    """Change the rights."""
     return lambda src: (src / path).chmod(mode)
 
 
 def windows(path):
-    """Windows line ends."""
     return lambda src: (src / path).write_bytes((src / path).read_bytes().replace(b"\n", b"\r\n"))
 
 
@@ -87,7 +99,36 @@ def lines(path, *numbers):
     return edit
 
 
+def chatter(path):
+    """Make a recording of another topic."""
+
+    def edit(src):
+        with rosbag.Bag(str(made(src / path)), "w") as bag:
+            bag.write("/chatter", String("x"))
+
+    return edit
+
+
+def built(below, home="", **files):
+    """Make the devel folder of a build over these folders, as far as it is read, and its files."""
+
+    def edit(src):
+        texts = {
+            "_setup_util.py": f"    CMAKE_PREFIX_PATH = r'{below}'.split(';')\n",
+            "setup.sh": f": ${{_CATKIN_SETUP_DIR:={home or src.parent}/devel}}\n",
+            "setup.bash": "# as catkin has it\n",
+        }
+        for name, text in {**texts, **files}.items():
+            made(src.parent / "devel" / name).write_text(text)
+
+    return edit
+
+
+def mistake_in(exercise, path, *first):
+    """Return a function that makes a row of one change in a file."""
+    return lambda what, old, new, *found: (exercise, what, [*first, put(path, old, new, 1)], *found)
+
+
 def apply(edits, src):
-    """Make the changes in a src folder."""
     for edit in edits:
         edit(Path(src))

@@ -1,6 +1,9 @@
 """Programs for 4.3 from a grammar: with a mistake that hardly shows, and right in other ways."""
 
-from edits import JOY2TWIST, write
+import re
+import textwrap
+
+from edits import JOY2TWIST, X, Z, write
 
 HEAD = """#!/usr/bin/env python3
 import queue
@@ -14,11 +17,8 @@ from sensor_msgs.msg import Joy
 
 """
 SHOW = 'rospy.loginfo("%s", " ".join("%.2f" % axis for axis in data.axes))'
-# Of each frame: its text, and what `my.` is there, in which values are kept from one Joy to the next.
-FRAMES = {
-    "functions": (
-        HEAD
-        + """my = SimpleNamespace()
+# `my.` has what is kept from one Joy to the next.
+FUNCTIONS = """my = SimpleNamespace()
 
 
 def callback(data):
@@ -36,16 +36,12 @@ def main():
 
 if __name__ == "__main__":
     main()
-""",
-        "my.",
-    ),
-    "class": (
-        HEAD
-        + """class Converter:
+"""
+CLASS = """class Converter:
     def __init__(self):
-        self.pub = rospy.Publisher("/cmd_vel", Twist, queue_size=1)
+        my.pub = rospy.Publisher("/cmd_vel", Twist, queue_size=1)
         {keep}
-        self.sub = rospy.Subscriber("/joy", Joy, self.heard, queue_size=10)
+        my.sub = rospy.Subscriber("/joy", Joy, my.heard, queue_size=10)
 
     def heard(self, data):
         {answer}
@@ -58,12 +54,8 @@ if __name__ == "__main__":
 if __name__ == "__main__":
     rospy.init_node("joy2twist")
     Converter().run()
-""",
-        "self.",
-    ),
-    "closure": (
-        HEAD
-        + """def main():
+"""
+CLOSURE = """def main():
     rospy.init_node("converter", anonymous=True)
     my = SimpleNamespace(pub=rospy.Publisher("cmd_vel", Twist, queue_size=100, tcp_nodelay=True))
     {keep}
@@ -76,12 +68,8 @@ if __name__ == "__main__":
 
 
 main()
-""",
-        "my.",
-    ),
-    "queue": (
-        HEAD
-        + """my = SimpleNamespace()
+"""
+QUEUE = """my = SimpleNamespace()
 inbox = queue.Queue()
 
 
@@ -99,11 +87,8 @@ while not rospy.is_shutdown():
         convert(inbox.get(timeout=0.1))
     except queue.Empty:
         pass
-""",
-        "my.",
-    ),
-}
-X, Z = "msg.linear.x = data.axes[1]", "msg.angular.z = data.axes[0]"
+"""
+FRAMES = {"functions": FUNCTIONS, "class": CLASS, "closure": CLOSURE, "queue": QUEUE}
 PUBLISH = "my.pub.publish(msg)"
 PLAIN = f"msg = Twist()\n{X}\n{Z}\n"
 HELD = "data.buttons[4]"
@@ -112,26 +97,19 @@ SET = "my.msg.linear.x = data.axes[1]\nmy.msg.angular.z = data.axes[0]\n"
 KEPT = "my.msg = Twist()"
 
 
-def program(frame, answer, keep="", spin="rospy.spin()"):
-    """The text of a program. answer: what is done for a Joy; keep: what is made before; spin: the rest."""
-    text, mine = FRAMES[frame]
-    parts = {"show": SHOW, "answer": answer, "keep": keep or "pass", "spin": spin}
-    lines = []
-    for line in text.splitlines():
-        hole = next((name for name in parts if line.strip() == f"{{{name}}}"), None)
-        blank = line[: len(line) - len(line.lstrip())]
-        words = parts[hole].splitlines() if hole else [line.replace("{show}", SHOW)]
-        lines += [(blank if hole else "") + each.replace("my.", mine) for each in words]
-    return "\n".join(lines) + "\n"
+def program(frame, answer, keep="", spin=""):
+    """answer: what is done for a Joy; keep: what is made before; spin: the rest."""
+    parts = {"show": SHOW, "answer": answer, "keep": keep or "pass", "spin": spin or "rospy.spin()"}
+    fill = lambda hole: textwrap.indent(parts[hole[2]].rstrip(), hole[1])  # noqa: E731
+    text = re.sub(r"( *)\{(\w+)\}", fill, HEAD + FRAMES[frame])
+    return text.replace("my.", "self.") if frame == "class" else text
 
 
 def values(x, z="data.axes[0]", before=""):
-    """Lines that publish these two."""
     return f"{before}msg = Twist()\nmsg.linear.x = {x}\nmsg.angular.z = {z}\n{PUBLISH}"
 
 
 def only_if(condition, answer=PLAIN + PUBLISH):
-    """A gate: published under a condition."""
     return answer.replace(PUBLISH, f"if {condition}:\n    {PUBLISH}")
 
 
@@ -217,7 +195,7 @@ STYLES = [
 ]  # fmt: skip
 
 WRONG = [
-    ("4.3", f"{what}, in {frame}", [write(JOY2TWIST, program(frame, answer, keep, spin or "rospy.spin()"))], "C16", words)
+    ("4.3", f"{what}, in {frame}", [write(JOY2TWIST, program(frame, answer, keep, spin))], "C16", words)
     for what, answer, keep, spin, words in MISTAKES
     for frame in ("functions", "class")
 ]  # fmt: skip

@@ -1,19 +1,6 @@
 """Mistakes in launch files, each a row: (exercise, what, edits, check, word or words of the diagnosis)."""
 
-from edits import (
-    JOY2TWIST,
-    LAUNCH_BAG,
-    LAUNCH_JOY,
-    REAL,
-    TURTLEBOT,
-    B,
-    J,
-    copy,
-    move,
-    put,
-    remove,
-    write,
-)  # fmt: skip
+from edits import *
 
 OWN = '  <node pkg="joy2twist" name="myjoystick2twist" type="joy2twist.py">\n  </node>\n'
 ROBOT = '  <include file="$(find rbx1_bringup)/launch/fake_turtlebot.launch"/>\n'
@@ -25,12 +12,9 @@ COMMENT = (
     "<launch>",
     "<launch>\n  <!-- rviz, fake_turtlebot.launch, sim.rvz, joy2twist, joy_node, rosbag play -->",
 )
-REMAP = '<remap from="/cmd_vel" to="/cmd_vel_mux/input/teleop"/>'
 
-
-def bag(what, old, new, check, word):
-    """A row with one change in launch_bag.launch."""
-    return ("5", what, [put(LAUNCH_BAG, old, new, 1)], check, word)
+bag, joy = mistake_in("5", LAUNCH_BAG), mistake_in("5", LAUNCH_JOY)
+mux = mistake_in("6.1", TURTLEBOT)
 
 
 def commented(file, change, check, *words):
@@ -38,16 +22,6 @@ def commented(file, change, check, *words):
     old, new = change
     what = f"{new} below a comment"
     return ("5", what, [put(file, old, new, 1), put(file, *COMMENT)], check, words)
-
-
-def joy(what, old, new, check, word):
-    """A row with one change in launch_joy_node.launch."""
-    return ("5", what, [put(LAUNCH_JOY, old, new, 1)], check, word)
-
-
-def mux(what, old, new, check, word):
-    """A row with one change in joy2twist_turtlebot.launch."""
-    return ("6.1", what, [put(TURTLEBOT, old, new, 1)], check, word)
 
 
 INCLUDED = f"{J}/launch/more.launch"
@@ -149,5 +123,6 @@ ROWS = [
     ("5", "an included file whose arg has no value", [write(INCLUDED, '<launch>\n  <arg name="dev"/>\n  <param name="d" value="$(arg dev)"/>\n</launch>\n'), put(LAUNCH_BAG, *INCLUDES)], "C21", ("launch/launch_bag.launch:2", "the arg dev has no value")),
     ("5", "rbx1 in src, which needs arbotix", [write("rbx1/rbx1_bringup/package.xml", "<package><name>rbx1_bringup</name><version>0.0.0</version><description>x</description><maintainer email='s@u.example'>s</maintainer><license>x</license></package>"), write("rbx1/rbx1_bringup/launch/fake_turtlebot.launch", '<launch>\n  <param name="m" command="$(find xacro)/xacro.py x"/>\n</launch>\n')], "C21", ("where:    rbx1/rbx1_bringup/launch/fake_turtlebot.launch:2", "Debian lacks xacro", "remove rbx1_bringup from src")),
     ("5", "no recording", [remove(f"{J}/bag/joy.bag")], "C21", ("cp \"$(rospack find gamepad)/bag/joy.bag\" /", f"src/{J}/bag")),
+    ("4.2", "a damaged recording beside another one", [chatter(f"{B}/chatter.bag"), move(f"{J}/bag/joy.bag", f"{J}/bag/mine"), write("joy.bag", "none")], "C11", "where:    joy.bag"),
     ("4.2", "a recording that is none", [write(f"{J}/bag/joy.bag", "none")], "C11", "rospack find gamepad"),
 ]  # fmt: skip

@@ -1,12 +1,8 @@
 """Mistakes in joy2twist and in the class, each a row: (exercise, what, edits, check, word or words)."""
 
-from edits import CLASS, JOY2TWIST, J, chmod, copy, lines, move, put, remove, write
+from edits import *
 
-SHOW = 'rospy.loginfo(rospy.get_name() + ": axes [%.2f, %.2f, %.2f, %.2f, %.2f, %.2f]" % data.axes)'
-X, Z = "msg.linear.x = data.axes[1]", "msg.angular.z = data.axes[0]"
-PUBLISH = "pub.publish(msg)"
 PUB = "rospy.Publisher('/cmd_vel', Twist)"
-SUB = 'rospy.Subscriber("/joy", Joy, callback)'
 
 
 def tried(handler):
@@ -15,16 +11,7 @@ def tried(handler):
     return "    listener()\n", block
 
 
-def node(what, old, new, check, word):
-    """A row with one change in joy2twist.py."""
-    return ("4.3", what, [put(JOY2TWIST, old, new)], check, word)
-
-
-def cls(what, old, new, check, word):
-    """A row with one change in the class."""
-    return ("6.2", what, [put(CLASS, old, new)], check, word)
-
-
+node, cls = mistake_in("4.3", JOY2TWIST), mistake_in("6.2", CLASS)
 ROWS = [
     ("4.3", "no joy2twist.py", [remove(JOY2TWIST)], "C13", "create scripts/joy2twist.py"),
     ("4.3", "a file joy2twist that is no program", [move(JOY2TWIST, JOY2TWIST[:-3]), put(JOY2TWIST[:-3], "#!/usr/bin/env python", "")], "C13", "first line"),

@@ -1,21 +1,6 @@
 """Mistakes with packages and files, each a row: (exercise, what, edits, check, word of the diagnosis)."""
 
-from edits import (
-    JOY2TWIST,
-    LISTENER,
-    TALKER,
-    B,
-    J,
-    chmod,
-    copy,
-    latin1,
-    lines,
-    move,
-    put,
-    remove,
-    windows,
-    write,
-)  # fmt: skip
+from edits import *
 
 PUT_XML, PUT_JOY_XML = f"{B}/package.xml", f"{J}/package.xml"
 
@@ -79,6 +64,10 @@ ROWS = [
     ("2", "a package that Debian has, not installed", [put(f"{B}/CMakeLists.txt", "roscpp", "roscpp stereo_image_proc")], "C4", (f"{B}/CMakeLists.txt:4", "apt install libstereo-image-proc-dev")),
     ("2", "rospcc in CMakeLists.txt", [put(f"{B}/CMakeLists.txt", "roscpp", "rospcc")], "C4", (f"{B}/CMakeLists.txt:4", "correct rospcc to roscpp")),
     ("2", "an empty devel/setup.bash", [write("../devel/setup.bash", "")], "C1", "rm -r build devel"),
+    ("2", "built over another copy of the suite", [built("/mine/devel;/other/lower/devel")], "C1", "another copy of the suite, /other/lower/devel;"),
+    ("2", "built over ROS alone", [built("/opt/ros/one")], "C1", ("built over /opt/ros/one", "without ./tutorial shell")),
+    ("2", "a whole devel, but for setup.bash", [built("/opt/ros/one", **{"setup.bash": ""})], "C1", ("not whole: setup.bash", "rm -r build devel, then catkin_make")),
+    ("2", "a whole devel, but for _setup_util.py", [built("/opt/ros/one"), remove("../devel/_setup_util.py")], "C1", ("not whole: _setup_util.py", "rm -r build devel")),
     ("2", "a part of the suite in src", [copy(PUT_XML, "sim/package.xml"), put("sim/package.xml", f"<name>{B}<", "<name>fake_turtlebot_sim<")], "C1", ("where:    src/sim", "remove it from src")),
     ("2", "catkin_create_pkg without a name", [move(B, "std_msgs"), put("std_msgs/package.xml", f"<name>{B}<", "<name>std_msgs<")], "C1", ("src/std_msgs", "first word is the name")),
     ("3", "talker.py misnamed", [move(TALKER, f"{B}/scripts/Talker.py")], "C5", "Talker.py"),

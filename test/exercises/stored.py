@@ -3,6 +3,8 @@
 import functools
 import hashlib
 import importlib.util
+import io
+import itertools
 import json
 import lzma
 import re
@@ -14,7 +16,7 @@ from tutorial_check.launcher import HANDED_IN, judge, order_of
 
 FOLDER = Path(__file__).resolve().parent / "recordings"
 REPOSITORY = FOLDER.parents[2]
-BEFORE_A_STATEMENT = (tokenize.ENCODING, tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT)
+BEFORE_A_STATEMENT = (tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT)
 IMPORT = re.compile(
     r"^ *from (tutorial_check\.(?:record|handout)[\w.]*) import (\([^)]+\)|.+)", re.M
 )
@@ -34,7 +36,6 @@ def names(workspace, underlay):
 
 
 def write(test, outcomes, workspace, underlay):
-    """Store what was recorded for the outcomes of a test."""
     recordings = [each for one in outcomes for each in one.recordings]
     text = json.dumps({"code": code_of(recordings), "recordings": recordings})
     for path, name in names(workspace, underlay).items():
@@ -43,27 +44,22 @@ def write(test, outcomes, workspace, underlay):
     path_of(test).write_bytes(lzma.compress(text.encode(), preset=9))
 
 
-def read(test, workspace, underlay, folder=HANDED_IN):
-    """Return the recordings of a test. folder: with the copy of the workspace."""
+def judged(test, workspace, underlay, exercises, folder, **about):
+    """Return the Outcomes of a workspace, judged from what is stored. folder: for its copy, empty."""
     path = path_of(test)
     assert path.exists(), f"{path.name} is missing: ./tutorial test exercises --store -k ROW -n 1"
     text = lzma.decompress(path.read_bytes()).decode()
     for path, name in {**names(workspace, underlay), str(folder): HANDED_IN}.items():
         text = text.replace(name, path)
-    return json.loads(text)["recordings"]
-
-
-def judged(test, workspace, underlay, exercises, folder, **about):
-    """Return the Outcomes of a workspace, judged from what is stored. folder: for its copy, empty."""
-    order = order_of(workspace, underlay, exercises, folder, **about)
     answers = {}
-    for one in read(test, workspace, underlay, folder):
+    for one in json.loads(text)["recordings"]:
         answers.setdefault(_question(one), []).append(one)
 
     def ask(question):
         turns = answers[_question(question)]
         return turns.pop(0) if len(turns) > 1 else turns[0]
 
+    order = order_of(workspace, underlay, exercises, folder, **about)
     return judge(order, read_course(), ask)
 
 
@@ -103,19 +99,13 @@ def imported_by(module, found):
 
 def code_of_file(path):
     """Return a text without its comments and docstrings."""
-    lines = path.read_text().splitlines(keepends=True)
-    with path.open("rb") as file:
-        tokens = list(tokenize.tokenize(file.readline))
-    begins = True  # a statement
-    for token in tokens:
-        is_docstring = token.type == tokenize.STRING and begins
-        if token.type == tokenize.COMMENT or is_docstring:
-            (row, column), (last, end) = token.start, token.end
-            rest = lines[last - 1][end:]
-            lines[row - 1] = lines[row - 1][:column] + (rest if row == last else "\n")
-            lines[row:last] = [
-                rest if number == last else "\n" for number in range(row + 1, last + 1)
-            ]
+    text = path.read_text()
+    starts = [0, *itertools.accumulate(map(len, text.splitlines(keepends=True)))]
+    kept, rest, begins = [], 0, True  # a statement
+    for token in tokenize.generate_tokens(io.StringIO(text).readline):
+        if token.type == tokenize.COMMENT or (token.type == tokenize.STRING and begins):
+            kept.append(text[rest : starts[token.start[0] - 1] + token.start[1]])
+            rest = starts[token.end[0] - 1] + token.end[1]
         goes_on = token.type in (tokenize.COMMENT, tokenize.NL)
         begins = token.type in BEFORE_A_STATEMENT or (begins and goes_on)
-    return "".join(lines)
+    return "".join(kept) + text[rest:]

@@ -1,6 +1,5 @@
 """The command line, one workspace and a class: the right exit code, and one clear line."""
 
-import itertools
 import json
 import os
 import shutil
@@ -17,28 +16,22 @@ from tutorial_check.course import read_course
 from tutorial_check.launcher import examine
 from tutorial_check.report.hints import LATER
 from tutorial_testing.processes import Program, command_line, descendants, lives
-from tutorial_testing.waiting import wait_for
+from tutorial_testing.waiting import LONGEST_S, wait_for
 
 SOURCE = Path(__file__).resolve().parents[2] / "common" / "tutorial_check" / "src"
 PYTHONPATH = f"{SOURCE}:{SOURCE.parents[1] / 'node_kit' / 'src'}"
 
 
 def command(underlay, *words):
-    """The words of a ./tutorial check."""
-    words = ["-m", "tutorial_check", "--underlay", *map(str, (underlay, *words))]
-    return ["/usr/bin/python3", *words]
-
-
-def environment(**more):
-    """That of a check."""
-    return {**os.environ, "PYTHONPATH": PYTHONPATH, **more}
+    words = ["--underlay", *map(str, (underlay, *words))]
+    return ["/usr/bin/python3", "-m", "tutorial_check", *words]
 
 
 def check(underlay, *words):
     """(exit code, stdout, stderr) of a run of ./tutorial check, which has deadlines of its own."""
     done = subprocess.run(
         command(underlay, *words), capture_output=True, text=True, check=False, timeout=3600,
-        env=environment(),
+        env={**os.environ, "PYTHONPATH": PYTHONPATH},
     )  # fmt: skip
     assert "Traceback" not in done.stderr, done.stderr
     return done.returncode, done.stdout, done.stderr
@@ -103,9 +96,7 @@ def test_a_class_has_a_table_and_reports(literal, underlay, tmp_path):
 
 
 def examines(program):
-    """Return whether a worker runs below a program."""
-    lines = map(command_line, descendants(program.pid))
-    return any("tutorial_check.worker" in line for line in lines)
+    return any("tutorial_check.worker" in command_line(pid) for pid in descendants(program.pid))
 
 
 def test_ctrl_c_ends_the_check_of_all(literal, underlay, tmp_path):
@@ -140,11 +131,10 @@ def test_all_at_once_or_alone_is_the_same(literal, underlay, tmp_path, request):
     assert code == 1, out + error
     for report in (group / "check").glob("student*.json"):
         judged = json.loads(report.read_text())["exercises"]
-        reported = [one for exercise in judged for one in exercise["checks"]]
+        together = [(one["id"], one["status"]) for each in judged for one in each["checks"]]
         outcomes = examine(group / report.stem, underlay, exercises)
-        alone = [vars(one) for outcome in outcomes for one in outcome.results]
-        statuses = [[(one["id"], one["status"]) for one in each] for each in (reported, alone)]
-        assert statuses[0] == statuses[1], f"{report.stem}: {reported}\nalone: {alone}"
+        alone = [(one.id, one.status) for each in outcomes for one in each.results]
+        assert together == alone, report.read_text()
 
 
 def test_watch_checks_again_once_a_file_is_saved(literal, underlay, tmp_path):
@@ -152,12 +142,8 @@ def test_watch_checks_again_once_a_file_is_saved(literal, underlay, tmp_path):
     workspace = Path(shutil.move(str(literal.parent), str(tmp_path / "build")))
     chmod(TALKER, 0o644)(workspace / "src")
     words = command(underlay, "--in", workspace, "--watch", "3")
-    env = environment(PYTHONUNBUFFERED="1")
-    with subprocess.Popen(words, stdout=subprocess.PIPE, text=True, env=env) as process:
-        try:
-            first = itertools.takewhile(lambda line: not line.startswith("waiting"), process.stdout)
-            assert f"hint:     {LATER}" in "".join(first)
-            chmod(TALKER, 0o755)(workspace / "src")
-            assert any(line.startswith("1 of 1 exercises done") for line in process.stdout)
-        finally:
-            process.kill()
+    with Program(*words, PYTHONPATH=PYTHONPATH) as watch:
+        wait_for(lambda: "\nwaiting" in watch.output, "first verdict", LONGEST_S)
+        assert f"hint:     {LATER}" in watch.output
+        chmod(TALKER, 0o755)(workspace / "src")
+        wait_for(lambda: "\n1 of 1 exercises done" in watch.output, "second verdict", LONGEST_S)

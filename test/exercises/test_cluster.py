@@ -10,13 +10,13 @@ import subprocess
 
 import pytest
 from edits import TALKER, apply, put
-from test_awkward import command, environment, examines
+from test_awkward import PYTHONPATH, command, examines
 from test_endings import path_without_namespaces
 from test_mistakes import OF_HANDOUT
 
 from tutorial_check.launcher import examine
 from tutorial_testing.night import at_night
-from tutorial_testing.processes import Program, command_line, descendants
+from tutorial_testing.processes import Program, command_line, descendants, signal_all
 from tutorial_testing.two_hosts.network import Network
 from tutorial_testing.waiting import wait_for
 
@@ -41,12 +41,11 @@ GONE = (
 
 @pytest.fixture
 def start():
-    """start(host, ...): a program on a host."""
     with Network(HOSTS) as network, contextlib.ExitStack() as running:
 
         def begin(host, *words):
-            program = Program(*network[host].command(*map(str, words)), **environment())
-            return running.enter_context(program)
+            words = network[host].command(*map(str, words))
+            return running.enter_context(Program(*words, PYTHONPATH=PYTHONPATH))
 
         yield begin
 
@@ -76,7 +75,6 @@ def worker(start, underlay, monkeypatch):
 
 @pytest.fixture
 def folder(literal, tmp_path):
-    """A class of one; hand_in makes it larger."""
     shutil.copytree(literal.parent, tmp_path / "class" / "ada")
     return tmp_path / "class"
 
@@ -89,9 +87,8 @@ def client(start, underlay, folder):
 
 def kill(program):
     """End all at once, but for what removes folders: as if memory is short."""
-    for pid in [each for each in descendants(program.pid) if "rm -rf" not in command_line(each)]:
-        with contextlib.suppress(ProcessLookupError):
-            os.kill(pid, signal.SIGKILL)
+    pids = [each for each in descendants(program.pid) if "rm -rf" not in command_line(each)]
+    signal_all(pids, signal.SIGKILL)
 
 
 def hand_in(literal, folder, count):
@@ -200,16 +197,13 @@ def test_a_students_program_does_not_reach_the_scheduler(
 @pytest.mark.parametrize(
     ("words", "why"),
     [
-        ((ADDRESS,), "bwrap fails: a student's program could reach the"),
-        (
-            (ADDRESS.replace("tls", "tcp"), "--not-isolated"),
-            "--not-isolated needs tls://, and root",
-        ),
+        (ADDRESS, "bwrap fails: a student's program could reach the"),
+        (f"tcp{ADDRESS[3:]} --not-isolated", "--not-isolated needs tls://, and root"),
     ],
 )
 def test_a_worker_that_cannot_isolate_refuses_to_start(tmp_path, start, monkeypatch, words, why):
     monkeypatch.setenv("PATH", path_without_namespaces(tmp_path))
-    call = start("one", *MACHINES, "worker", *words)
+    call = start("one", *MACHINES, "worker", *words.split())
     assert call.wait(60) == 1
     assert why in call.output and call.output.count("\n") == 1
 

@@ -4,7 +4,7 @@ import shutil
 from pathlib import Path
 
 import pytest
-from edits import LAUNCH_BAG, TALKER, J, put
+from edits import LAUNCH_BAG, TALKER, J, built, put
 
 from tutorial_check.isolation import bubblewrap
 from tutorial_check.launcher import examine
@@ -12,11 +12,6 @@ from tutorial_check.launcher import examine
 pytestmark = pytest.mark.skipif(
     not bubblewrap.granted().options, reason="no isolation here: nothing is hidden"
 )
-SETUP = {
-    "_setup_util.py": "CMAKE_PREFIX_PATH = r'{below}'.split(';')\n",
-    "setup.sh": ": ${{_CATKIN_SETUP_DIR:={devel}}}\n",
-    "setup.bash": "# as catkin has it\n",
-}
 
 
 @pytest.fixture
@@ -38,27 +33,18 @@ def verdicts(literal, underlay):
     return judge
 
 
-def away(path, home):
-    """Move a file or folder into the home folder; a link stays in its place."""
-    (home / "git").mkdir()
-    shutil.move(str(path.resolve()), str(home / "git" / path.name))
-    path.symlink_to(home / "git" / path.name)
-
-
 def test_a_workspace_that_is_a_link_was_built_over_the_suite(literal, underlay, home, verdicts):
     (home / "catkin_ws").symlink_to(literal.parent)
-    about = {"below": Path(underlay).parent, "devel": home / "catkin_ws" / "devel"}
-    about["devel"].mkdir()
-    for name, text in SETUP.items():
-        (about["devel"] / name).write_text(text.format(**about))
+    built(Path(underlay).parent)(home / "catkin_ws" / "src")
     assert "on top of this suite" in verdicts("2", home / "catkin_ws")["C1"].seen
 
 
 @pytest.mark.night
 @pytest.mark.parametrize(("what", "exercise"), [("", "2"), (J, "4.3"), (TALKER, "3")])
 def test_ones_own_links_are_followed(literal, home, verdicts, what, exercise):
-    """The whole src, a package, a file."""
-    away(literal / what, home)
+    path = literal / what  # of which a link stays
+    shutil.move(str(path.resolve()), str(home / path.name))
+    path.symlink_to(home / path.name)
     verdicts(exercise)
 
 

@@ -1,12 +1,10 @@
 """Programs that hang, fork, print without end or forge: an honest verdict, and no harm to others."""
 
-import contextlib
 import os
 import shutil
 import tempfile
 import textwrap
 from concurrent.futures import ThreadPoolExecutor
-from pathlib import Path
 
 import pytest
 from edits import JOY2TWIST, TALKER, put, write
@@ -14,6 +12,7 @@ from edits import JOY2TWIST, TALKER, put, write
 from tutorial_check.isolation import bubblewrap
 from tutorial_check.launcher import examine
 from tutorial_check.report.text import lines_of
+from tutorial_testing.processes import command_line
 
 FIRST = "#!/usr/bin/env python3\nimport os\n"
 MASTER = "xmlrpc.client\nxmlrpc.client.ServerProxy(os.environ['ROS_MASTER_URI'])"
@@ -59,19 +58,12 @@ JOINED = {
 
 
 def first_wrong(outcome):
-    """Return the id and the report of what is wrong first."""
-    results = [result for result in outcome.results if result.status == "wrong"]
-    return (results[0].id, "\n".join(lines_of(results[0]))) if results else (None, "")
+    return next(((one.id, "\n".join(lines_of(one))) for one in outcome.wrong), (None, ""))
 
 
 def processes_like(word):
     """Return the ids of running processes whose command line has a word."""
-    found = []
-    for pid in filter(str.isdigit, os.listdir("/proc")):
-        with contextlib.suppress(OSError):  # ended meanwhile; pathlib's glob would raise that
-            if word.encode() in Path(f"/proc/{pid}/cmdline").read_bytes():
-                found.append(pid)
-    return found
+    return [pid for pid in filter(str.isdigit, os.listdir("/proc")) if word in command_line(pid)]
 
 
 @pytest.fixture

@@ -67,7 +67,6 @@ def impossible(words, mode):
 
 @pytest.fixture(params=MODES)
 def mode(request):
-    """One that this user can try."""
     is_root = os.geteuid() == 0
     if request.param.startswith("root") and not is_root:
         pytest.skip("only root can try what holds for root")
@@ -80,7 +79,6 @@ def mode(request):
 
 @pytest.fixture
 def words(mode, folder):
-    """The words before a command with which it runs in a mode."""
     # Where this suite does not know the numbers of system calls, there is no Landlock.
     machine = ["setarch", "i686"] if mode.endswith("not isolated") else []
     if not mode.startswith("a user") or os.geteuid() != 0:

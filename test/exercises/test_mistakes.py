@@ -28,7 +28,6 @@ def named(rows):
 
 
 def wrong_of(outcomes):
-    """All results that are wrong."""
     assert not [each.trouble for each in outcomes if each.trouble]
     return [one for each in outcomes for one in each.wrong]
 

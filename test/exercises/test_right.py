@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 import variants
-from edits import JOY2TWIST, LAUNCH_BAG, LISTENER, TALKER, B, apply, chmod, put, write
+from edits import *
 from test_mistakes import is_reported
 
 from tutorial_check.course import checks_of, read_course
@@ -18,13 +18,12 @@ REPOSITORY = Path(__file__).resolve().parents[2]
 CHECKS = checks_of(read_course())
 NOETIC = "/opt/ros/noetic/setup.bash"  # where ROS is not of Debian
 LATE = "def made():\n    rospy.sleep(0.5)\n    return rospy.Publisher('/cmd_vel', Twist)\n\n\n"
-SUB, PUB = 'rospy.Subscriber("/joy", Joy, callback)', "pub = rospy.Publisher('/cmd_vel', Twist)"
+PUB = "pub = rospy.Publisher('/cmd_vel', Twist)"
 HEARD = 'I heard %s", data.data)'
 INSTALL = "\ncatkin_install_python(PROGRAMS scripts/talker.py scripts/listener.py DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})"
 
 
 def another(name, cmake, export=""):
-    """A package besides those of the exercises."""
     xml = f"<package><name>{name}</name><version>0.0.0</version><description>x</description><maintainer email='s@u.example'>s</maintainer><license>x</license><buildtool_depend>catkin</buildtool_depend>{export}</package>"
     text = f"cmake_minimum_required(VERSION 3.5)\nproject({name})\n{cmake}\n"
     return [write(f"{name}/package.xml", xml), write(f"{name}/CMakeLists.txt", text)]
@@ -48,6 +47,8 @@ NOTES = [
     ("the real joy, whose header is not here", [*another("joy", FAILS), write("joy/x.cpp", "#include <nowhere.h>\n")], ["2", "5"], {"C4": ("another package fails:", "nowhere.h"), "C26": ()}),
     ("the real kobuki_msgs", [*another("kobuki_msgs", MAKES), write("kobuki_msgs/msg/Mine.msg", "uint8 x\n")], ["2"], {"C1": ("never built",), "C4": ()}),
     ("a package of CMake alone", another("plain", "", "<export><build_type>cmake</build_type></export>"), ["2"], {"C4": ("another package fails: CMake: This workspace contains non-catkin packages in it, and",)}),
+    ("a recording of another topic", [remove(f"{J}/bag/joy.bag"), chatter(f"{B}/chatter.bag")], ["4.2"], {"C11": (f"{B}/chatter.bag", "no recording of /joy; topics: /chatter")}),
+    ("a devel folder from another home, in parts", [built("/nowhere", home="/home/ada/ws"), remove("../devel/_setup_util.py")], ["2"], {"C1": ("made elsewhere (/home/ada/ws/devel)",)}),
     (*variants.REPORTS, {"C29": (), "C33": ()}),
 ]  # fmt: skip
 

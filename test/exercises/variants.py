@@ -1,46 +1,24 @@
 """Right solutions that differ from the handout's, each a row: (what, edits, exercises to check)."""
 
-from edits import (
-    CLASS,
-    JOY2TWIST,
-    LAUNCH_BAG,
-    LAUNCH_JOY,
-    LISTENER,
-    REAL,
-    TALKER,
-    TURTLEBOT,
-    B,
-    J,
-    chmod,
-    copy,
-    latin1,
-    move,
-    put,
-    write,
-)  # fmt: skip
+from edits import *
 from grammar import RIGHT
 from mistakes_world import RIGHT as RIGHT_IN_WORLD
 
-SHOW = 'rospy.loginfo(rospy.get_name() + ": axes [%.2f, %.2f, %.2f, %.2f, %.2f, %.2f]" % data.axes)'
-X = "msg.linear.x = data.axes[1]"
 PUB = "    pub = rospy.Publisher('/cmd_vel', Twist)\n"
-PUBLISH = "pub.publish(msg)"
-REMAP = '<remap from="/cmd_vel" to="/cmd_vel_mux/input/teleop"/>'
 TWIST = "    msg = Twist()\n    msg.linear.x = data.axes[1]\n    msg.angular.z = data.axes[0]\n"
 MANIFEST = "import roslib; roslib.load_manifest('joy2twist')\n"
 END_OF_CLASS = '    except:\n        rospy.loginfo("The node has ended.")\n'
 
 
 def j(what, old, new):
-    """A row with one change in joy2twist.py."""
     return (what, [put(JOY2TWIST, old, new)], ["4.3"])
 
 
 def c(what, *changes):
-    """A row with changes in the class."""
     return (what, [put(CLASS, old, new) for old, new in changes], ["6.2"])
 
 
+SHUTDOWN = '    def shutdown(self):\n        rospy.loginfo("The robot is being stopped")\n        self.cmd_vel.publish(Twist())\n        rospy.sleep(1)\n'
 ENDS = "        rospy.on_shutdown(self.shutdown)\n"
 MAKES = "        self.cmd_vel = rospy.Publisher('/cmd_vel', Twist)\n"
 # Of which a note is looked for, too.
@@ -104,6 +82,8 @@ ROWS = [
     ("the first version beside the second in a launch file", [copy(JOY2TWIST, f"{J}/scripts/first.py"), put(f"{J}/scripts/first.py", PUB, ""), put(f"{J}/scripts/first.py", PUBLISH, "pass"), put(LAUNCH_BAG, "<launch>", '<launch>\n  <node pkg="joy2twist" type="first.py" name="first"/>')], ["5"]),
     ("a copy of another system's toplevel file", [write("CMakeLists.txt", "# toplevel CMakeLists.txt for a catkin workspace\nfind_package(catkin NO_DEFAULT_PATH REQUIRED PATHS /opt/ros/noetic)\n", 0o644)], ["2"]),
     ("a bag of another name", [move(f"{J}/bag/joy.bag", f"{J}/bags/figure of eight.bag".replace(" ", "_")), put(LAUNCH_BAG, "bag/joy.bag", "bags/figure_of_eight.bag")], ["4.2", "5"]),
+    ("a recording beside others", [chatter(f"{B}/chatter.bag"), chatter(f"{J}/bag/a.bag"), move(f"{J}/bag/joy.bag", "joy.bag")], ["4.2"]),
+    ("a recording beside a damaged one of another package", [write(f"{B}/chatter.bag", "none"), move(f"{J}/bag/joy.bag", f"{J}/b.bag")], ["4.2"]),
     ("joy_node with parameters, in a group", [put(LAUNCH_JOY, '  <node pkg="joy" name="joy_node" type="joy_node">\n', '  <group>\n  <node pkg="joy" name="stick" type="joy_node">\n    <param name="dev" value="/dev/input/js0"/>\n    <param name="autorepeat_rate" value="10"/>\n'), put(LAUNCH_JOY, "  </node>\n</launch>", "  </node>\n  </group>\n</launch>")], ["5"]),
     ("joy_node that repeats nothing, a window for joy2twist", [put(LAUNCH_JOY, 'type="joy_node">\n', 'type="joy_node">\n    <param name="autorepeat_rate" value="0"/>\n'), put(LAUNCH_JOY, 'type="joy2twist.py"', 'type="joy2twist.py" launch-prefix="xterm -hold -e"')], ["5"]),
     ("the joystick in an included file", [put(LAUNCH_JOY, '  <node pkg="joy" name="joy_node" type="joy_node">\n  </node>\n', '  <include file="$(find gamepad)/launch/joystick.launch">\n    <arg name="joy_dev" value="/dev/input/js1"/>\n  </include>\n')], ["5"]),
@@ -119,6 +99,12 @@ ROWS = [
     c("object, ROSInterruptException", ("NewJoy2Twist()", "NewJoy2Twist(object)"), ("        NewJoy2Twist(object)\n", "        NewJoy2Twist()\n"), ("    except:\n", "    except rospy.ROSInterruptException:\n")),
     c("spin outside of __init__", ("        rospy.spin()\n", ""), ("        NewJoy2Twist()\n", "        NewJoy2Twist()\n        rospy.spin()\n")),
     c("unregisters, no sleep, zeros", ("        rospy.Subscriber(", "        self.sub = rospy.Subscriber("), ("        self.cmd_vel.publish(Twist())\n        rospy.sleep(1)", "        self.sub.unregister()\n        for _ in range(5):\n            self.cmd_vel.publish(Twist())\n            rospy.sleep(0.05)")),
+    c("a method of another object at the end", (ENDS, "        self.robot = type('Robot', (), {'stop': lambda robot: self.shutdown()})()\n        rospy.on_shutdown(self.robot.stop)\n")),
+    c("a method by another name at the end", (ENDS, "        self.ended = self.shutdown\n        rospy.on_shutdown(self.ended)\n")),
+    c("a callback made by partial", ("import rospy\n", "import rospy\nfrom functools import partial\n"), ("Joy, self.callback)", "Joy, partial(self.callback))")),
+    c("shutdown from a base class that is made by type()", (SHUTDOWN, ""), ("class NewJoy2Twist():", "def end(self):\n    self.cmd_vel.publish(Twist())\n    rospy.sleep(1)\n\n\nBase = type('Base', (), {'shutdown': end})\n\n\nclass NewJoy2Twist(Base):")),
+    ("the step before is a class already", [copy(CLASS, JOY2TWIST), put(JOY2TWIST, ENDS, "")], ["6.2"]),
+    ("an old copy of the class that is not executable", [copy(CLASS, f"{J}/old/new_joy2twist.py"), chmod(f"{J}/old/new_joy2twist.py", 0o644)], ["6.2"]),
     c("anonymous", ("anonymous=False", "anonymous=True")),
     c("throttled", ("rospy.loginfo(rospy.get_name()", "rospy.loginfo_throttle(1.0, rospy.get_name()")),
     c("a class named Joy2Twist, with main()", ("NewJoy2Twist", "Joy2Twist"), ("if __name__ == '__main__':\n    try:\n        Joy2Twist()\n" + END_OF_CLASS, "def main():\n    Joy2Twist()\n\n\nif __name__ == '__main__':\n    main()\n")),

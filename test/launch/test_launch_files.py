@@ -76,23 +76,20 @@ def loaded(monkeypatch, file, *arguments):
         ("launch_joy_node_realTurtlebot.launch", "virtual:=yes", "must be true or false"),
         ("student.launch", "name:=", "is missing: which robot of the classroom"),
         ("student.launch", "name:=ada bag:=/no/joy.bag", "cannot be read"),
+        ("launch_joy_node_realTurtlebot.launch", "rviz:=false bag:={}/sparse.bag",
+         "LB (button 4) or RB (button 5), the dead-man button of"),
     ],
-)
-def test_a_mistake_in_an_argument_starts_nothing(monkeypatch, capfd, file, arguments, line):
+)  # fmt: skip
+def test_a_mistake_in_an_argument_starts_nothing(
+    monkeypatch, capfd, tmp_path, file, arguments, line
+):
     """Which values are allowed is for a unit test."""
-    words = arguments.split()
+    with rosbag.Bag(str(tmp_path / "sparse.bag"), "w") as bag:
+        bag.write("/joy", Joy(axes=[0.0, 1.0], buttons=[0] * 12), rospy.Time(1))
+    words = arguments.format(tmp_path).split()
     with pytest.raises(roslaunch.RLException):
         loaded(monkeypatch, file, *words)
     assert f"roslaunch: {words[-1]}: {line}" in capfd.readouterr().err
-
-
-def test_a_recording_without_a_dead_man_starts_nothing_on_a_turtlebot(monkeypatch, capfd, tmp_path):
-    with rosbag.Bag(str(tmp_path / "sparse.bag"), "w") as bag:
-        bag.write("/joy", Joy(axes=[0.0, 1.0], buttons=[0] * 12), rospy.Time(1))
-    file = "launch_joy_node_realTurtlebot.launch"
-    with pytest.raises(roslaunch.RLException):
-        loaded(monkeypatch, file, f"bag:={tmp_path}/sparse.bag", "rviz:=false")
-    assert "LB (button 4) or RB (button 5), the dead-man button of" in capfd.readouterr().err
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,6 @@ Each has a network of its own where that is granted (to root): a master still ca
 node that died, which may by then be the port of another test's node.
 """
 
-import contextlib
 import functools
 import os
 import shutil
@@ -17,7 +16,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-from tutorial_testing.rostest_files import is_rostest
+from tutorial_testing.processes import signal_all, with_environment
 
 RESULTS = Path(os.environ["TUTORIAL_RESULTS"]) / "rostests"
 ONE = Path(__file__).with_name("one.test")
@@ -42,10 +41,15 @@ def pytest_unconfigure(config):
 
 
 def pytest_collect_file(file_path, parent):
-    known = {".test": lambda path: path != ONE, ".py": is_rostest}
-    if known.get(file_path.suffix, lambda path: False)(file_path):
+    beside, is_named = file_path.with_suffix(".test"), parent.session.isinitpath(file_path)
+    is_alone = file_path.suffix == ".py" and not beside.exists() and not is_named
+    if file_path.parent != ONE.parent and (is_alone or file_path == beside):
         return RosFile.from_parent(parent, path=file_path)
     return None
+
+
+def pytest_pycollect_makemodule(module_path, parent):  # of a file that is named
+    return RosFile.from_parent(parent, path=module_path)
 
 
 def pytest_collection_modifyitems(items):
@@ -54,10 +58,8 @@ def pytest_collection_modifyitems(items):
 
 class RosFile(pytest.File):
     def collect(self):
-        command = [str(self.path)]
-        if self.path.suffix == ".py":
-            robot = str(self.path.parent.name == "cockpit").lower()
-            command = [str(ONE), f"name:={self.path.stem}", f"robot:={robot}"]
+        beside = self.path.with_suffix(".test")
+        command = [beside] if beside.exists() else [ONE, f"name:={self.path.stem}"]
         for turn in range(self.config.option.times):
             name = f"{self.path.stem}_{turn + 1}" if turn else self.path.stem
             yield RosTest.from_parent(self, name=name, command=command)
@@ -103,12 +105,6 @@ def own_network():
 
 def end_all(home):
     """Kill what rostests started, known by ROS_HOME: roslaunch gives each node its own session."""
-    found = [None]
-    while found:
-        found = []
-        for process in Path("/proc").glob("[0-9]*"):
-            with contextlib.suppress(OSError):  # it has ended, or is another user's
-                if f"ROS_HOME={home}".encode() in (process / "environ").read_bytes():
-                    found.append(process)
-                    os.kill(int(process.name), signal.SIGKILL)
-        time.sleep(0.05 * bool(found))
+    for pids in iter(lambda: with_environment(f"ROS_HOME={home}"), []):
+        signal_all(pids, signal.SIGKILL)
+        time.sleep(0.05)

@@ -10,6 +10,7 @@ from pathlib import Path
 import rospy
 from sensor_msgs.msg import Joy
 
+from node_kit.rospy_patches.connections import sender_of
 from tutorial_testing.nodes import init_node
 from tutorial_testing.ports import free_port
 from tutorial_testing.processes import Program, command_line, descendants
@@ -62,12 +63,6 @@ class Bridge:
         assert not self.program.ended, self.output
         return all(map(self.process, SIDES))
 
-    def send(self, side, number):
-        """Send a signal to a side; return its process."""
-        pid = self.process(side)
-        os.kill(pid, number)
-        return pid
-
 
 class Stick:
     """Publishes Joys of which no two are alike, at an even rate, until it is released."""
@@ -111,24 +106,8 @@ class Stick:
         return time.time()
 
 
-class Ear:
-    """What comes on a topic of ROS 1: (node, message)."""
-
-    def __init__(self, topic, kind):
-        self.heard = []
-        self.subscriber = rospy.Subscriber(topic, kind, self._keep, tcp_nodelay=True)
-
-    def _keep(self, message):
-        self.heard.append((message._connection_header["callerid"], message))
-
-    @property
-    def last(self):
-        return self.heard[-1][1] if self.heard else None
-
-
 def carried(twists):
-    """The velocities that came over the bridge."""
-    return [(one.linear.x, one.angular.z) for sender, one in twists.heard if sender == BRIDGE]
+    return [(one.linear.x, one.angular.z) for one in twists if sender_of(one) == BRIDGE]
 
 
 def wait_for_doctor(start, line):

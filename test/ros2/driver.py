@@ -6,24 +6,18 @@ import rclpy
 from geometry_msgs.msg import Twist
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
-
-def main(durability, reliability, speed):
-    """Run until Ctrl-C."""
-    rclpy.init()
-    node = rclpy.create_node("driver")
-    profile = QoSProfile(
-        depth=1,
-        durability=DurabilityPolicy[durability.upper()],
-        reliability=ReliabilityPolicy[reliability.upper()],
-    )
-    publisher, twist = node.create_publisher(Twist, "/cmd_vel", profile), Twist()
-    twist.linear.x = float(speed)
-    node.create_timer(0.1, lambda: publisher.publish(twist))
-    try:
-        rclpy.spin(node)
-    finally:
-        node.destroy_node()  # so that others know at once
-
-
-if __name__ == "__main__":
-    main(*sys.argv[1:])
+durability, reliability, speed = sys.argv[1:]
+rclpy.init()
+node = rclpy.create_node("driver")
+profile = QoSProfile(
+    depth=1,
+    durability=DurabilityPolicy[durability.upper()],
+    reliability=ReliabilityPolicy[reliability.upper()],
+)
+publisher, twist = node.create_publisher(Twist, "/cmd_vel", profile), Twist()
+twist.linear.x = float(speed)
+node.create_timer(0.1, lambda: publisher.publish(twist))
+try:
+    rclpy.spin(node)
+finally:
+    node.destroy_node()  # so that others know at once

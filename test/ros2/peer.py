@@ -7,18 +7,10 @@ from std_msgs.msg import String
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
-
-def main():
-    """Run until Ctrl-C."""
-    rclpy.init()
-    node = rclpy.create_node("peer")
-    reply = node.create_publisher(String, "/reply", LATCHED)
-    node.create_subscription(String, "/note", reply.publish, LATCHED)
-    node.create_subscription(
-        Image, "/picture", lambda image: print("picture", len(image.data), flush=True), LATCHED
-    )
-    rclpy.spin(node)
-
-
-if __name__ == "__main__":
-    main()
+rclpy.init()
+node = rclpy.create_node("peer")
+reply = node.create_publisher(String, "/reply", LATCHED)
+node.create_subscription(String, "/note", reply.publish, LATCHED)
+show = lambda image: print("picture", len(image.data), flush=True)  # noqa: E731
+node.create_subscription(Image, "/picture", show, LATCHED)
+rclpy.spin(node)

@@ -16,6 +16,7 @@ from std_msgs.msg import String
 
 from node_kit import ros2_python
 from node_kit.raw_messages import senders, subscribe
+from node_kit.rospy_patches.connections import sender_of
 from tutorial_testing.robot import Robot
 from tutorial_testing.waiting import wait_for
 
@@ -31,8 +32,7 @@ VELOCITY = {"/cmd_vel": "to_ros1"}
 
 def latching(twists):
     """[(velocity, "1" if its connection latches)]"""
-    heard = [message for _, message in twists.heard]
-    return [(each.linear.x, each._connection_header["latching"]) for each in heard]
+    return [(each.linear.x, each._connection_header["latching"]) for each in twists]
 
 
 def latched(topic, message):
@@ -115,8 +115,8 @@ def test_what_is_latched_is_carried_to_late_subscribers_ten_megabytes_too(bridge
     bridge({"/note": "to_ros2", "/reply": "to_ros1", "/picture": "to_ros2"})
     picture = latched("/picture", Image(height=1, width=10_000_000, data=bytes(10_000_000)))
     peer, reply = start_ros2(PEER), ear("/reply", String)
-    wait_for(lambda: reply.heard, "the note, and back")
-    assert (reply.heard[0][0], reply.last.data) == (BRIDGE, HOSTILE)
+    wait_for(lambda: reply, "the note, and back")
+    assert (sender_of(reply[0]), reply[-1].data) == (BRIDGE, HOSTILE)
     wait_for(lambda: "picture 10000000" in peer.output, "ten megabytes")
     note.unregister()
     picture.unregister()
@@ -139,7 +139,7 @@ def test_a_type_that_ros2_lacks_or_that_changes_is_one_line_and_others_go_on(
     line = "/changing is now geometry_msgs/msg/Twist in ROS 1"
     wait_for(lambda: line in made.output, "a line")
     reply, _ = ear("/reply", String), start_ros2(PEER)
-    wait_for(lambda: reply.heard, "a note after all that")
+    wait_for(lambda: reply, "a note after all that")
     assert "Traceback" not in made.output
     for publisher in kept:
         publisher.unregister()
@@ -150,7 +150,7 @@ def test_a_topic_of_both_directions_has_no_echo(bridge, start_ros2, ear):
     start_ros2(PROGRAMS / "talker.py")
     listener, chatter = start_ros2(PROGRAMS / "listener.py"), ear("/chatter", String)
     publisher = rospy.Publisher("/chatter", String, queue_size=10)
-    wait_for(lambda: len(chatter.heard) > 20, "a talker of ROS 2")
+    wait_for(lambda: len(chatter) > 20, "a talker of ROS 2")
 
     def is_heard(text):
         publisher.publish(text)
@@ -161,7 +161,7 @@ def test_a_topic_of_both_directions_has_no_echo(bridge, start_ros2, ear):
         publisher.publish("the same again")
         wait_for(lambda text=f"from here {number}.": is_heard(text), "what was said")
     assert listener.output.count("the same again") == 20
-    own = [text.data for sender, text in chatter.heard if sender == BRIDGE]
+    own = [text.data for text in chatter if sender_of(text) == BRIDGE]
     assert len(own) == len(set(own)) and all("hello" in text for text in own)
 
 

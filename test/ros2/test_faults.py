@@ -10,7 +10,8 @@ import signal
 import time
 
 import pytest
-from drive import CLASS, RATE, REST_S, ZERO, Bridge, Ear, Stick, carried, wait_for_doctor
+import rospy
+from drive import CLASS, RATE, REST_S, ZERO, Bridge, Stick, carried, wait_for_doctor
 from geometry_msgs.msg import Twist
 
 from node_kit import ros2_python
@@ -30,7 +31,8 @@ class Way:
     """The robot, the bridge, the program in ROS 2, and what can be done to each."""
 
     def __init__(self, start, robot):
-        self.twists, self.robot = Ear("/cmd_vel", Twist), robot
+        self.twists, self.robot = [], robot
+        rospy.Subscriber("/cmd_vel", Twist, self.twists.append, tcp_nodelay=True)
         start("rosrun", "fake_turtlebot_sim", "fake_turtlebot.py")
         self.bridge = Bridge(start("rosrun", "ros2_bridge", "bridge"))
         self._start = lambda: start(*ros2_python.command([str(CLASS)]))

@@ -17,7 +17,7 @@ from tutorial_testing.waiting import DEADLINE_S
 REPOSITORY = Path(__file__).resolve().parents[2]
 LONGEST = (
     "test_handout.py", "test_linked_pages.py", "test_readme.py", "test_other_programs.py",
-    "test_workspaces.py",
+    "test_workspaces.py", "test_cockpit.py",
 )  # fmt: skip
 
 
@@ -47,7 +47,6 @@ def host():
 
 @pytest.fixture(scope="session")
 def tutorial():
-    """The path of the command ./tutorial."""
     return str(REPOSITORY / "tutorial")
 
 
@@ -103,7 +102,6 @@ def own_workspace(suite_workspace, tmp_path, monkeypatch):
 
 @pytest.fixture(scope="session")
 def screen():
-    """The name of a virtual screen."""
     with virtual_screen(1200, 800) as name:  # pixels, those of RViz's window in sim.rviz
         yield name
 

@@ -120,7 +120,7 @@ NOT_MADE = {
     "SyntaxError: Missing parentheses in call to 'print'": "Python's own",
     "IndentationError": "Python's own",
     "but our version has": "rospy's own",
-    "new node registered with same name": "beginner_tutorials_names.py",
+    "new node registered with same name": "starts.py",
     "TF_OLD_DATA ignoring data from the past": "doctor_findings.py",
     "Lookup would require extrapolation": "doctor_findings.py",
     "because they are not part of the same tree": "test_doctor_judgement.py",

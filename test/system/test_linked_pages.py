@@ -14,6 +14,7 @@ from tutorial_testing.student import CTRL_C, END
 REPOSITORY = Path(__file__).resolve().parents[2]
 TALKERS = REPOSITORY / "test/exercises/literal/beginner_tutorials/scripts"
 WRITTEN = REPOSITORY / "test/system/linked_pages"  # what the pages show, in our own words
+SOLVED = REPOSITORY / "common/doc/wiki/solutions/right/beginner_tutorials"
 WS = "~/ros/hydro/catkin_ws"
 TWIST = "geometry_msgs/Twist"
 CMD_VEL = f"/turtle1/cmd_vel {TWIST}"
@@ -99,7 +100,7 @@ RQT_CONSOLE = [
 ]
 ROSLAUNCH = [
     ("1", "roscd beginner_tutorials\nmkdir launch config scripts", ""),
-    ("write", "beginner_tutorials/launch", WRITTEN / "launch"),
+    *(("write", "beginner_tutorials/launch", one / "launch") for one in (SOLVED, WRITTEN)),
     ("write", "beginner_tutorials/config", WRITTEN / "config"),
     ("sim", "roslaunch beginner_tutorials turtlemimic.launch", r"process\[mimic-3\]"),
     ("keys", f"rostopic pub /turtlesim1{CMD_VEL} -r 1 -- '[2.0, 0.0, 0.0]' '[0.0, 0.0, -1.8]'", ""),
@@ -121,11 +122,11 @@ PUBLISHER_AND_SERVER = [
     ("1", "roscd beginner_tutorials\ncd scripts", ""),
     ("1", "wget https://raw.github.com/talker.py", "type talker.py and listener.py"),
     ("write", "beginner_tutorials/scripts", TALKERS),
-    ("write", "beginner_tutorials/scripts", WRITTEN / "scripts"),
+    ("write", "beginner_tutorials/scripts", SOLVED / "scripts"),
     ("1", f"chmod +x *.py\ncd {WS}\ncatkin_make", "SRV beginner_tutorials/AddTwoInts"),
     ("1", "python -c 'from beginner_tutorials.msg import Num; print(Num(5))'", "^num: 5"),
-    ("sim", "rosrun beginner_tutorials add_two_ints_server.py", "adds"),
-    ("1", "rosrun beginner_tutorials add_two_ints_client.py 1 3", "sum: 4"),
+    ("sim", "rosrun beginner_tutorials add_two_ints_server.py", "ready to add"),
+    ("1", "rosrun beginner_tutorials add_two_ints_client.py 1 3", r"1 \+ 3 = 4"),
     ("1", "rosservice call /add_two_ints 2 5", "sum: 7"),
     ("sim", CTRL_C, ""),
 ]

@@ -38,14 +38,12 @@ def nothing_set(monkeypatch):
 
 
 def said(host, *command):
-    """Return the lines that a command on a host prints."""
     with host.start(*command) as program:
         assert program.wait() == 0, program.output
         return program.output.splitlines()
 
 
 def listening(host):
-    """Return the TCP ports on which anything listens on a host."""
     tables = "\n".join(said(host, "cat", "/proc/net/tcp", "/proc/net/tcp6"))
     return {int(port, 16) for port in re.findall(r"^ *\d+: \w+:(\w+) \w+:0000 0A ", tables, re.M)}
 

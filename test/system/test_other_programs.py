@@ -17,7 +17,7 @@ import pytest
 from tutorial_check.source import debian_packages
 from tutorial_testing.keys import Tmux
 from tutorial_testing.ports import free_port
-from tutorial_testing.processes import Program, Started
+from tutorial_testing.processes import Program
 from tutorial_testing.robot import OBSERVER, PERIOD_S, Robot
 from tutorial_testing.waiting import Stopwatch, lost_s, wait_for
 
@@ -85,7 +85,7 @@ WAIT = {
 }
 
 
-class Place(Started):
+class Place(Robot):
     """A robot with its observer on a master of its own, and the shell of a student there."""
 
     def __init__(self, folder, robot):
@@ -98,21 +98,16 @@ class Place(Started):
         launch = Program(TUTORIAL, "run", "roslaunch", *self._launch, **self.environment)
         self._stack.enter_context(launch)
         wait_for(lambda: "started core service" in launch.output, "master")
-        self.robot = Robot()
-        self._stack.push(self.robot)
-        self.robot.observe(OBSERVER, **self.environment)
+        self.observe(OBSERVER, **self.environment)
 
     def command(self, line):
-        """Return that of a line in the student's shell."""
         words = ("run", "--in", self._folder, "bash", "-ec", f"cd {self.scripts}; {line}")
         return (TUTORIAL, *words)
 
     def start(self, line):
-        """Start such a line."""
         return Program(*self.command(line), **self.environment)
 
     def run(self, line):
-        """Return what such a line prints."""
         with self.start(line) as program:
             assert program.wait() == 0, program.output
             return program.output
@@ -139,10 +134,10 @@ def places(tmp_path_factory):
 def test_a_program_drives_or_prints_what_it_does_on_a_robot(row, places):
     place = places[row.robot]
     place.prepare(row)
-    begin, watch = len(place.robot.odometry), Stopwatch()
+    begin, watch = len(place.odometry), Stopwatch()
 
     def done():
-        velocities = [map(abs, moment.velocity) for moment in place.robot.odometry[begin:]]
+        velocities = [map(abs, moment.velocity) for moment in place.odometry[begin:]]
         metres, radians = (PERIOD_S * sum(one) for one in zip((0, 0), *velocities))
         # A program that drives by time drives less of its way on a busy machine.
         share = max(0.2, 1 - watch.lost_s / LEG_S)
@@ -154,7 +149,7 @@ def test_a_program_drives_or_prints_what_it_does_on_a_robot(row, places):
         assert "Traceback" not in it.output
     if row.robot == "rbx1":  # obeys the last command until the next one
         place.run("rostopic pub -1 cmd_vel geometry_msgs/Twist '{}'")
-    place.robot.wait_for_rest()
+    place.wait_for_rest()
 
 
 def test_a_key_that_x11_repeats_drives_without_a_break(places):
@@ -162,7 +157,7 @@ def test_a_key_that_x11_repeats_drives_without_a_break(places):
     command = place.command(f"rosrun others {KEYBOARD.command}")
     terminal = Tmux(shlex.join(["env", *map("=".join, place.environment.items()), *command]))
     wait_for(lambda: "Moving around" in terminal.screen, "program")
-    begin, until = len(place.robot.odometry), time.monotonic() + 3
+    begin, until = len(place.odometry), time.monotonic() + 3
     lost = lost_s()
     terminal.press("i")
     time.sleep(0.66)  # X11's delay until a held key repeats
@@ -170,9 +165,9 @@ def test_a_key_that_x11_repeats_drives_without_a_break(places):
         terminal.press("i")
         time.sleep(0.03)
     lost = (lost_s() - lost) / PERIOD_S
-    terminal.hold("s", lambda: not place.robot.now.moves, "robot at rest")
+    terminal.hold("s", lambda: not place.now.moves, "robot at rest")
     terminal.close()
-    moving = "".join("-M"[moment.moves] for moment in place.robot.odometry[begin:]).strip("-")
+    moving = "".join("-M"[moment.moves] for moment in place.odometry[begin:]).strip("-")
     assert len(moving) + lost > 1.5 / PERIOD_S, moving
     assert moving.count("M") + lost > 0.8 * len(moving), moving
 
@@ -208,7 +203,6 @@ def test_what_debian_lacks_and_what_takes_its_place(places):
 
 
 def shown(*packages):
-    """Return those of these packages that Debian has."""
     command = ("apt-cache", "show", "--no-all-versions", *packages)
     text = subprocess.run(command, capture_output=True, text=True, check=False).stdout
     return set(re.findall(r"^Package: (\S+)$", text, re.MULTILINE))

@@ -22,15 +22,6 @@ MANY_TOPICS = [sys.executable, str(Path(__file__).with_name("many_topics.py"))]
 READ = {"stdout": subprocess.PIPE, "text": True}
 
 
-def start_cockpit(stack):
-    """(port, tokens to look and to drive) of a cockpit that serves its page."""
-    port = str(free_port())
-    command = [node_path("cockpit", "cockpit.py"), "--port", port, "--lan"]
-    process = stack.enter_context(running(command, **READ))
-    lines = [process.stdout.readline() for _ in range(2)]
-    return port, [line.partition("token=")[2].strip() for line in lines]
-
-
 @contextmanager
 def cockpit():
     """(port, tokens to look and to drive) of a cockpit with its page, a robot and joy2twist."""
@@ -38,7 +29,11 @@ def cockpit():
         stack.enter_context(master())
         for command in (JOY2TWIST, FAKE_TURTLEBOT):
             stack.enter_context(running(command))
-        yield start_cockpit(stack)
+        port = str(free_port())
+        command = [node_path("cockpit", "cockpit.py"), "--port", port, "--lan"]
+        process = stack.enter_context(running(command, **READ))
+        lines = [process.stdout.readline() for _ in range(2)]
+        yield port, [line.partition("token=")[2].strip() for line in lines]
 
 
 def test_the_driver_goes_on_beside_thirty_viewers_that_flood(figure):

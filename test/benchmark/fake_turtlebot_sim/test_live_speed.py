@@ -1,25 +1,17 @@
 """The running node: rate, jitter, latency, processor time; beside a bare rospy node."""
 
+import live
 import numpy as np
 import pytest
-from live import (
-    BARE_NODE,
-    FAKE_TURTLEBOT,
-    PERIOD_NS,
-    delays,
-    lost_periods,
-    master,
-    observe,
-    running,
-    topics_of,
-)
+from live import BARE_NODE, FAKE_TURTLEBOT, PERIOD_NS, lost_periods, observe, topics_of
 
 MESSAGES = ["/odom", "/tf", "/joint_states"]
+BEAMS, ROBOTS, SECONDS, MOST_LOAD = 640, 30, 20, 0.3  # of a class that scans
 
 
 @pytest.fixture(scope="module", autouse=True)
 def ros_master():
-    with master():
+    with live.master():
         yield
 
 
@@ -41,8 +33,8 @@ def test_a_minute_of_one_robot(figure):
 
 
 def test_a_new_command_shows_at_once(figure):
-    with running(FAKE_TURTLEBOT):
-        took_s = delays("cmd_vel", 13.7, 200)  # any moment of the period
+    with live.running(FAKE_TURTLEBOT):
+        took_s = live.delays("cmd_vel", 13.7, 200)  # any moment of the period
     median_ms, worst_ms = np.quantile(took_s, [0.5, 0.99]) * 1e3
     what = "command to /odom, median and 99 of 100"
     figure(what, f"{median_ms:.1f}, {worst_ms:.1f} ms", "≤ 25 ms")
@@ -69,3 +61,15 @@ def test_growth_with_the_number_of_robots(figure):
     figure("processor time, 100 / 10 robots", f"{loads[100] / loads[10]:.1f}", "≤ 10")
     assert lost == 0
     assert loads[100] <= 10 * loads[10]
+
+
+def test_a_class_that_scans_in_the_maze(figure):
+    robots = [*FAKE_TURTLEBOT, "_world:=maze", f"_robots:={ROBOTS}"]
+    heard, (load,) = observe([robots], topics_of(ROBOTS, "odom", "scan"), SECONDS)
+    lost = lost_periods({one: heard[one] for one in topics_of(ROBOTS, "odom")[1:]})
+    rate = sum(len(heard[one]["arrivals"]) for one in topics_of(ROBOTS, "scan")[1:]) / SECONDS
+    shown = f"{rate:,.0f} scans a second, {lost} periods lost, {load:.0%} of a core"
+    figure(f"{ROBOTS} robots that scan with {BEAMS} beams in the maze", shown, "0 lost, ≤ 30 %")
+    assert lost == 0
+    assert rate > 0.98 * ROBOTS * 10
+    assert load <= MOST_LOAD

@@ -90,7 +90,6 @@ def test_a_thousand_odometry_messages_a_second_pass_both_ways(bridge, figure):
 
 
 def publish(publisher, count):
-    """Publish odometry at an even rate."""
     message, begin_s = Odometry(), time.monotonic()
     for number in range(count):
         message.pose.pose.position.x = float(number)

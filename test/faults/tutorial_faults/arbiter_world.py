@@ -60,7 +60,6 @@ class ArbiterWorld(World):
     """The real Arbiter, and the invariants that it must keep."""
 
     def __init__(self, inputs):
-        """Take the parameters.Inputs."""
         self._inputs = sorted(inputs, key=lambda one: one.priority, reverse=True)
         self._spoke_s = {one.name: -math.inf for one in inputs}
         self._arbiter = Arbiter(inputs)

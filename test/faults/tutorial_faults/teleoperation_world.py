@@ -18,8 +18,6 @@ LARGEST = 1e6  # a length of all axes beyond this is noise
 
 
 class Message(NamedTuple):
-    """A message of a joystick node."""
-
     sender: str
     axes: tuple
     buttons: tuple
@@ -35,7 +33,6 @@ class Meaning:
     """Whether a Message is good, holds the dead-man button, has all released, stops, resets."""
 
     def __init__(self, p):
-        """p: joy2twist's Parameters."""
         self._p = p
         self._dead_men = [b for b in (p.enable_button, p.enable_turbo_button) if b >= 0]
         self._last = max([*self._dead_men, p.stop_button, p.stop_reset_button])

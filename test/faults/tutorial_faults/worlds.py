@@ -43,7 +43,10 @@ class Moment(int):
 
 
 class World:
-    """Shows events to real objects, by their public interface, and judges what they answer."""
+    """Shows events to real objects, by their public interface, and judges what they answer.
+
+    happen(event) yields the letter of each invariant that is violated, and how.
+    """
 
     now = Moment(0)
 
@@ -57,7 +60,3 @@ class World:
             return
         for letter, what in self.happen(event):
             raise AssertionError(f"({letter}) {what}, at {self.now - Moment(0):.6f} s: {event}")
-
-    def happen(self, event):
-        """Let an event happen; yield the letter of each invariant that is violated, and how."""
-        raise NotImplementedError

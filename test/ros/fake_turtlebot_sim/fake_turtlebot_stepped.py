@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """Commands in, pose out, step by step: the test is the source of /clock, so no machine is late.
 
 A step is over when the odometry with its stamp has come.
@@ -16,7 +15,7 @@ from std_srvs.srv import Empty as EmptyService
 from tf2_msgs.msg import TFMessage
 
 from tutorial_testing.robot import Moment, Robot
-from tutorial_testing.rostests import RosTest, run
+from tutorial_testing.rostests import RosTest
 from tutorial_testing.waiting import wait_for
 
 PERIOD_NS = 20_000_000
@@ -147,7 +146,3 @@ class SteppedRobotTest(RosTest):
 
     def warnings(self):
         return [line.msg for line in self.log if line.level >= Log.WARN]
-
-
-if __name__ == "__main__":
-    run()

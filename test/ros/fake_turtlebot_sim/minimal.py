@@ -1,15 +1,27 @@
-#!/usr/bin/python3
-"""The whole of minimal.launch, seen from outside as a TurtleBot 2 is."""
+"""The whole of minimal.launch, seen from outside as a TurtleBot 2 in a room is.
+
+Its topics; map, scan, bumpers, frames, and the way back from a wall; the mux after a suspension.
+"""
+
+import time
+from math import isfinite
 
 import rosgraph
 import rospy
 from geometry_msgs.msg import Twist, Vector3
-from kobuki_msgs.msg import ButtonEvent, MotorPower, SensorState
-from sensor_msgs.msg import Imu
+from kobuki_msgs.msg import BumperEvent, ButtonEvent, MotorPower, SensorState
+from nav_msgs.msg import OccupancyGrid, Odometry
+from rosgraph_msgs.msg import Log
+from sensor_msgs.msg import Imu, LaserScan
+from std_msgs.msg import String
+from tf2_msgs.msg import TFMessage
+from visualization_msgs.msg import MarkerArray
 
+from tutorial_testing.nodes import pid_of
+from tutorial_testing.rig import suspended
 from tutorial_testing.robot import Robot
-from tutorial_testing.rostests import RosTest, run
-from tutorial_testing.waiting import wait_for
+from tutorial_testing.rostests import RosTest
+from tutorial_testing.waiting import Stopwatch, wait_for
 
 BASE, MUX = "/mobile_base", "/cmd_vel_mux"
 KOBUKI = {  # below /mobile_base: the type in kobuki_msgs
@@ -38,10 +50,69 @@ TOPICS = {
     },
 }
 TURN = Twist(Vector3(0.2, 0.01, 0.02), Vector3(0.03, 0.04, 0.5))
+AT_THE_WALL = 4.0 - 0.178  # x of the robot's middle [m]
+BEHIND_M = 0.087  # by which the camera is behind the robot's middle
+LONGEST_PUSH_S = 0.5
+OUTAGE_S = 1.0
+BACKLOG = ([0.3] * 500 + [0.0] * 500) * 3 + [0.3] * 500  # [m/s], more than is read at once
+
+
+def ahead(speed):
+    return Twist(linear=Vector3(x=speed))
 
 
 class MinimalTest(RosTest):
-    def test_it_has_the_topics_of_a_turtlebot_2(self):
+    def test_1_map_markers_frames_and_scan_show_the_room(self):
+        grids, scans = self.record("map", OccupancyGrid), self.record("scan", LaserScan)
+        markers, frames = self.record("world_markers", MarkerArray), {}
+
+        def on_tf(message):
+            for one in message.transforms:
+                x = round(one.transform.translation.x, 6)
+                frames[one.header.frame_id, one.child_frame_id] = x
+
+        for topic in ("/tf", "/tf_static"):
+            self.hear(topic, TFMessage, on_tf)
+        expected = {("map", "odom"): 0.0, ("base_footprint", "camera_depth_frame"): -BEHIND_M}
+        wait_for(lambda: expected.items() <= frames.items(), "transforms")
+        wait_for(lambda: grids and markers and scans, "first messages")
+        self.assertEqual((grids[0].header.frame_id, set(grids[0].data)), ("map", {0, 100}))
+        self.assertEqual({marker.ns for marker in markers[0].markers}, {"walls", "posts"})
+        scan = scans[0]
+        self.assertEqual((scan.header.frame_id, len(scan.ranges)), ("camera_depth_frame", 640))
+        self.assertAlmostEqual(scan.ranges[320], 4.0 + BEHIND_M, delta=1e-3)  # the wall ahead
+
+    def test_2_at_the_wall_it_backs_off_however_the_stick_is_held(self):
+        events, unmeasured = [], set()  # (when, event); ranges that are no numbers
+        truths = self.record("base_pose_ground_truth", Odometry)
+        shown = self.record("bumper_markers", MarkerArray)
+        self.hear(
+            "mobile_base/events/bumper", BumperEvent,
+            lambda event: events.append((time.monotonic(), event)),
+        )  # fmt: skip
+        self.hear(
+            "scan", LaserScan,
+            lambda scan: unmeasured.update(str(one) for one in scan.ranges if not isfinite(one)),
+        )  # fmt: skip
+        teleop = self.publisher("cmd_vel_mux/input/teleop", Twist, queue_size=1)
+        wait_for(teleop.get_num_connections, "mux")
+
+        def drive(v, until, what):
+            wait_for(lambda: teleop.publish(ahead(v)) or until(), what)
+
+        watch = Stopwatch()
+        drive(0.7, lambda: len(events) >= 8, "the wall, met four times")
+        places = [truth.pose.pose.position.x for truth in truths]
+        self.assertLessEqual(max(places), AT_THE_WALL + 1e-9)
+        self.assertEqual([event.state for _, event in events[:8]], [1, 0] * 4)
+        self.assertEqual({event.bumper for _, event in events}, {BumperEvent.CENTER})
+        pushes = [off - on for (on, _), (off, _) in zip(events[::2], events[1::2])]
+        self.assertLess(max(pushes), LONGEST_PUSH_S + watch.lost_s)
+        self.assertTrue(shown)
+        self.assertEqual(unmeasured, {"nan"})  # at the wall, as on a real TurtleBot
+        drive(-0.5, lambda: truths[-1].pose.pose.position.x < 3.0, "way back, by the stick")
+
+    def test_3_it_has_the_topics_of_a_turtlebot_2(self):
         master = rosgraph.Master(rospy.get_name())
 
         def missing():
@@ -57,7 +128,7 @@ class MinimalTest(RosTest):
         # The base subscribes to the mux alone.
         self.assertNotIn("/cmd_vel", dict(master.getTopicTypes()))
 
-    def test_the_base_has_encoders_imu_motors_and_buttons_of_a_kobuki(self):
+    def test_4_the_base_has_encoders_imu_motors_and_buttons_of_a_kobuki(self):
         robot, core = self.enter(Robot()), self.record("mobile_base/sensors/core", SensorState)
         imu = self.record("mobile_base/sensors/imu_data", Imu)
         commands = self.record("mobile_base/commands/velocity", Twist)
@@ -67,7 +138,9 @@ class MinimalTest(RosTest):
         press = self.publisher("mobile_base/press", ButtonEvent)
         for publisher in (navi, motors, press):
             wait_for(publisher.get_num_connections, f"subscriber of {publisher.name}")
-        wait_for(lambda: robot.odometry and core and imu, "first messages")
+        robot.wait_for_rest()  # after the test before
+        core.clear()
+        wait_for(lambda: core and imu, "first messages")
 
         first = core[-1]
 
@@ -90,6 +163,24 @@ class MinimalTest(RosTest):
             wait_for(lambda shown=shown: core[-1].buttons == shown, "button")
         self.assertEqual([event.state for event in events], [1, 0])
 
-
-if __name__ == "__main__":
-    run()
+    def test_5_late_commands_move_nothing_and_those_of_now_do(self):
+        active, log = self.record("cmd_vel_mux/active", String), self.record("/rosout", Log)
+        wait_for(lambda: active and active[-1].data == "idle", "a mux that is idle")
+        driven = []  # [m/s]
+        hear = lambda command: driven.append(command.linear.x)  # noqa: E731
+        self.hear("mobile_base/commands/velocity", Twist, hear)
+        teleop = self.publisher("cmd_vel_mux/input/teleop", Twist, queue_size=len(BACKLOG))
+        wait_for(teleop.get_num_connections, "subscriber of teleop")
+        wait_for(lambda: teleop.publish(ahead(0.2)) or 0.2 in driven, "a command that goes through")
+        with suspended([pid_of("/cmd_vel_mux")]):
+            ends_s = time.monotonic() + OUTAGE_S
+            for speed in BACKLOG:
+                teleop.publish(ahead(speed))
+            # All of it on its way: what a busy machine sends afterwards is of then, and not late.
+            waits = lambda: any(one._queue for one in teleop.impl.connections)  # noqa: E731
+            wait_for(lambda: not waits(), "end of sending")
+            wait_for(lambda: time.monotonic() > ends_s, "end of the outage")
+        wait_for(lambda: any("suspended" in line.msg for line in log), "warning that it was")
+        wait_for(lambda: teleop.publish(ahead(0.4)) or driven[-1] == 0.4, "a command of now")
+        # What was sent before it on the same connection was also received before it.
+        self.assertEqual(set(driven), {0.2, 0.0, 0.4})

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """Every node exits in time, a base at rest first, whatever the screen, peers and master do."""
 
 import contextlib
@@ -14,7 +13,7 @@ from node_kit.ros_api import call
 from tutorial_testing.hands import DRIVE, RELEASED
 from tutorial_testing.nodes import pid_of
 from tutorial_testing.rig import BASE, Rig, suspended
-from tutorial_testing.rostests import RosTest, run
+from tutorial_testing.rostests import RosTest
 from tutorial_testing.waiting import BUSY_S, wait_for
 
 LONGEST_END_S = 1.5 + BUSY_S
@@ -60,9 +59,4 @@ class FaultsAtTheEnd(RosTest):
 
 
 def master():
-    """Return its process."""
     return [call(rosgraph.get_master_uri(), "getPid")[1]]
-
-
-if __name__ == "__main__":
-    run()

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """launch_joy_node.launch virtual:=true in a terminal: keys drive, and no fault moves the robot."""
 
 import os
@@ -6,7 +5,7 @@ import subprocess
 
 from tutorial_testing.keys import KeyboardRig
 from tutorial_testing.rig import suspended
-from tutorial_testing.rostests import RosTest, run
+from tutorial_testing.rostests import RosTest
 from tutorial_testing.waiting import wait_for
 
 HINT = "  without LB: tap space, then this key at once"
@@ -59,7 +58,3 @@ class FaultsOfTheKeys(RosTest):
         self.rig.drive()
         self.terminal.close()
         wait_for(lambda: not self.rig.moves, "standing robot without a terminal")
-
-
-if __name__ == "__main__":
-    run()

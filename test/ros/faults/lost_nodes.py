@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """Nodes are suspended, or killed and restarted: while LB is held only a release lets it drive.
 
 A program that goes on sending is obeyed again.
@@ -13,7 +12,7 @@ from geometry_msgs.msg import Twist, Vector3
 from tutorial_testing.nodes import pid_of
 from tutorial_testing.rig import BASE, DRIVER, MUX, TIMEOUT_S, Rig, go_on, stop
 from tutorial_testing.robot import PERIOD_S
-from tutorial_testing.rostests import RosTest, run
+from tutorial_testing.rostests import RosTest
 from tutorial_testing.waiting import HOP_S, Stopwatch, wait_for
 
 WATCHED_S = 1.2  # after a node is back
@@ -87,7 +86,3 @@ class LostNodes(RosTest):
             go_on(base)
             later = stopped + 1.5 + 2 * TIMEOUT_S  # when what was sent before counts no more
             wait_for(lambda: any(one.moves for one in rig.since(later)), "robot that drives on")
-
-
-if __name__ == "__main__":
-    run()

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """Other programs that send to a node: another joystick, unreadable messages, silence."""
 
 import io
@@ -12,10 +11,10 @@ from rosgraph.network import encode_ros_handshake_header, read_ros_handshake_hea
 from sensor_msgs.msg import Joy
 
 from node_kit.ros_api import call
-from tutorial_faults.live.table import HELD, LB, RawJoy, serialised
-from tutorial_testing.nodes import node_path
+from tutorial_faults.live.table import HELD, LB, RawJoy
+from tutorial_testing.nodes import node_path, serialised
 from tutorial_testing.rig import BASE, DRIVER, MUX
-from tutorial_testing.rostests import RosTest, run
+from tutorial_testing.rostests import RosTest
 from tutorial_testing.waiting import DEADLINE_S, wait_for
 
 NEUTRAL = Joy(axes=[0.0] * 6, buttons=[0] * 12)
@@ -86,7 +85,3 @@ def greeting(way, topic, kind):
         header = {"callerid": "/new", "topic": topic, "type": kind._type, "md5sum": kind._md5sum}
         subscriber.sendall(encode_ros_handshake_header(header))
         return read_ros_handshake_header(subscriber, io.BytesIO(), 4096)
-
-
-if __name__ == "__main__":
-    run()

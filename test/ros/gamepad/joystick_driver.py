@@ -1,12 +1,9 @@
-#!/usr/bin/python3
 """joy_node over a FIFO: what it publishes of events, recordings and scripts, and at what cost."""
 
 import contextlib
 import math
 import os
 import re
-import shutil
-import tempfile
 import time
 from pathlib import Path
 
@@ -22,7 +19,7 @@ from joy_to_twist.states import State
 from tutorial_testing.keys import LAUNCH, DiagnosedRobot
 from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
-from tutorial_testing.rostests import RosTest, run
+from tutorial_testing.rostests import RosTest
 from tutorial_testing.waiting import BUSY_S, Stopwatch, wait_for
 
 PACKAGE = Path(rospkg.RosPack().get_path("gamepad"))
@@ -38,10 +35,8 @@ NEAR_M = 0.25  # on a busy machine each move may be some hundredths of a second 
 class Stream:
     """The end of a FIFO into which the kernel's part is written."""
 
-    def __init__(self):
-        self._folder = tempfile.mkdtemp()
-        self.path = os.path.join(self._folder, "js0")
-        self._fd = None
+    def __init__(self, path):
+        self.path, self._fd = path, None
 
     def plug_in(self, axes=AXES):
         """Make the device, wait for its reader, send it the state at opening: all zero."""
@@ -55,7 +50,6 @@ class Stream:
             return os.open(self.path, os.O_WRONLY | os.O_NONBLOCK)
 
     def send(self, *events):
-        """Send events as (type, number, value), in one write."""
         os.write(self._fd, b"".join([pack(JsEvent(0, v, kind, n)) for kind, n, v in events]))
 
     def pull_out(self):
@@ -66,17 +60,15 @@ class Stream:
         self._fd = None
         return now
 
-    def remove(self):
-        """Leave nothing behind."""
+    def close(self):
         if self._fd is not None:
             os.close(self._fd)
-        shutil.rmtree(self._folder)
 
 
 class DriverTest(RosTest):
     def setUp(self):
-        self.stream = Stream()
-        self.addCleanup(self.stream.remove)
+        self.stream = Stream(str(self.folder() / "js0"))
+        self.addCleanup(self.stream.close)
         self.joys = []
         self._subscriber = self.hear("joy", Joy, self.joys.append)
 
@@ -170,7 +162,3 @@ def wakings(pid):
     """How often the threads of a process waited so far: unlike their time, the same beside load."""
     states = [path.read_text() for path in Path(f"/proc/{pid}/task").glob("*/status")]
     return sum(int(re.search(r"^voluntary_ctxt_switches:\s*(\d+)", s, re.M)[1]) for s in states)
-
-
-if __name__ == "__main__":
-    run()

@@ -1,9 +1,8 @@
-#!/usr/bin/python3
 """A classroom: students replay a recording, and each drives its own robot."""
 
 from tutorial_testing.hands import record
 from tutorial_testing.robot import Robot
-from tutorial_testing.rostests import RosTest, run
+from tutorial_testing.rostests import RosTest
 from tutorial_testing.waiting import wait_for
 
 NAMES = [f"robot_{number}" for number in range(1, 31)]
@@ -24,7 +23,3 @@ class StudentTest(RosTest):
         driven = [n for n, robot in robots.items() if any(one.moves for one in robot.odometry)]
         self.assertEqual(driven, DRIVEN)
         self.assertFalse(any(robot.moves for robot in robots.values()))
-
-
-if __name__ == "__main__":
-    run()

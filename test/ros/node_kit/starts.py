@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """A start never harms what runs: a table of what runs, what is started, and what is left."""
 
 import re
@@ -10,7 +9,7 @@ from rospy import AnyMsg
 from node_kit.ros_api import known_nodes
 from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
-from tutorial_testing.rostests import RosTest, run
+from tutorial_testing.rostests import RosTest
 from tutorial_testing.waiting import wait_for
 
 MASTER = rosgraph.get_master_uri()
@@ -46,7 +45,6 @@ TABLE = {
 
 
 def started_by(command):
-    """A Program, from a line of the table."""
     words = command.split()
     if words[0] == "rosrun":
         words[:3] = [node_path(*words[1:3])]
@@ -93,12 +91,19 @@ class StartsTest(RosTest):
             self.watch("/robot_3/odom")
             self.assertFalse(rospy.has_param("/three/robots"))
 
+    def test_of_two_talkers_with_one_name_the_older_ends_and_ctrl_c_ends_the_other(self):
+        # As node_kit's roscore.xml, which only a shell of the suite has roslaunch read.
+        rospy.set_param("/rosout_disable_topics_generation", False)
+        talker, chatter = (node_path("beginner_tutorials", "talker.py"), "--unique"), "chatter"
+        first, _ = self.start(*talker), self.watch(chatter)
+        second = self.start(*talker)
+        self.check_end(first)
+        self.assertIn("new node registered with same name", first.output)
+        self.watch(chatter)
+        self.end(second)
+
     def test_a_robot_is_replaced_by_one_with_take_over(self):
         old, odometry = self.start(*SIMULATOR, "__name:=replaced"), self.watch("odom")
         self.start(*SIMULATOR, "__name:=replaced", "_take_over:=true")
         self.check_end(old)
         self.check_goes_on(odometry)
-
-
-if __name__ == "__main__":
-    run()

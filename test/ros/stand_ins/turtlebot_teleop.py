@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """The launch files of turtlebot_teleop, as the real one's."""
 
 import rospy
@@ -8,7 +7,7 @@ from sensor_msgs.msg import Joy
 from tutorial_testing.keys import Tmux
 from tutorial_testing.processes import Program
 from tutorial_testing.robot import Robot
-from tutorial_testing.rostests import RosTest, run
+from tutorial_testing.rostests import RosTest
 from tutorial_testing.waiting import wait_for
 
 TELEOP = "/cmd_vel_mux/input/teleop"
@@ -63,7 +62,3 @@ class TeleopTest(RosTest):
                 wait_for(lambda sent=sent: sent[-1] != Twist(), "another drive")
                 self.assertEqual(sent.count(Twist()), 1)
                 self.end(launch)
-
-
-if __name__ == "__main__":
-    run()

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """turtlesim: each service, the wall, mimic, keys, and a square."""
 
 import math
@@ -11,14 +10,13 @@ from turtlesim import srv
 from turtlesim.msg import Color, Pose
 
 from tutorial_testing.keys import Tmux
-from tutorial_testing.rostests import RosTest, run
+from tutorial_testing.rostests import RosTest
 from tutorial_testing.waiting import wait_for
 
 FIRST, MIDDLE, FIELD_M = "/turtlesim1/", 5.5444446, 499 / 45
 
 
 def call(name, kind, *values):
-    """Call a service once it is there."""
     rospy.wait_for_service(name)
     return rospy.ServiceProxy(name, kind)(*values)
 
@@ -104,7 +102,3 @@ class TurtlesimTest(RosTest):
         terminal.hold("Up", lambda: self.poses[-1].linear_velocity == 2.0, "drive")
         terminal.press("q")
         wait_for(lambda: terminal.ended, "end")
-
-
-if __name__ == "__main__":
-    run()

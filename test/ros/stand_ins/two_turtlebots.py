@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """Two TurtleBots in groups: each is driven by its own topics, and has its own frames and place."""
 
 from geometry_msgs.msg import Twist, Vector3
@@ -6,7 +5,7 @@ from sensor_msgs.msg import LaserScan
 from tf2_msgs.msg import TFMessage
 
 from tutorial_testing.robot import Robot
-from tutorial_testing.rostests import RosTest, run
+from tutorial_testing.rostests import RosTest
 from tutorial_testing.waiting import wait_for
 
 FORWARDS = Twist(linear=Vector3(0.3, 0.0, 0.0))
@@ -47,7 +46,3 @@ class TwoTurtlebotsTest(RosTest):
         wait_for(lambda: links() >= wanted and scans, "transforms of both, and scans")
         self.assertEqual(scans[0].header.frame_id, "tb2/camera_depth_frame")
         self.assertEqual({"tb2/odom"}, {child for parent, child in links() if parent == "map"})
-
-
-if __name__ == "__main__":
-    run()

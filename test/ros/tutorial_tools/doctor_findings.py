@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """doctor.py as a user runs it: where all is well, and where one thing after the other is not."""
 
 import rospy
@@ -8,7 +7,7 @@ from tf2_msgs.msg import TFMessage
 from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.robot import Robot
-from tutorial_testing.rostests import RosTest, run
+from tutorial_testing.rostests import RosTest
 from tutorial_testing.waiting import Stopwatch
 
 LONGEST_S = 15.0
@@ -59,7 +58,3 @@ class FindingsTest(RosTest):
             self.wrong("no /clock arrives")
             drive.interrupt()
             drive.wait()
-
-
-if __name__ == "__main__":
-    run()

@@ -68,7 +68,6 @@ class Hands:
         return self._changes
 
     def plug(self, plugged):
-        """Plug the gamepad in, or pull it out."""
         self._plugged = plugged
         self._wake.set()
 

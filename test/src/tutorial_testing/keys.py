@@ -96,14 +96,11 @@ class KeyboardRig(DiagnosedRobot):
         # The gamepad was seen released; a key before that would not drive.
         self.wait_for_state(State.ARMED.value)
 
-    def is_at_full_speed(self):
-        return abs(self.now.v - SPEED) < 1e-6
-
     def drive(self):
         """Hold LB and W until the robot moves; LB again and again, as W may come late."""
 
         def moves():
             self.terminal.press("Space")
-            return self.is_at_full_speed()
+            return abs(self.now.v - SPEED) < 1e-6
 
         self.terminal.hold("w", moves, "moving robot")

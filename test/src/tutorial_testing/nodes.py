@@ -1,6 +1,7 @@
-"""The nodes that tests start, and the node that a test is."""
+"""The nodes that tests start, the node that a test is, and its messages."""
 
 from functools import lru_cache
+from io import BytesIO
 
 import rosgraph
 import roslib.packages
@@ -34,3 +35,9 @@ def init_node(name, **options):
     """Call rospy.init_node(); a fault of rospy would otherwise fail the test."""
     connect_once()
     rospy.init_node(name, **options)
+
+
+def serialised(message):
+    buffer = BytesIO()
+    message.serialize(buffer)
+    return buffer.getvalue()

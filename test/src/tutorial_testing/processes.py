@@ -2,7 +2,6 @@
 
 import contextlib
 import os
-import re
 import signal
 import subprocess
 import tempfile
@@ -29,17 +28,22 @@ def lives(pid):
         return False
 
 
+def with_environment(text):
+    """Return the ids of the processes whose environment has this text, and that still run."""
+    pids = []
+    for process in Path("/proc").glob("[0-9]*"):
+        with contextlib.suppress(OSError):  # ended meanwhile, or another user's
+            if text.encode() in (process / "environ").read_bytes() and lives(process.name):
+                pids.append(int(process.name))
+    return pids
+
+
 def command_line(pid):
     """Return that of a process; empty if it has exited."""
     try:
-        return Path(f"/proc/{pid}/cmdline").read_text()
+        return Path(f"/proc/{pid}/cmdline").read_text(errors="replace")
     except OSError:
         return ""
-
-
-def memory_kb(pid):
-    """Return the memory [kB] that a process has now."""
-    return int(re.search(r"VmRSS:\s+(\d+)", Path(f"/proc/{pid}/status").read_text())[1])
 
 
 def refuse(*command):
@@ -135,12 +139,10 @@ class Program:
 
     @property
     def pid(self):
-        """The process of the program itself."""
         return self._process.pid
 
     @property
     def ended(self):
-        """Whether the program itself has ended."""
         return self._process.poll() is not None
 
     def signal(self, number):
@@ -176,12 +178,4 @@ class Program:
 
         Known by their environment: roslaunch gives each node a session of its own.
         """
-        pids = []
-        for process in Path("/proc").glob("[0-9]*"):
-            try:
-                marked = f"{MARK}={self._mark}".encode() in (process / "environ").read_bytes()
-            except OSError:
-                continue  # ended meanwhile, or another user's
-            if marked and lives(process.name):
-                pids.append(int(process.name))
-        return pids
+        return with_environment(f"{MARK}={self._mark}")

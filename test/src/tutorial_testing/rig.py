@@ -34,12 +34,6 @@ def config(package, name):
     return yaml.safe_load(path.read_text())
 
 
-def arguments(parameters, remaps):
-    """Return the command-line arguments of a node."""
-    given = [f"_{name}:={json.dumps(value)}" for name, value in parameters.items()]
-    return given + [f"{name}:={to}" for name, to in remaps.items()]
-
-
 class Rig(Robot):
     """The nodes, each a program of its own; a context manager that ends them all."""
 
@@ -81,8 +75,9 @@ class Rig(Robot):
 
     def start(self, node):
         """Start a node, or restart it."""
-        program, *given = self.given(node)
-        command = [*program, *arguments(*given)]
+        program, parameters, remaps = self.given(node)
+        given = [f"_{name}:={json.dumps(value)}" for name, value in parameters.items()]
+        command = [*program, *given, *(f"{name}:={to}" for name, to in remaps.items())]
         if self._screen:
             command = ["bash", "-c", 'exec "$@" >"$0" 2>&1', self._screen, *command]
         old = self.programs.get(node)

@@ -35,7 +35,6 @@ class Moment(NamedTuple):
 
     @classmethod
     def of(cls, message):
-        """Return that of an Odometry."""
         twist, place = message.twist.twist, message.pose.pose.position
         turned = message.pose.pose.orientation
         yaw = 2 * atan2(turned.z, turned.w)
@@ -65,7 +64,6 @@ class Robot(Started):
         self.odometry = []  # all Moments so far
 
     def begin(self):
-        """Start what is needed to see the robot."""
         self.listen()
 
     def listen(self):
@@ -92,7 +90,6 @@ class Robot(Started):
 
     @property
     def now(self):
-        """The newest Moment."""
         return self.odometry[-1]
 
     @property
@@ -101,7 +98,6 @@ class Robot(Started):
         return bool(self.odometry) and self.now.moves
 
     def since(self, stamp):
-        """Return all Moments after a time [s]."""
         return [moment for moment in list(self.odometry) if moment.stamp > stamp]
 
     def first(self, condition, what):
@@ -153,7 +149,6 @@ class Robot(Started):
 
 
 def main():
-    """Print each Moment until this program is ended."""
     init_node("observer", disable_rosout=True)
     show = lambda message: print(*Moment.of(message), flush=True)  # noqa: E731
     rospy.Subscriber("odom", Odometry, show, queue_size=100, tcp_nodelay=True)

@@ -1,14 +1,11 @@
-"""What rostests share: a test case that cleans up after itself, and how its program runs."""
+"""What rostests share: a test case that cleans up after itself."""
 
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
 import rospy
-import rostest
 
-from tutorial_testing.nodes import init_node
 from tutorial_testing.processes import Program
 
 
@@ -22,15 +19,12 @@ class RosTest(unittest.TestCase):
         return value
 
     def start(self, *command, **environment):
-        """Start a program: a processes.Program."""
         return self.enter(Program(*command, **environment))
 
     def folder(self):
-        """Return the path of a new folder."""
         return Path(self.enter(tempfile.TemporaryDirectory()))
 
     def publisher(self, topic, kind, **options):
-        """Return a publisher."""
         publisher = rospy.Publisher(topic, kind, **{"queue_size": 1000, **options})
         self.addCleanup(publisher.unregister)
         return publisher
@@ -64,10 +58,3 @@ class RosTest(unittest.TestCase):
         """Press Ctrl-C, and wait for the end, as check_end() does."""
         program.interrupt()
         self.check_end(program, **deadline)
-
-
-def run():
-    """Run the tests of the program that calls this, as a node of its name."""
-    program = Path(sys.argv[0]).stem
-    init_node(program)
-    rostest.rosrun("ros1_tutorial_test", program, "__main__", sys.argv)

@@ -1,11 +1,11 @@
 """A driver's session, pages and what they look at, without ROS: time is a number, nothing waits."""
 
 import json
-from io import BytesIO
 from types import SimpleNamespace
 
 from cockpit_server.clients import Client
 from cockpit_server.driver_session import PAGE, DriverSession, Input
+from tutorial_testing.nodes import serialised
 
 ANNA, BOB = 1, 2
 LB = 4
@@ -92,9 +92,3 @@ class Topics:
         """message: of ROS, or bytes."""
         data = message if isinstance(message, bytes) else serialised(message)
         self.handlers[topic](SimpleNamespace(data=data), topic)
-
-
-def serialised(message):
-    buffer = BytesIO()
-    message.serialize(buffer)
-    return buffer.getvalue()

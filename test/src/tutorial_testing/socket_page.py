@@ -47,7 +47,6 @@ GOOD = {
 
 
 def request(port, token=None, **headers):
-    """Return that of a page for its WebSocket."""
     address = f"127.0.0.1:{port}"
     query = f"?token={token}" if token else ""
     headers = {"Origin": f"http://{address}", **headers}
@@ -136,9 +135,8 @@ class SocketPage(Started):
         def is_armed():
             nonlocal count
             sessions = self.of("session")[count:]
-            if (
-                sessions and sessions[-1]["driver"] is None
-            ):  # the page before this one has left only now
+            # The page before this one may have left only now.
+            if sessions and sessions[-1]["driver"] is None:
                 count += len(sessions)
                 self.say("drive", robot="", mode="D")
             return any(session["yours"] and session["armed"] for session in sessions)

@@ -15,12 +15,6 @@ SHORT = "1"  # the terminal of commands that end; in the others each goes on unt
 CTRL_C, END = "Ctrl-C", "^done-1007"
 
 
-def _group(pid):
-    with contextlib.suppress(ProcessLookupError):  # it has ended
-        return os.getpgid(pid)
-    return None
-
-
 def interrupt(shell):
     """Send SIGINT to what runs in the group of a shell (its id), but not to the shell itself.
 
@@ -28,8 +22,8 @@ def interrupt(shell):
     """
 
     def running():
-        found = descendants(shell)[1:]
-        return [pid for pid in found if _group(pid) == shell]
+        with contextlib.suppress(ProcessLookupError):  # one has ended
+            return [pid for pid in descendants(shell)[1:] if os.getpgid(pid) == shell]
 
     signal_all(wait_for(running, "program to interrupt"), signal.SIGINT)
 
@@ -77,7 +71,6 @@ class Student:
             raise AssertionError(f"{error}:\n{printed[-2000:]}") from None
 
     def close(self, *names):
-        """End terminals, and what runs in them."""
         for name in names or list(self._terminals):
             self._terminals.pop(name).__exit__()
 

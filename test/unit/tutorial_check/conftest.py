@@ -1,12 +1,12 @@
 """What the tests of check share: a session of a package."""
 
 import os
-import shutil
 from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
 import stored
+from edits import literal  # noqa: F401
 
 from tutorial_check.handout.task import JoystickTask
 from tutorial_check.order import Order
@@ -30,17 +30,8 @@ def make_session(tmp_path, order):
 
 @pytest.fixture
 def order(tmp_path):
-    """An Order of an empty workspace."""
     layout = Layout(tmp_path, tmp_path / "src", True)
     return Order(tmp_path, layout, True, ("2",), False, tmp_path, {}, "", {}, (), ())
-
-
-@pytest.fixture
-def literal(tmp_path):
-    """A workspace with a literal solution of the handout; its src."""
-    src = shutil.copytree(stored.FOLDER.parent / "literal", tmp_path / "ws" / "src")
-    shutil.copytree(stored.REPOSITORY / "joy2twist" / "bag", src / "joy2twist" / "bag")
-    return src
 
 
 @pytest.fixture

@@ -1,5 +1,7 @@
 """What is said where programs cannot be isolated; test/exercises/test_isolation.py attacks it."""
 
+import platform
+
 import pytest
 
 from tutorial_check import cluster
@@ -39,3 +41,11 @@ def test_a_worker_without_isolation_checks_nothing(monkeypatch):
     monkeypatch.delenv(cluster.INSISTS, raising=False)
     with pytest.raises(CannotCheck, match=r"cannot isolate programs: bwrap: refused: .* reach the"):
         cluster._examine(b"", ["2"], {}, "")
+
+
+def test_landlock_is_not_used_where_the_machine_or_the_kernel_is_unknown(monkeypatch):
+    monkeypatch.setattr(platform, "machine", lambda: "riscv64")
+    assert landlock.version.__wrapped__() == 0
+    monkeypatch.undo()
+    monkeypatch.setattr(landlock, "OLDEST", 1000)
+    assert landlock.version.__wrapped__() == 0

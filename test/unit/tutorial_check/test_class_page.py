@@ -2,6 +2,7 @@
 
 import csv
 import re
+from dataclasses import replace
 
 import pytest
 
@@ -31,7 +32,7 @@ def test_no_cell_is_a_formula(cell):
 def test_the_table_has_what_could_be_checked():
     students = [
         Student("ada", None, [NOTED, NO_VERDICT]),
-        Student("=bob", None, [BAD, UNDECIDED]),
+        Student("=bob", None, [replace(BAD, remark="not isolated"), UNDECIDED]),
         Student("o'neill_7@uni.example = b - c", None, [NOTED, EMPTY]),
     ]
     rows = list(csv.reader(table_csv(students, ["2", "5"]).splitlines()))
@@ -40,15 +41,15 @@ def test_the_table_has_what_could_be_checked():
         ["'=bob", "C1", "-", "0", "0"],
         ["o'neill_7@uni.example = b - c", "ok", "not done", "1", "1"],
     ]
-    assert [row[6] for row in rows[1:]] == ["", "'=none", ""]
+    assert [row[6:] for row in rows[1:]] == [["", ""], ["'=none", "not isolated"], ["", ""]]
     page = table_html(students, ["2", "5"], TITLES)
     assert 'title="C21: no space">?</td>' in page and 'class="wrong"' in page
     for cell in (">-<small>first fix C1</small>", ">not done<", "<td>1 of 2</td><td>1</td>"):
         assert cell in page
+    assert "<td>=bob</td><td>not isolated</td>" in page
 
 
 def wrong(seen, check="C16", **more):
-    """Return an exercise that is wrong."""
     return Outcome("5", [Result(check, WRONG, "axes", "a sign", seen, **more)], done=True)
 
 

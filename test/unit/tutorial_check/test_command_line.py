@@ -61,7 +61,6 @@ def test_words_that_are_refused(words, error, capsys, monkeypatch):
 
 @pytest.fixture
 def main(monkeypatch):
-    """main(examine, *words): the exit code."""
 
     def called(examine, *words):
         monkeypatch.setattr(one_workspace, "examine", examine)

@@ -24,7 +24,6 @@ def c(session): pass
 
 @pytest.fixture
 def course(tmp_path):
-    """course(yaml, checks): the checks of a course with these texts."""
 
     def make(text=YAML, checks=CHECKS):
         folder = tmp_path / str(len(list(tmp_path.iterdir())))

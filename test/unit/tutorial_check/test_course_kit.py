@@ -96,7 +96,7 @@ def test_services_parameters_and_types(stage):
     [
         ("own/None", {}, "there is no type own/None"),
         ("no_msgs/None", {}, r"test_course_kit.py:\d+: there is no type no_msgs/None"),
-        ("std_srvs/SetBool", {"date": 1}, r"No field name \[date\] \(fields: data\)"),
+        ("std_srvs/SetBool", {"date": 1}, r"does not fit: No field name \[date\] \(fields: data\)"),
         ("std_srvs/SetBool", [1, 2], "Too many arguments"),
         ("std_srvs/SetBool", {"data": "text"}, "field data is not a bool"),
         ("std_srvs/SetBool", {"data": {1}}, r"test_course_kit.py:\d+: .* not JSON"),
@@ -159,8 +159,7 @@ def test_what_a_launch_file_has_started():
     ran = Ran("roslaunch", "[n/m-2] process has died [pid 1]\n", None, False, False)
     program = SimpleNamespace(output=ran.output, ended=False, ran=ran)
     about = {"launch": lambda words: program, "call": lambda _: ({"/rosout": ["/b", "/a"]},)}
-    launch = Launch(
-        SimpleNamespace(session=SimpleNamespace(source=Path("src")), **about), "a.launch"
-    )
+    about["session"] = SimpleNamespace(source=Path("src"))
+    launch = Launch(SimpleNamespace(**about), "a.launch")
     assert launch.is_over and launch.launched.died == ("n/m",)
     assert launch.launched.nodes == ("/a", "/b")

@@ -33,11 +33,6 @@ class Machine:
         return self.clock.now() - self.began_s
 
 
-@pytest.fixture
-def machine():
-    return Machine()
-
-
 @pytest.mark.parametrize(
     ("passed", "programs_s", "strained", "hopeless"),
     [
@@ -47,20 +42,22 @@ def machine():
         ((10.0, 0, 100_000), 10.0 * SLOWEST, True, True),  # ten threads at once: it never stops
     ],
 )
-def test_time_without_a_processor_does_not_count(machine, passed, programs_s, strained, hopeless):
+def test_time_without_a_processor_does_not_count(passed, programs_s, strained, hopeless):
+    machine = Machine()
     assert machine.passes(*passed) == pytest.approx(programs_s)
     assert (machine.clock.strained(), machine.clock.hopeless()) == (strained, hopeless)
 
 
-def test_programs_are_idle_that_neither_work_nor_wait_for_a_processor(machine):
-    idle_s = []
+def test_programs_are_idle_that_neither_work_nor_wait_for_a_processor():
+    machine, idle_s = Machine(), []
     for passed in ((500,), (20,), (900, 0, OURS), (0, 500)):
         machine.passes(1.0, *passed)
         idle_s.append(machine.clock.idle_s())
     assert idle_s == pytest.approx([0.0, 1.0, 2.0, 0.0])
 
 
-def test_a_ready_program_is_not_idle_but_starved(machine):
+def test_a_ready_program_is_not_idle_but_starved():
+    machine = Machine()
     machine.is_ready = True
     for _ in range(5):
         machine.passes(1.0)

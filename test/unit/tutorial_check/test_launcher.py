@@ -46,7 +46,6 @@ def examine(tmp_path, monkeypatch):
 
 
 def found_in(outcomes):
-    """{exercise: (ids of its results, trouble)}."""
     return {one.id: ([result.id for result in one.results], one.trouble) for one in outcomes}
 
 
@@ -97,10 +96,3 @@ def test_what_was_found_before_the_time_was_over(examine, monkeypatch):
 def test_a_worker_that_records_nothing_gives_no_verdict(examine, answers, why):
     with pytest.raises(CannotCheck, match=why):
         examine(answers)
-
-
-def test_an_answer_that_is_no_recording_is_no_verdict(examine):
-    forged = SEEN.replace("number", "forged")
-    outcomes = examine([READY, forged, SEEN, SEEN])
-    assert outcomes[0].results[0].status == "unreached" and "no Seen" in outcomes[0].trouble
-    assert [one.passed for one in outcomes] == [False, True, True]

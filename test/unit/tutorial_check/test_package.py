@@ -70,16 +70,6 @@ def git(tmp_path, monkeypatch):
     return make
 
 
-def test_the_workflow_checks_out_the_suite_at_this_commit(tmp_path, git):
-    git(f"echo {'0a1b' * 10}")
-    out = str(tmp_path / "check.yml")
-    assert package("github:lab/ros1_tutorial", read_course(SQUARE), ["1"], out) == out
-    steps = yaml.safe_load(Path(out).read_text())["jobs"]["check"]["steps"]
-    suite = steps[1]["with"]
-    assert (suite["repository"], suite["ref"]) == ("lab/ros1_tutorial", "0a1b" * 10)
-    assert steps[2]["run"].endswith("--course suite/common/doc/square 1")
-
-
 NO_CLONE = "echo fatal: not a git repository >&2; exit 128"
 
 
@@ -105,17 +95,18 @@ def test_what_cannot_be_packed_is_one_line(tmp_path, git, what, out, script, why
     assert not (tmp_path / out).exists()
 
 
-@pytest.mark.parametrize("name", ["a # b", 'it\'s: "a"', "two\nlines", "${{ x }}"])
-def test_a_folder_of_any_name_in_the_workflow(tmp_path, git, monkeypatch, name):
+@pytest.mark.parametrize("name", ["doc/a # b", 'it\'s: "a"', "two\nlines", "${{ x }}"])
+def test_the_workflow_checks_out_the_suite_at_this_commit(tmp_path, git, monkeypatch, name):
     git("echo 0a1b")
     monkeypatch.setattr("tutorial_check.package.SUITE", tmp_path)
-    (tmp_path / name).mkdir()
+    (tmp_path / name).mkdir(parents=True)
     (tmp_path / name / "course.yaml").write_text("exercises: {'1': one}")
-    out = tmp_path / "check.yml"
+    about = ("github:lab/x", read_course(tmp_path / name), ["1"], str(tmp_path / "check.yml"))
     if "${{" in name:
         with pytest.raises(CannotCheck, match="GitHub would replace"):
-            package("github:lab/x", read_course(tmp_path / name), ["1"], str(out))
+            package(*about)
         return
-    package("github:lab/x", read_course(tmp_path / name), ["1"], str(out))
-    run = yaml.safe_load(out.read_text())["jobs"]["check"]["steps"][2]["run"]
-    assert shlex.split(run)[-3:] == ["--course", f"suite/{name}", "1"]
+    steps = yaml.safe_load(Path(package(*about)).read_text())["jobs"]["check"]["steps"]
+    suite = steps[1]["with"]
+    assert (suite["repository"], suite["ref"]) == ("lab/x", "0a1b")
+    assert shlex.split(steps[2]["run"])[-3:] == ["--course", f"suite/{name}", "1"]

@@ -22,11 +22,6 @@ from test_task import (  # noqa: F401
 
 def test_recordings_are_by_the_recorders_of_today():
     files = stored.FOLDER.glob("*.json.xz")
-    found = {file.name: json.loads(lzma.decompress(file.read_bytes()))["code"] for file in files}
-    old = {
-        module
-        for code in found.values()
-        for module in code
-        if code[module] != stored.code_hash(module)
-    }
+    codes = [json.loads(lzma.decompress(file.read_bytes()))["code"] for file in files]
+    old = {name for code in codes for name in code if code[name] != stored.code_hash(name)}
     assert not old, "have changed since: ./tutorial test exercises --store"

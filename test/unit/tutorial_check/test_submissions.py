@@ -49,7 +49,6 @@ class Group:
 
 @pytest.fixture
 def group(tmp_path, monkeypatch):
-    """A Group without students yet."""
     made = Group(tmp_path / "group")
     monkeypatch.setattr(submissions, "examine", made.examine)
     return made
@@ -181,19 +180,6 @@ def test_a_folder_called_variants_is_a_submission_unless_it_is_named(group, caps
     assert "variants: a submission; if it has the tasks" in capsys.readouterr().out
     code, rows = group.check_all(variant=str(group.folder / "variants"))
     assert (code, [row[0] for row in rows]) == (2, ["ada"]) and "a map of values" in rows[0][-1]
-
-
-def test_each_result_says_that_nothing_was_isolated(group):
-    group.add("ada", "bob")
-    bare = replace(WELL, remark="not isolated")
-    group.come_to = lambda name: [bare if name == "bob" else WELL]
-    assert [row[-1] for row in group.check_all()[1]] == ["", "not isolated"]
-    assert "(not isolated)" in (group.check / "bob.txt").read_text()
-    assert (
-        json.loads((group.check / "bob.json").read_text())["exercises"][0]["remark"]
-        == "not isolated"
-    )
-    assert "<td>bob</td><td>not isolated</td>" in (group.check / "table.html").read_text()
 
 
 @pytest.mark.parametrize(

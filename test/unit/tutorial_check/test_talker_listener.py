@@ -16,13 +16,7 @@ rospy.Subscriber('chatter', String, callback)
 """
 TALKER = "#!/usr/bin/env python3\nfrom std_msgs.msg import String\nrospy.init_node('talker')\n"
 TORRENT = {"received": tuple((k / 1e4, "", "") for k in range(9))}
-ENDED = {
-    "talker": Ran("x.py", "", 0, False, False),
-    "talker_ended": True,
-    "received": ((0, "", ""),),
-}
-
-
+ENDED = {"talker": Ran("x.py", "", 0, False, False), "talker_ended": True, **TORRENT}
 RIGHT = Talk(
     Ran("x.py", "", None, False, False), Ran("x.py", "", None, False, False),
     talker_ended=False, listener_ended=False, published={}, publishers={},

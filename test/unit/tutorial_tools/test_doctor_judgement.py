@@ -53,12 +53,10 @@ ARMED = {"/joy2twist": (True, "armed")}
 
 
 def well(**changes):
-    """The well facts, changed."""
     return replace(WELL, **changes)
 
 
 def nodes(**changed):
-    """The well facts with other nodes."""
     return well(nodes={**WELL.nodes, **{f"/{name}": value for name, value in changed.items()}})
 
 
@@ -73,9 +71,8 @@ def says(text):
 def frames(*sent, **changes):
     """Transforms, each as "NODE PARENT CHILD [LATE_S]"."""
     parts = [one.split() for one in sent]
-    return well(
-        transforms=[Transform(*part[:3], *map(float, part[3:])) for part in parts], **changes
-    )
+    transforms = [Transform(*part[:3], *map(float, part[3:])) for part in parts]
+    return well(transforms=transforms, **changes)
 
 
 def lines(facts, level):

@@ -17,12 +17,10 @@ TALK = (
 
 
 def names(text):
-    """The nodes and topics that are declared."""
     return re.findall(r'^ *"(\w+ /\S*)" \[', text, re.MULTILINE)
 
 
 def frames(text):
-    """{machine: names inside its frame}."""
     found = re.findall(r'subgraph "cluster (\S+)" {\n(.*?)\n  }\n', text, re.DOTALL)
     return {machine: names(inside) for machine, inside in found}
 
@@ -51,7 +49,6 @@ def test_each_machine_has_a_frame_and_a_topic_between_machines_has_none():
 
 @pytest.fixture
 def drawn(monkeypatch, tmp_path, capsys):
-    """A function that draws a file in a new folder, and returns the line that is printed."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(graph, "ask_master", lambda: (TALK, {}))
 

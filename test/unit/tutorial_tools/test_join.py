@@ -33,7 +33,6 @@ RUN_IDS = ("../../tmp", "..", 5, "a\x1b[2J")
 
 @pytest.fixture
 def answers(monkeypatch):
-    """Let the master answer every question so."""
 
     def answer(value, answer=Answer.WELL, reached=True):
         monkeypatch.setattr(join, "call", lambda *_: (answer, value))

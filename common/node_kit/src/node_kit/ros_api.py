@@ -14,6 +14,7 @@ from typing import Any
 from urllib.parse import urlsplit
 
 TIMEOUT_S = 2.0  # for each question; on one network an answer takes milliseconds
+MASTER_S = 10.0  # a master without processor time still knows who has a name
 PATIENCE_S = 3.0  # a node that hangs or waits for a busy processor still holds its name
 PARAMETER = "/cockpit_address"  # http://HOST:PORT/, as long as the cockpit of a master runs
 
@@ -79,7 +80,7 @@ def call(
 
 def known_nodes(master_uri: str) -> set[str]:
     """Return the names of the nodes that a master knows, dead ones too; none without a master."""
-    answer, state = call(master_uri, "getSystemState")
+    answer, state = call(master_uri, "getSystemState", timeout_s=MASTER_S)
     columns = state if answer is Answer.WELL else ()
     return {node for column in columns for _, users in column for node in users}
 
@@ -91,7 +92,7 @@ def holder(master_uri: str, name: str) -> tuple[str, str] | None:
     gone. The name of a node that accepts the connection but does not answer is not free: the node
     may be stopped, and resume.
     """
-    answer, uri = call(master_uri, "lookupNode", name)
+    answer, uri = call(master_uri, "lookupNode", name, timeout_s=MASTER_S)
     if answer is not Answer.WELL:
         return None
     answer, pid = call(uri, "getPid", timeout_s=PATIENCE_S)

@@ -38,8 +38,6 @@ def velocity(linear, angular):
 
 
 class Violation(NamedTuple):
-    """An invariant, by its letter, does not hold."""
-
     invariant: str
     at_s: float
     what: str
@@ -60,7 +58,6 @@ class Trial:
     """The stream of Events of a trial."""
 
     def __init__(self, stream):
-        """stream: in any order."""
         self.events = sorted(stream, key=lambda event: event.at_s)
         ends = {event.value: event.at_s for event in self.of(ENDS)}
         self.hits = {
@@ -81,7 +78,6 @@ class Trial:
         return bool(self.of(LATE)) or (not is_base_hit and max(gaps_s, default=0.0) > LATE_S)
 
     def of(self, *what):
-        """Return the Events about this."""
         return [event for event in self.events if event.what in what]
 
     def _judge(self):

@@ -62,7 +62,6 @@ def draw(seed, names):
 
 
 def parse(arguments):
-    """Return the options."""
     parser = Parser(prog="./tutorial test faults", description="Hit the live system with faults.")
     add, ends = parser.add_argument, parser.add_mutually_exclusive_group()
     ends.add_argument("--for", type=above_zero, metavar="SECONDS", dest="seconds", help="(60)")

@@ -1,7 +1,6 @@
 """The table of faults: what is done to a live world, for how long, and what must hold."""
 
 import contextlib
-import io
 import math
 import signal
 import threading
@@ -13,6 +12,7 @@ import rospy
 from geometry_msgs.msg import Twist, Vector3
 from sensor_msgs.msg import Joy
 
+from tutorial_testing.nodes import serialised
 from tutorial_testing.rig import BASE, DRIVER, JOYSTICK, MUX
 
 NODES = {"joy_node": JOYSTICK, "joy2twist": DRIVER, "mux": MUX, "base": BASE}
@@ -41,7 +41,6 @@ class Fault(NamedTuple):
 
     @property
     def name(self):
-        """Both."""
         return f"{self.family}:{self.part}"
 
 
@@ -57,13 +56,6 @@ class Raw:
 
 
 RawJoy, RawTwist = type("RawJoy", (Raw, Joy), {}), type("RawTwist", (Raw, Twist), {})
-
-
-def serialised(message):
-    """Return the bytes of a message."""
-    buff = io.BytesIO()
-    message.serialize(buff)
-    return buff.getvalue()
 
 
 # Cut, or with wrong lengths; of what is too long rospy reads the beginning.
@@ -117,7 +109,6 @@ def freezes(world):
 
 
 def rows():
-    """Yield the rows."""
     for name, node in NODES.items():
         yield Fault("kill", name, RESTS, (0.05, 0.7), partial(ends, node, signal.SIGKILL))
         yield Fault("end", name, RESTS, (0.05, 0.7), partial(ends, node, signal.SIGINT))

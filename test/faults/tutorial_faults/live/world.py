@@ -64,7 +64,6 @@ class World(rig.Rig):
         return program, parameters, remaps
 
     def signal(self, part, number):
-        """Send a signal to a process, as far as it lives."""
         if not self.programs[part].ended:
             signal_all([self.programs[part].pid], number)
 
@@ -88,7 +87,6 @@ class World(rig.Rig):
             self._see(judge.LATE, time.time() - now)
 
     def heal(self, name):
-        """Undo it."""
         now = time.time()
         next(self._hits.pop(name), None)
         is_restart = FAULTS[name].family in ("kill", "end")

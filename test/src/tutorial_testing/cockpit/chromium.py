@@ -4,7 +4,6 @@ import contextlib
 import shutil
 import signal
 import tempfile
-from pathlib import Path
 
 from selenium import webdriver
 from selenium.common.exceptions import WebDriverException
@@ -14,6 +13,7 @@ from selenium.webdriver.common.by import By
 
 from tutorial_testing.cockpit.engines import WebDriver
 from tutorial_testing.processes import signal_all
+from tutorial_testing.waiting import descendants
 
 ARGUMENTS = [
     "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
@@ -125,14 +125,7 @@ class Chromium(WebDriver):
 
     @property
     def pids(self):
-        mark = f"--user-data-dir={self._folder}".encode()
-        found = []
-        for process in Path("/proc").glob("[0-9]*"):
-            with contextlib.suppress(OSError):
-                command = (process / "cmdline").read_bytes()
-                if mark in command and b"chromedriver" not in command.split(b"\0")[0]:
-                    found.append(int(process.name))
-        return found
+        return descendants(self.driver.service.process.pid)[1:]
 
     def signal(self, number):
         """Send a signal to all of the browser; returns the time [s] just before."""

@@ -38,8 +38,6 @@ class Browser(Started):
 
 
 class WebDriver(Browser):
-    """A browser of Selenium's WebDriver."""
-
     def __init__(self, driver):
         super().__init__()
         self.driver = driver

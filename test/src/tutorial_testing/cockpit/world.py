@@ -9,29 +9,29 @@ from tutorial_testing.processes import Program
 from tutorial_testing.robot import OBSERVER, Robot
 from tutorial_testing.waiting import wait_for
 
-LAUNCH = str(Path(__file__).resolve().with_name("world.launch"))
-
 
 class World(Robot):
     """Everything but the browser. A context manager that leaves nothing behind.
 
-    arguments: of world.launch. host: a two_hosts.network.Host on which all of it runs, and its
-    address, from which the page is then opened with a token; else this machine.
+    arguments: of the launch file. host: a two_hosts.network.Host on which all of it runs, and its
+    address; else this machine. lan: the page is then opened with a token.
     """
 
-    def __init__(self, *arguments, host=None, address="127.0.0.1"):
+    launch = (str(Path(__file__).resolve().with_name("world.launch")),)
+
+    def __init__(self, *arguments, host=None, address="127.0.0.1", lan=False):
         super().__init__()
         self._arguments = arguments
-        self._host, self._address = host, address
-        self._port = free_port()
+        self._host, self._address, self._options = host, address, ["--lan"] if host or lan else []
+        self.port = free_port()
         self.environment = {
             "ROS_MASTER_URI": f"http://127.0.0.1:{free_port()}", "ROS_IP": "127.0.0.1",
             "DISPLAY": "",
         }  # fmt: skip
 
     def begin(self):
-        launched = self.run("roslaunch", LAUNCH, *self._arguments)
-        wait_for(lambda: "core service" in launched.output, "master")
+        self.launched = self.run("roslaunch", *self.launch, *self._arguments)
+        wait_for(lambda: "core service" in self.launched.output, "master")
         self.observe(self._host.command(*OBSERVER) if self._host else OBSERVER, **self.environment)
         self.start_cockpit()
 
@@ -42,9 +42,17 @@ class World(Robot):
 
     def start_cockpit(self):
         """Start the cockpit, or restart it under the same address."""
-        lan = ["--lan"] if self._host else []
-        self.cockpit = self.run(node_path("cockpit", "cockpit.py"), "--port", str(self._port), *lan)
-        shown = wait_for(lambda: re.search(r"to drive: \S+|open http\S+", self.cockpit.output),
-                         "address of the cockpit")  # fmt: skip
-        token = re.search(r"\?token=\S+", shown[0])
-        self.address = f"http://{self._address}:{self._port}/{token[0] if token else ''}"
+        command = node_path("cockpit", "cockpit.py"), "--port", str(self.port), *self._options
+        self.cockpit = self.run(*command)
+        self.find_page()
+
+    def find_page(self):
+        shown = lambda: re.search(r"to drive: \S+|open http\S+", self.cockpit.output)  # noqa: E731
+        wait_for(shown, "address of the cockpit")
+        token = self.token("drive")
+        self.address = f"http://{self._address}:{self.port}/{f'?token={token}' if token else ''}"
+
+    def token(self, role):
+        """Return the token to "look" or to "drive", as it was printed; None without one."""
+        found = re.search(rf"to {role}: .*token=(\S+)", self.cockpit.output)
+        return found and found[1]

@@ -31,7 +31,6 @@ class Host:
         self.ip("link", "set", "lo", "up")
 
     def close(self):
-        """End what holds the namespace."""
         self._holder.communicate("")
 
     def command(self, *command):
@@ -40,11 +39,9 @@ class Host:
         return ["nsenter", "--target", str(self._holder.pid), *user, "--net", *command]
 
     def ip(self, *arguments):
-        """Run iproute2's ip on this host."""
         subprocess.run(self.command("ip", *arguments), check=True, timeout=30)
 
     def start(self, *command, **environment):
-        """Start a program on this host: a processes.Program."""
         return Program(*self.command(*command), **environment)
 
     @contextlib.contextmanager
@@ -87,7 +84,6 @@ class Network(Started):
             host.ip("link", "set", "eth0", "up")
 
     def __getitem__(self, name):
-        """The Host of this name."""
         return self._hosts[name]
 
     def _host(self, *first):
@@ -100,5 +96,4 @@ class Network(Started):
         self._switch.ip("link", "set", name, "down")
 
     def plug_cable(self, name):
-        """Plug it in again."""
         self._switch.ip("link", "set", name, "up")

@@ -21,18 +21,17 @@ PERIOD_S = 0.02
 FORWARD, LB = 1, 4  # indices of the axis and the button
 HANDS = {"drive": (0.5, 1), "release": (0.5, 0), "neutral": (0.0, 0)}
 
-if __name__ == "__main__":
-    # Without /rosout: to ask the robot's master something at every line would not survive a cut.
-    init_node("pilot", disable_rosout=True, disable_signals=True)
-    publisher = rospy.Publisher("joy", Joy, queue_size=1, tcp_nodelay=True)
-    joy, word = Joy(axes=[0.0] * 6, buttons=[0] * 12), "ready"
-    while word is not None:
-        now = time.time()
-        joy.header.stamp = rospy.Time.from_sec(now)
-        publisher.publish(joy)
-        if word:
-            print(word, now, flush=True)
-        word = ""
-        if select.select([sys.stdin], [], [], PERIOD_S)[0]:
-            word = sys.stdin.readline().strip() or None
-            joy.axes[FORWARD], joy.buttons[LB] = HANDS.get(word, (0.0, 0))
+# Without /rosout: to ask the robot's master something at every line would not survive a cut.
+init_node("pilot", disable_rosout=True, disable_signals=True)
+publisher = rospy.Publisher("joy", Joy, queue_size=1, tcp_nodelay=True)
+joy, word = Joy(axes=[0.0] * 6, buttons=[0] * 12), "ready"
+while word is not None:
+    now = time.time()
+    joy.header.stamp = rospy.Time.from_sec(now)
+    publisher.publish(joy)
+    if word:
+        print(word, now, flush=True)
+    word = ""
+    if select.select([sys.stdin], [], [], PERIOD_S)[0]:
+        word = sys.stdin.readline().strip() or None
+        joy.axes[FORWARD], joy.buttons[LB] = HANDS.get(word, (0.0, 0))

@@ -34,7 +34,6 @@ class Scene(Robot):
         self.network = self._stack.enter_context(Network(addresses))
 
     def address(self, host):
-        """Return the IPv4 address of a host, as the page has it."""
         return self._blocks[host][0]
 
     def start(self, host, command, **options):

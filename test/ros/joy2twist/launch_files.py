@@ -1,5 +1,4 @@
-#!/usr/bin/python3
-"""launch_joy_node_realTurtlebot.launch: what drives the TurtleBot, and which view opens."""
+"""Launch files of joy2twist: what drives by a recording, how it ends, and which view opens."""
 
 import os
 
@@ -7,12 +6,17 @@ import rosgraph
 import rosnode
 import rospkg
 from geometry_msgs.msg import Twist
+from sensor_msgs.msg import Joy
 
 from tutorial_testing.hands import record
 from tutorial_testing.nodes import node_path
-from tutorial_testing.rostests import RosTest, run
+from tutorial_testing.processes import Program
+from tutorial_testing.robot import Robot
+from tutorial_testing.rostests import RosTest
 from tutorial_testing.waiting import wait_for
 
+RATE_HZ = 50  # joy.bag and simulation
+SAMPLE_S = 6.0  # how much is looked at; the tour begins with a second of rest
 FILE = "launch_joy_node_realTurtlebot.launch"
 TELEOP = "/cmd_vel_mux/input/teleop"
 SPEED = 0.35  # [m/s] at full deflection, config/f710_d.yaml
@@ -22,8 +26,33 @@ PACKAGE = """<package>
 </package>"""
 
 
-class WorkstationTest(RosTest):
-    def test_a_recording_drives_once_and_ends_the_launch(self):
+class LaunchFilesTest(RosTest):
+    def test_launch_bag_drives_one_velocity_for_each_joy_until_ctrl_c(self):
+        cmd_vel, robot = self.record("/cmd_vel", Twist), self.enter(Robot())
+        folder = os.path.join(rospkg.RosPack().get_path("joy2twist"), "launch")
+        command = f"cd '{folder}' && exec roslaunch launch_bag.launch rviz:=false"
+        with Program("sh", "-c", command) as launch:
+            wait_for(lambda: robot.odometry and cmd_vel, "first messages")
+            joy = self.record("/joy", Joy)  # last: every joy below has its cmd_vel above
+            robot.first(lambda moment: moment.v > 0.1, "moving robot")
+            wait_for(lambda: len(joy) > SAMPLE_S * RATE_HZ, "joystick messages")
+            expected = [(message.axes[1], message.axes[0]) for message in joy]
+            self.assertGreater(len(set(expected)), RATE_HZ)
+
+            def found():
+                sent = [(twist.linear.x, twist.angular.z) for twist in cmd_vel]
+                starts = range(len(sent) - len(expected) + 1)
+                return any(sent[start : start + len(expected)] == expected for start in starts)
+
+            wait_for(found, "velocities of the joystick, one for one")
+            wait_for(lambda: cmd_vel[-1].linear.x > 0.1, "driving robot")
+            self.end(launch)
+            wait_for(lambda: not launch.left_behind(), "end of every process")
+            wait_for(lambda: cmd_vel[-1] == Twist(), "zero as the last velocity")
+            # Where a node has not ended after 15 s, roslaunch says so, and kills it.
+            self.assertNotIn("escalating", launch.output)
+
+    def test_a_recording_drives_a_turtlebot_once_and_ends_the_launch(self):
         speeds = self.record(TELEOP, Twist)
         path = record(str(self.folder() / "short.bag"))
         launch = self.start("roslaunch", "joy2twist", FILE, f"bag:={path}", "rviz:=false")
@@ -57,7 +86,3 @@ class WorkstationTest(RosTest):
             given = {"PATH": f"{folder}:{os.environ['PATH']}", "ROS_PACKAGE_PATH": path}
             view = self.start(node_path("tutorial_tools", "view_robot"), config, **given)
             self.assertEqual((view.wait(), view.output), (0, f"{folder}/{command}\n"))
-
-
-if __name__ == "__main__":
-    run()
