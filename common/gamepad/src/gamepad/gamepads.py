@@ -64,9 +64,10 @@ class Gamepad(NamedTuple):
     def trembled(self, raws: Sequence[int]) -> list[int]:
         """Return the raw values of all axes, those of held sticks one step nearer to the middle."""
         middles = [int(axis.raw(0.0)) for axis in self.axes]
-        digital = [(axis.low, axis.high) == (-1, 1) for axis in self.axes]
+        digital = [i for i, axis in enumerate(self.axes) if (axis.low, axis.high) == (-1, 1)]
+        still = {*self.triggers, *digital}
         return [
-            raw if i in self.triggers or digital[i] else raw - (raw > middles[i]) + (raw < middles[i])
+            raw if i in still else raw - (raw > middles[i]) + (raw < middles[i])
             for i, raw in enumerate(raws)
         ]
 
