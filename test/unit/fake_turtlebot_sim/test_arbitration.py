@@ -63,6 +63,14 @@ def test_a_program_is_obeyed_whose_network_is_whole(times):
     assert all(s - times[int(n) - 1] <= TOGETHER_S + 1e-9 for n, s in running.through)
 
 
+def test_of_two_that_waited_only_the_higher_drives():
+    arbiter = Arbiter(INPUTS)
+    for now, verdict in ((0.0, Verdict.OBEYED), (5.0, Verdict.WAITS)):
+        for name, speed in (("navi", 0.2), ("teleop", 0.3), ("safety", 0.1)):
+            assert arbiter.command(name, (speed,), now, FAR) is verdict
+    assert [*arbiter.waited(5.0 + TOGETHER_S)] == [((0.1,), FAR)]
+
+
 def test_of_this_host_none_is_late():
     """The safety controller sends what it must, when it must, and falls silent."""
     running = Running()

@@ -112,8 +112,14 @@ class Arbiter:
         return Verdict.OBEYED
 
     def waited(self, now: float) -> Iterator[tuple[Velocity, Publisher]]:
-        """Yield each command, with its sender, that waited for TOGETHER_S and goes through now."""
-        for (name, sender), one in self._senders.items():
+        """Yield each command, with its sender, that waited for TOGETHER_S and goes through now.
+
+        The highest input first, so that none goes through for a moment below another.
+        """
+        order = [*self._inputs]
+        for (name, sender), one in sorted(
+            self._senders.items(), key=lambda item: order.index(item[0][0])
+        ):
             if one.waiting is not None and now >= one.heard_s + TOGETHER_S:
                 velocity, one.waiting = one.waiting, None
                 if self._obey(name, velocity, now) is Verdict.OBEYED:
