@@ -50,7 +50,7 @@ def test_log_keeps_1000_lines_on_a_change_of_tab_and_none_on_a_new_connection(pa
 
 def test_a_driver_who_is_handed_a_robot_looks_at_no_other(page):
     script = """hello(given);
-    const session = {driver: 1, name: "x", robot: "robot_2", how: "page", armed: false, why: ""};
+    const session = {driver: 1, name: "x", robot: "robot_2", plays: false, armed: false, why: ""};
     hear("session", {...session, yours: false});
     const before = tab.look;
     hear("session", {...session, yours: true});

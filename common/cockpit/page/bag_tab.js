@@ -80,7 +80,7 @@ export class BagTab {
       this.#report({ playing: false });
       if (this.#bag) link.send("bag_open", { name: this.#bag.path }); // for the server this page is new
     });
-    link.on("session", ({ yours, how }) => (this.#yours = yours && how === "bag"));
+    link.on("session", ({ yours, plays }) => (this.#yours = yours && plays));
     this.#listen();
   }
 

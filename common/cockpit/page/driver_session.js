@@ -59,7 +59,7 @@ export class DriverSession {
   show() {
     const { isOpen, heardAt } = this.link;
     const { session, drives } = this.#now;
-    const isByHand = session.yours && session.how !== "bag";
+    const isByHand = session.yours && !session.plays;
     if (isByHand) this.driver.start();
     else this.driver.stop();
     if (!session.yours && byId("notice").textContent === this.#advice) this.notice("");

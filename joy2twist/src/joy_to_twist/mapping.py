@@ -70,11 +70,11 @@ class Mapping:
 
     def stops(self, buttons: Sequence[int]) -> bool:
         """Return whether the stop button is pressed, in a good message or a bad one."""
-        return 0 <= self._stop < len(buttons) and buttons[self._stop] != 0
+        return 0 <= self._stop < len(buttons) and bool(buttons[self._stop])
 
     def resets(self, buttons: Sequence[int]) -> bool:
         """Return whether a good message has the reset button pressed, and not the stop button."""
-        return buttons[self._reset] != 0 and not self.stops(buttons)
+        return bool(buttons[self._reset]) and not self.stops(buttons)
 
     def _what_is_missing(self, axes: Sequence[float], buttons: Sequence[int]) -> str:
         for component, index, _, _ in self._axes:

@@ -41,8 +41,9 @@ class Axis:
 
 def _one_or_each(names: tuple[str, ...], fits: Callable[[Any], bool], allowed: str) -> Check:
     def all_fit(value: Any) -> bool:
-        each = value if isinstance(value, dict) else {names[0]: value}
-        return bool(each) and all(name in names and fits(one) for name, one in each.items())
+        if not isinstance(value, dict):
+            return fits(value)
+        return bool(value) and all(name in names and fits(one) for name, one in value.items())
 
     return Check(f"a number ({allowed}), or a map from {', '.join(names)} to such", all_fit)
 
@@ -131,7 +132,7 @@ def load(given: Mapping[str, Any]) -> Parameters:
     values = checked(Parameters, given)
     enable, turbo = values["enable_button"], values["enable_turbo_button"]
     if values["require_enable_button"] is None:
-        values["require_enable_button"] = enable != -1
+        values["require_enable_button"] = enable >= 0
     _check_buttons(values)
     if values["require_enable_button"] and max(enable, turbo) < 0:
         raise ValueError(
@@ -151,7 +152,7 @@ def load(given: Mapping[str, Any]) -> Parameters:
 def _check_buttons(values: dict[str, Any]) -> None:
     names = ("enable_button", "enable_turbo_button", "stop_button", "stop_reset_button")
     for one, other in itertools.combinations(names, 2):
-        if values[one] == values[other] != -1:
+        if values[one] == values[other] >= 0:
             raise ValueError(f"~{other}: {values[other]}: must be a button other than ~{one}")
     for one, other in (("stop_button", "stop_reset_button"), ("stop_reset_button", "stop_button")):
         if values[one] >= 0 > values[other]:
@@ -171,7 +172,7 @@ def _axes(values: dict[str, Any], kind: str, names: tuple[str, ...], first: int)
     indices, scale = values[f"axis_{kind}"], values[f"scale_{kind}"]
     if not isinstance(indices, dict):
         indices = {"x" if kind == "linear" else "yaw": indices}
-    used = [name for name in names if indices.get(name, -1) >= 0]
+    used = [name for name in names if name in indices and indices[name] >= 0]
     normal, turbo = of_each(scale), values[f"scale_{kind}_turbo"]
     missing = [name for name in used if name not in normal]
     if missing:

@@ -58,7 +58,7 @@ class Safety:
         self._sent: Velocity = ZERO  # the last velocity sent
         self._target: Velocity = ZERO  # where the acceleration limits lead to
         self._stopping = False  # zeros are being repeated, or have been
-        self._repeats: float = 0  # zeros still to come
+        self._repeats = math.inf  # zeros still to come
         self._next_output = math.inf  # when a zero or a step of the acceleration is due
         self._sender: object = None  # sent the last good message
         self._switched_at = -math.inf  # when that was another one than before
@@ -115,7 +115,7 @@ class Safety:
             return stop  # the next message is in time again
         self._sender = sender
         answer = self._obey(velocity, rests, now)
-        return stop if answer is None else answer
+        return answer or stop
 
     def _obey(self, velocity: Velocity | None, rests: bool, now: float) -> Velocity | None:
         self._silent_at = now + self._silence_s
@@ -137,7 +137,7 @@ class Safety:
             return self._answer(velocity)
         self._target = velocity
         # While the velocity changes, tick() sends it at a steady rate.
-        return self._step(now) if self._next_output == math.inf else None
+        return self._step(now) if math.isinf(self._next_output) else None
 
     def reject(self, now: float) -> Velocity | None:
         """Stop at a bad message, which is no sign of life."""
@@ -174,7 +174,7 @@ class Safety:
         if self._parameters.arm_on_neutral:
             self.arming.lose()
         # A robot that stands needs no zero, and its multiplexer no claim to drive it.
-        stands = self._sent == ZERO and self._next_output == math.inf
+        stands = self._sent == ZERO and math.isinf(self._next_output)
         return None if stands else self._stop(now)
 
     def _forget(self, state: State) -> None:

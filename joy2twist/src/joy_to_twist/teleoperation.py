@@ -36,10 +36,9 @@ class Teleoperation:
         self._max_age_ns = round(parameters.max_joy_age * 1e9)
         self._unheard_since: float | None = None  # when velocities began to reach no subscriber
         self._resumption = Resumption()
-        self._messages = 0
+        self._messages, self._counted_at = 0, -math.inf  # since the last summary, and its time
         self._last_message: float | None = None
         self._last: object = None  # axes and buttons of the last good message
-        self._last_summary = (0, -math.inf)  # messages until then, and when
 
     def joy(
         self,
@@ -104,9 +103,8 @@ class Teleoperation:
     def summary(self, now: float) -> tuple[bool, str, dict[str, str]]:
         """Return for diagnostics whether all is well, the state, and details by name."""
         state = self.safety.state
-        messages, since = self._last_summary
-        self._last_summary = (self._messages, now)
-        rate = (self._messages - messages) / ((now - since) or math.inf)
+        rate = self._messages / ((now - self._counted_at) or math.inf)
+        self._messages, self._counted_at = 0, now
         age = "none yet" if self._last_message is None else f"{now - self._last_message:.3f}"
         details = {
             "Joy rate [Hz]": f"{rate:.1f}",

@@ -4,7 +4,7 @@ import json
 from types import SimpleNamespace
 
 from cockpit_server.clients import Client
-from cockpit_server.driver_session import PAGE, DriverSession, Input
+from cockpit_server.driver_session import DriverSession, Input
 from tutorial_testing.nodes import serialised
 
 ANNA, BOB = 1, 2
@@ -49,7 +49,7 @@ class Room:
 
     def drive(self):
         """Sit down, release, hold LB and the stick."""
-        self.session.take(ANNA, "ada", PAGE, self.now)
+        self.session.take(ANNA, "ada", self.now)
         self.beat()
         self.say(REST)
         self.say(DRIVE)

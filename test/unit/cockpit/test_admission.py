@@ -3,13 +3,13 @@
 import pytest
 
 from cockpit_server.access import DRIVER, VIEWER
-from cockpit_server.admission import IDLE_S, page_to_close
+from cockpit_server.admission import page_to_close
 from cockpit_server.budget import Budget
 from cockpit_server.clients import LONGEST_FLOOD, Client
 from tutorial_testing.session_room import page
 
 ADA, BOB, CY = "10.0.0.1", "10.0.0.2", "10.0.0.3"
-LONG = IDLE_S + 1
+LONG = 60.1  # [s]
 RATE = 0.25  # s/s
 
 
@@ -28,7 +28,7 @@ HERE = (DRIVER, ADA, LONG)
         ([(VIEWER, ADA, 1), (VIEWER, ADA, 2), (VIEWER, BOB, 3)], VIEWER, BOB, None),
         # only an idle one from the same address; else two pages would replace each other again
         ([(VIEWER, ADA, 1), (VIEWER, ADA, LONG), (VIEWER, ADA, LONG + 1)], VIEWER, ADA, 2),
-        ([(VIEWER, ADA, 1), (VIEWER, ADA, IDLE_S)], VIEWER, ADA, None),
+        ([(VIEWER, ADA, 1), (VIEWER, ADA, 60)], VIEWER, ADA, None),
     ],
 )
 def test_the_viewer_that_is_closed_for_a_new_page(pages, role, address, closed):

@@ -10,7 +10,7 @@ import rosbag
 import rospy
 from sensor_msgs.msg import Joy
 
-from cockpit_server.driver_session import BAG, RefusedError
+from cockpit_server.driver_session import RefusedError
 from cockpit_server.player import Player
 from cockpit_server.sources import bags, recording
 from cockpit_server.sources.recording import corners, read
@@ -29,21 +29,21 @@ class Page:
         self.clients = {self.client.number: self.client}
         self.stand_up()
 
-    def sit_down(self, client, _robot, how, _now):
-        self.session = SimpleNamespace(driver=client.number, how=how, play=self.hear)
+    def sit_down(self, client, _robot, _now, plays):
+        self.session = SimpleNamespace(driver=client.number, plays=plays, play=self.hear)
 
     def hear(self, axes, _buttons):
         self.played.append(axes[0])
 
     def stand_up(self, _client=None):
-        self.session = SimpleNamespace(driver=None, how="")
+        self.session = SimpleNamespace(driver=None, plays=False)
 
     def say(self, kind, now=0.0, **fields):
         getattr(self.bags, f"on_{kind}")(self.client, now, **fields)
 
     def play(self):
         self.say("bag_play", topic="/joy", rate=1.0, loop=False, robot="")
-        return self.session.how == BAG
+        return self.session.plays
 
     def show(self):
         """Let what was opened come; return what the page is sent of it: "bag" or "refused"."""

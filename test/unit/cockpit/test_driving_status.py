@@ -9,7 +9,7 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from cockpit_server import driving_status
 from cockpit_server.access import DRIVER
 from cockpit_server.clients import LOOKS_ONLY
-from cockpit_server.driver_session import BAG, PAGE, DriverSession, RefusedError
+from cockpit_server.driver_session import DriverSession, RefusedError
 from cockpit_server.driving_status import About, DrivingStatus, sentence
 from cockpit_server.graph import Graph
 from cockpit_server.hub import Hub
@@ -21,15 +21,15 @@ ANNA, BOB = 1, 2
 MOVING, ARMED, FREE = ({"state": s, "deadman": d} for s, d in
                        (("driving", "4"), ("armed", "4"), ("armed", "none")))  # fmt: skip
 PLAYS = ("/rosbag_play",)
-SEAT = About(driver=ANNA, name="Firefox", how=PAGE, armed=True, said=ARMED)
+SEAT = About(driver=ANNA, name="Firefox", armed=True, said=ARMED)
 
 WHO = {
     "nobody": (About(said=ARMED), "Nobody drives."),
     "this page": (SEAT, "You drive ada."),
     "another page": (SEAT._replace(driver=BOB), "Firefox drives ada."),
-    "a recording of this page": (SEAT._replace(how=BAG), "You play a recording to ada."),
+    "a recording of this page": (SEAT._replace(plays=True), "You play a recording to ada."),
     "a recording of another": (
-        SEAT._replace(how=BAG, driver=BOB), "Firefox plays a recording to ada."),
+        SEAT._replace(plays=True, driver=BOB), "Firefox plays a recording to ada."),
     "a recording of rosbag": (About(said=MOVING, senders=PLAYS), "/rosbag_play drives ada."),
     "a joystick at rest": (
         About(said=ARMED, senders=PLAYS),
@@ -61,7 +61,7 @@ READY = {  # -> why it stands and what to do now; how it is driven, without "Esc
         "Move the stick: this robot needs no button held.", FREELY),
     "a button without a name": (SEAT._replace(said={"state": "armed", "deadman": "77"}),
         "Hold button 77, then move the stick.", BY_77),
-    "plays": (SEAT._replace(how=BAG), "", ""),
+    "plays": (SEAT._replace(plays=True), "", ""),
     "looks on": (About(), "", BY_LB),
     "another page drives": (SEAT._replace(driver=BOB), "", ""),
     "a node drives": (About(said=MOVING), "", ""),
@@ -119,7 +119,7 @@ def test_robot_is_not_reset_while_another_drives_it():
     assert room.session.stopped is None  # it stands no longer
     with pytest.raises(RefusedError, match="/rosbag_play drives this robot: stop it"):
         resets.on_reset(room.client, 0.0, "ada")
-    room.session.take(BOB, "ada", PAGE, 0.0)
+    room.session.take(BOB, "ada", 0.0)
     with pytest.raises(RefusedError, match="another page drives this robot"):
         resets.on_reset(room.client, 0.0, "ada")
     room.look()

@@ -8,7 +8,6 @@ import pytest
 from cockpit_server import hub as hub_module
 from cockpit_server.access import DRIVER, VIEWER
 from cockpit_server.clients import LOOKS_ONLY, Source
-from cockpit_server.driver_session import PAGE
 from cockpit_server.graph import JOY, Graph
 from cockpit_server.hub import CONNECT_S, Hub
 from tutorial_testing.session_room import DRIVE, REST, page
@@ -185,7 +184,7 @@ def test_page_is_told_beforehand_what_drive_would_be_refused_for(
     hub = Made()
     _, (client, sent) = hub.opened(), hub.opened(role)
     if driver is not None:
-        hub.session.take(driver, "", PAGE, 0.0)
+        hub.session.take(driver, "", 0.0)
     hub.rival = rival
     said = hub.refusal(client, robot, 0.0)
     assert said.startswith(refusal) and bool(said) == bool(refusal)

@@ -14,6 +14,9 @@ SOURCES = [one for one in Source.__subclasses__() if one.__module__.startswith("
 SCHEMA = Schema([Hub, *SOURCES])
 
 
+LONG = "x" * 41
+
+
 def say(kind, **fields):
     return json.dumps({"kind": kind, **fields})
 
@@ -30,8 +33,8 @@ def taken(kind, name, value):
 @pytest.mark.parametrize("kind", SCHEMA.messages)
 def test_each_field_is_required_and_others_are_refused(kind):
     assert SCHEMA.check(say(kind, **GOOD[kind]))[0] == kind
-    with pytest.raises(ValueError, match="has no field 'more'"):
-        SCHEMA.check(say(kind, **GOOD[kind], more=1))
+    with pytest.raises(ValueError, match=f"has no field '{LONG[:40]}'$"):
+        SCHEMA.check(say(kind, **GOOD[kind], **{LONG: 1}))
     for name in SCHEMA.messages[kind] if kind != "watch" else ():
         with pytest.raises(ValueError, match=f"{kind} lacks {name}"):
             SCHEMA.check(say(kind, **{n: v for n, v in GOOD[kind].items() if n != name}))
@@ -41,14 +44,15 @@ def test_each_field_is_required_and_others_are_refused(kind):
     "data",
     [
         b"{}", "", "null", "{", '{"kind": 1}', '{"kind": "command"}', "[" * 5000,
-        say("stop").ljust(8193), '{"kind": ["stop"]}', say("x" * 5000),
+        say("stop").ljust(8193), '{"kind": ["stop"]}',
     ],
 )  # fmt: skip
 def test_malformed_message_is_refused_and_the_longest_taken(data):
     assert SCHEMA.check(say("stop").ljust(8192)) == ("stop", {})
-    with pytest.raises(ValueError, match="message") as caught:
+    with pytest.raises(ValueError, match="message"):
         SCHEMA.check(data)
-    assert len(str(caught.value)) < 100
+    with pytest.raises(ValueError, match=f"no such kind of message: '{LONG[:40]}'$"):
+        SCHEMA.check(say(LONG))
 
 
 WHOLE, UP_TO = "must be a whole number from 0", "must be a number from"

@@ -12,7 +12,7 @@ HERE, FAR = Publisher("/here"), Publisher("/far", is_remote=True)
 
 def test_the_highest_input_that_is_not_silent_drives():
     arbiter = Arbiter(INPUTS)
-    assert arbiter.active(0.0) == IDLE
+    assert arbiter.active(0.0) == IDLE and not arbiter.must_stop(0.0)
     for name, now in (("navi", 0.0), ("safety", 0.1), ("teleop", 0.2)):
         arbiter.command(name, (0.1,), now)
     assert [arbiter.active(now) for now in (0.25, 0.35, 1.15, 1.25)] == [
@@ -61,6 +61,14 @@ def test_a_program_is_obeyed_whose_network_is_whole(times):
     running.until(times[-1] + 2 * TOGETHER_S)
     assert [speed for speed, _ in running.through] == list(range(1, len(times) + 1))
     assert all(s - times[int(n) - 1] <= TOGETHER_S + 1e-9 for n, s in running.through)
+
+
+def test_of_two_that_waited_only_the_higher_drives():
+    arbiter = Arbiter(INPUTS)
+    for now, verdict in ((0.0, Verdict.OBEYED), (5.0, Verdict.WAITS)):
+        for name, speed in (("navi", 0.2), ("teleop", 0.3), ("safety", 0.1)):
+            assert arbiter.command(name, (speed,), now, FAR) is verdict
+    assert [*arbiter.waited(5.0 + TOGETHER_S)] == [((0.1,), FAR)]
 
 
 def test_of_this_host_none_is_late():

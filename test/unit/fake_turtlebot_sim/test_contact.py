@@ -6,7 +6,7 @@ import pytest
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
-from fake_turtlebot_sim.simulator.contact import Piece, drive_among, gap
+from fake_turtlebot_sim.simulator.contact import Piece, direction_to, drive_among, gap
 from fake_turtlebot_sim.simulator.differential_drive import drive
 
 R = 0.178
@@ -54,6 +54,11 @@ def test_a_robot_is_never_inside_and_stops_only_where_it_touches(obstacles, pose
                 x, y, _ = drive(pose, *before[:2], before.dt)
                 assert clear(x, y) > -EXACT
             pose = drive(pose, *piece[:2], piece.dt)
+            if piece is not pieces[-1] and piece.is_blocked and piece.dt > EXACT:
+                # It turns until it may go on, and no longer.
+                touched = [one for one in obstacles if gap(*pose[:2], R, one) < EXACT]
+                turned = [abs(cos(direction_to(pose, one) - pose[2])) for one in touched]
+                assert min(turned) < 1e-6
         assert sum(piece.dt for piece in pieces) == pytest.approx(dt)
         assert contact is None or abs(clear(*pose[:2])) < EXACT
         # It drives towards what it touches: backing off is never kept.

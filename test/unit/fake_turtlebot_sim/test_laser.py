@@ -5,7 +5,10 @@ import math
 import numpy as np
 import pytest
 
-from fake_turtlebot_sim.simulator.laser import Scanner
+from fake_turtlebot_sim.simulator.differential_drive import composed
+from fake_turtlebot_sim.simulator.laser import Laser, Scanner
+from fake_turtlebot_sim.simulator.parameters import Parameters
+from fake_turtlebot_sim.simulator.world import World
 
 
 def crossings(pose, angles, walls, discs):
@@ -25,15 +28,19 @@ def crossings(pose, angles, walls, discs):
 
 @pytest.mark.parametrize("view", [1.0, math.tau])
 def test_twenty_thousand_random_beams(view):
-    random, count = np.random.default_rng(29), 500
-    angles = -view / 2 + view / count * np.arange(count)
-    scanner = Scanner(angles[0], view / count, count)
-    for _ in range(40):
-        walls = random.uniform(-5, 5, (random.integers(1, 20), 4))
-        discs = np.column_stack((random.uniform(-5, 5, (3, 2)), random.uniform(0.05, 0.5, 3)))
-        pose = tuple(random.uniform(-3, 3, 3))
-        expected = crossings(pose, angles, walls, discs)
-        assert scanner.ranges(pose, walls, discs) == pytest.approx(expected, rel=0, abs=1e-9)
+    random, count, far = np.random.default_rng(29), 500, 4.0
+    angles = np.linspace(-view / 2, view / 2, count, endpoint=view < math.tau)
+    given = Parameters(scan_angle=view, scan_beams=count, scan_range_min=0.0, scan_range_max=far)
+    for _ in range(10):
+        walls = random.uniform(-9, 9, (random.integers(1, 40), 4))
+        posts = np.column_stack((random.uniform(-9, 9, (6, 2)), random.uniform(0.05, 0.5, 6)))
+        lines = tuple(((x1, y1), (x2, y2)) for x1, y1, x2, y2 in walls)
+        laser = Laser(given, World(lines, tuple(map(tuple, posts))))
+        for pose in random.uniform(-6, 6, (4, 3)):
+            expected = crossings(composed(pose, (-0.087, 0.0125, 0.0)), angles, walls, posts)
+            expected[expected > far] = math.inf
+            found = laser.measure(tuple(pose), np.empty((0, 5)))
+            assert found == pytest.approx(expected, rel=0, abs=1e-9)
 
 
 def test_a_wall_in_line_with_a_beam_is_met_at_its_end_and_nothing_is_far():

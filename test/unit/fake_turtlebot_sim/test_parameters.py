@@ -1,15 +1,24 @@
 """Private parameters: defaults, one clear line for every mistake, and the same names everywhere."""
 
-from dataclasses import asdict
+import re
+from dataclasses import FrozenInstanceError, asdict, fields
+from math import inf
 from pathlib import Path
 
 import pytest
 import yaml
 
 import fake_turtlebot_sim
+from fake_turtlebot_sim.safety.parameters import Parameters as SafetyParameters
 from fake_turtlebot_sim.simulator.parameters import Parameters, line_up, parse_parameters
 
 PACKAGE = Path(fake_turtlebot_sim.__file__).parents[2]
+ALL = (*fields(Parameters), *fields(SafetyParameters))
+CHECKS = {one.name: one.metadata["check"] for one in ALL}
+BOUNDS = re.findall(
+    r"^\| `~(\w+)` \| .*? \| a (whole )?number from (\S+) to (\S+)(.*? or 0)?",
+    (PACKAGE / "README.md").read_text(), re.M,
+)  # fmt: skip
 
 
 def test_nothing_given_is_a_turtlebot_2():
@@ -17,12 +26,13 @@ def test_nothing_given_is_a_turtlebot_2():
     assert parameters == Parameters()
     assert (parameters.period_ns(), Parameters(rate=14.0).period_ns()) == (20_000_000, 71_428_571)
     assert parameters.start_poses() == {"": (0.0, 0.0, 0.0)}
+    with pytest.raises(FrozenInstanceError):
+        parameters.rate = 1.0
 
 
 @pytest.mark.parametrize(
     ("given", "parts"),
     [
-        ({"rate": 4.9}, ["~rate: 4.9", "must be a number from 5 to 1000 Hz"]),
         ({"odom_frame": "/odom"}, ["~odom_frame: '/odom'", "leading slash"]),
         ({"base_frame": "odom"}, ["~base_frame: 'odom'", "differ from ~odom_frame"]),
         ({"left_wheel_joint": "a", "right_wheel_joint": "a"}, ["~right_wheel_joint: 'a'"]),
@@ -31,6 +41,7 @@ def test_nothing_given_is_a_turtlebot_2():
         ({"world": "maze", "robots": {"ada": [1, 1, 0]}}, ["start: in the world's file or x:="]),
         ({"scan_no_return": "0"}, ["~scan_no_return: '0': must be inf or nan"]),
         ({"scan_range_min": 11.0}, ["~scan_range_min: must be less than ~scan_range_max"]),
+        ({"scan_range_min": 10.0}, ["~scan_range_min: must be less than ~scan_range_max"]),
         ({"robots": 0}, ["~robots: 0", "1 to 1000", "[ada, bob]", "{ada: [0, 0, 0]"]),
         ({"robots": ["ada"] * 1001}, ["~robots: ['ada'", "1 to 1000"]),
         ({"robots": ["ada", "bob", "ada"]}, ["~robots: [", "'ada': is listed twice"]),
@@ -46,9 +57,31 @@ def test_a_mistake_is_named_with_its_value_and_what_is_allowed(given, parts):
         assert part in str(caught.value)
 
 
+@pytest.mark.parametrize(("name", "whole", "least", "most", "off"), BOUNDS)
+def test_bounds_are_those_of_the_readme(name, whole, least, most, off):
+    check = CHECKS[name]
+    for bound, beyond in ((float(least), -1), (float(most), 1)):
+        step = 1 if whole else 1e-5 * abs(bound) + 1e-9  # the README gives six digits
+        check(int(bound) if whole else bound - beyond * step)
+        with pytest.raises(ValueError, match="must be"):
+            check(bound + beyond * step)
+    if off:
+        assert check(0) == 0
+
+
+def test_robots_that_meet_at_full_speed_are_near_long_before():
+    """Twice the way of a robot until its timeout, and 10 periods, as when the machine is busy."""
+    assert Parameters().meeting_reach() == pytest.approx(1.0 + 2 * 0.7 * (0.6 + 10 * 0.02))
+    assert Parameters(cmd_vel_timeout=0.0).meeting_reach() == inf
+    assert Parameters(max_linear_speed=0.0).meeting_reach() == inf
+
+
 def test_robots_by_name_and_by_number():
-    named = parse_parameters({"robots": {"alice": [0, 1, 2]}})
-    assert named.start_poses() == {"alice": (0.0, 1.0, 2.0)}
+    named = parse_parameters({"robots": {"alice": [1e6, 1, 2]}})
+    assert named.start_poses() == {"alice": (1e6, 1.0, 2.0)}
+    one = parse_parameters({"initial_x": 1, "initial_y": 2, "initial_yaw": 3})
+    assert one.start_poses() == {"": (1.0, 2.0, 3.0)}
+    assert len(parse_parameters({"robots": 1000}).robots) == 1000
     numbered = parse_parameters({"robots": 30}).start_poses()
     assert list(numbered) == [f"robot_{k}" for k in range(1, 31)]
     listed = parse_parameters({"robots": ["ada", "bob"]}).start_poses()

@@ -1,10 +1,12 @@
 """What a bumped robot does."""
 
 import pytest
+from kobuki_msgs.msg import BumperEvent
 
 from fake_turtlebot_sim.safety.parameters import parse_parameters
-from fake_turtlebot_sim.safety.reaction import CENTER, LEFT, RIGHT, STOP, WHEEL_DROP, Reaction
+from fake_turtlebot_sim.safety.reaction import Reaction
 
+LEFT, CENTER, RIGHT = BumperEvent.LEFT, BumperEvent.CENTER, BumperEvent.RIGHT
 BACK = (-0.1, 0.0)
 
 
@@ -17,7 +19,7 @@ BACK = (-0.1, 0.0)
     ],
 )  # fmt: skip
 def test_it_backs_off_and_turns_away(kind, sensors, velocity):
-    reaction = Reaction()
+    reaction = Reaction(parse_parameters({}).time_to_extend_bump_cliff_events)
     assert reaction.velocity(0.0) is None
     for sensor in sensors:
         reaction.event(kind, sensor, True, 1.0)
@@ -30,22 +32,20 @@ def test_it_backs_off_and_turns_away(kind, sensors, velocity):
 def test_with_a_dropped_wheel_it_stands():
     reaction = Reaction(5.0)
     reaction.event("bumper", CENTER, True, 0.0)
-    reaction.event(WHEEL_DROP, LEFT, True, 0.0)
-    assert reaction.velocity(0.0) == STOP
-    reaction.event(WHEEL_DROP, LEFT, False, 1.0)
+    reaction.event("wheel_drop", LEFT, True, 0.0)
+    assert reaction.velocity(0.0) == (0.0, 0.0)
+    reaction.event("wheel_drop", LEFT, False, 1.0)
     assert reaction.velocity(1.0) == BACK  # what is over for a wheel is over at once
 
 
 def test_a_release_may_be_extended():
-    reaction = Reaction(
-        parse_parameters({"time_to_extend_bump_cliff_events": 2}).time_to_extend_bump_cliff_events
-    )
+    reaction = Reaction(2.0)
     reaction.event("cliff", RIGHT, False, 0.0)  # never seen as active
     assert reaction.velocity(0.0) is None
     reaction.event("cliff", RIGHT, True, 1.0)
-    reaction.event("cliff", RIGHT, False, 2.0)
-    assert reaction.velocity(3.9) == (-0.1, 0.4)
-    assert reaction.velocity(4.0) is None
+    reaction.event("cliff", RIGHT, False, 3.0)
+    assert reaction.velocity(4.9) == (-0.1, 0.4)
+    assert reaction.velocity(5.0) is None
     reaction.event("cliff", RIGHT, True, 5.0)
     reaction.reset()
     assert reaction.velocity(5.0) is None

@@ -1,17 +1,21 @@
 """A robot in a world: sensors, edges, other robots, and where it is put."""
 
+import cmath
 from math import asin, cos, hypot, inf, nan, pi, sin
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
+from fake_turtlebot_sim.simulator.contact import gap
 from fake_turtlebot_sim.simulator.differential_drive import composed
 from fake_turtlebot_sim.simulator.laser import Laser
 from fake_turtlebot_sim.simulator.parameters import Parameters, parse_parameters
 from fake_turtlebot_sim.simulator.ros_messages import between_frames
 from fake_turtlebot_sim.simulator.sensors import bumpers
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot, meet
-from fake_turtlebot_sim.simulator.world import World
+from fake_turtlebot_sim.simulator.world import Surroundings, World, gaps, is_inside
 from fake_turtlebot_sim.simulator.world_messages import world_map
 
 R = 0.178
@@ -40,11 +44,24 @@ def test_at_a_wall_the_wheels_stall_and_odometry_says_so():
     robot = driven(SimulatedRobot(Parameters(world=WALL)), (0.5, 0.0), 4)
     state = robot.state()
     assert (state.x, state.v, state.left_rate) == (pytest.approx(1 - R, abs=EXACT), 0.0, 0.0)
+    robot.advance(4 * 10**9)  # the same instant again
     assert robot.contact == pytest.approx(0.0, abs=EXACT)
     assert robot.sensed().bumpers == (False, True, False)
     assert state.left_angle == pytest.approx((1 - R) / 0.035)  # wheel radius: 35 mm
     assert driven(robot, (-0.5, 0.0), 0.5, 4).state().x == pytest.approx(1 - R - 0.25, abs=EXACT)
     assert robot.contact is None and not any(map(any, robot.sensed()))
+    on_a_plane = SimulatedRobot(Parameters())
+    assert not any(map(any, on_a_plane.sensed())) and not on_a_plane.odometry_differs
+
+
+@pytest.mark.parametrize("acceleration", [0.0, 0.01, 0.3])
+def test_one_long_step_ends_at_the_wall_as_many_short_ones(acceleration):
+    limits = {"max_linear_acceleration": acceleration, "cmd_vel_timeout": 60.0}
+    robot = SimulatedRobot(Parameters(world=World((((3.0, -5.0), (3.0, 5.0)),)), **limits))
+    robot.command((0.7, 0.0), 0)
+    robot.advance(50 * 10**9)
+    assert (robot.state().x, robot.true_pose[0]) == pytest.approx((3 - R, 3 - R), abs=EXACT)
+    assert robot.state()[5:7] == pytest.approx(((3 - R) / 0.035, (3 - R) / 0.035))
 
 
 def test_a_robot_with_errors_touches_with_its_true_body():
@@ -59,7 +76,7 @@ def test_a_robot_with_errors_touches_with_its_true_body():
 @pytest.mark.parametrize(
     ("degrees", "pressed"),
     [
-        (90, "L"), (45, "L"), (31, "L"), (29, "C"), (0, "C"), (-29, "C"), (-31, "R"), (-89, "R"),
+        (90, "L"), (45, "L"), (31, "L"), (30, "C"), (0, "C"), (-30, "C"), (-31, "R"), (-90, "R"),
         (91, ""), (-120, ""), (180, ""),
     ],
 )  # fmt: skip
@@ -104,8 +121,10 @@ def test_robots_stop_each_other():
     parameters = Parameters(world=World())
     one = SimulatedRobot(parameters, (0.0, 0.0, 0.0))
     other = SimulatedRobot(parameters, (2.0, 0.1, pi))
+    far = SimulatedRobot(parameters, (9.0, 0.0, 0.0))
     for cycle in range(250):
-        meet([one, other], parameters.meeting_reach())
+        meet([one, other, far], parameters.meeting_reach())
+        assert (one.company, other.company, far.company) == ([other], [one], [])
         for robot in (one, other):
             robot.command((0.3, 0.0), cycle * PERIOD_NS)
             robot.advance((cycle + 1) * PERIOD_NS)
@@ -177,12 +196,56 @@ def test_a_map_has_its_walls_posts_and_edges():
     assert [at(*one) for one in ((1.8, 0.0), (0.5, 0.0), (-2.3, -2.3))] == [0] * 3
 
 
-def test_robots_are_lined_up_where_they_can_drive_to():
-    inside = World((SQUARE, ((-2.0, 1.0), (2.0, 1.0))), start=(0.0, 0.0, 1.0))
-    places = inside.places(20)
-    assert places[0] == (0.0, 0.0, 1.0)
-    assert all(y < 1 - R and abs(x) < 2 - R and y > -2 + R for x, y, _ in places)
-    apart = [hypot(a[0] - b[0], a[1] - b[1]) for a in places for b in places if a is not b]
-    assert min(apart) == pytest.approx(0.5)
-    with pytest.raises(ValueError, match=r"room for .. robots"):
-        inside.places(1000)
+# Neighbours of a place in the order in which they are looked at, as (ahead, left).
+NEAR = [(0, -1), (-1, 0), (0, 1), (1, 0)]
+
+
+@pytest.mark.parametrize("side", range(4))
+def test_places_are_around_the_start_and_not_behind_a_wall(side):
+    """A wall is touched at 0.422 m; the one on the other side at 0.522 m, beyond the place."""
+    start, turn = (1.0, 2.0, pi / 6), cmath.rect(1.0, pi / 6)
+
+    def at(ahead, left):
+        place = complex(1.0, 2.0) + turn * complex(ahead, left)
+        return place.real, place.imag
+
+    def wall(away, ahead, left):
+        return tuple(at(away * ahead + k * left, away * left + k * ahead) for k in (-0.2, 0.2))
+
+    ahead, left = NEAR[side]
+    world = World((wall(0.6, ahead, left), wall(0.7, -ahead, -left)), start=start)
+    free = [(0, 0), *(one for one in NEAR if one != (ahead, left))]
+    assert [pose[2] for pose in world.places(4)] == [pi / 6] * 4
+    assert [pose[:2] for pose in world.places(4)] == [
+        pytest.approx(at(0.5 * ahead, 0.5 * left)) for ahead, left in free
+    ]
+    further = [pose[:2] for pose in World(start=start).places(9)[5:]]
+    assert further == [
+        pytest.approx(at(0.5 * ahead, 0.5 * left))
+        for ahead, left in [(0, -2), (-1, -1), (1, -1), (-2, 0)]
+    ]
+
+
+whole = st.integers(-6, 6).map(float)
+points = st.tuples(whole, whole)
+
+
+@given(st.lists(st.tuples(points, points), min_size=1, max_size=9), st.lists(points, min_size=1))
+def test_what_is_near_is_what_has_a_small_gap(walls, ways):
+    around = Surroundings(World(walls=tuple(walls), posts=((1.0, 2.0, 0.3),)))
+    for x, y in ways:
+        each = [gap(x, y, 0.0, one) for one in around.world.obstacles]
+        assert gaps(x, y, around.world.array) == pytest.approx(each, abs=EXACT)
+        for reach in (0.4, 2.5):
+            near = around.near(x, y, reach)
+            far = [gap(x, y, 0.0, one) for one in near if gap(x, y, 0.0, one) > reach]
+            assert all(one in near for one, m in zip(around.world.obstacles, each) if m <= reach)
+            assert max(far, default=0.0) <= 2 * max(reach, 2.5)
+
+
+@given(points, points, points, points)
+def test_a_point_is_inside_of_a_triangle_that_goes_once_around_it(a, b, c, point):
+    at = complex(*point) + 0.3 + 0.4j  # on no edge between whole numbers
+    ways = [complex(*one) - at for one in (a, b, c, a)]
+    turns = sum(cmath.phase(one / other) for one, other in zip(ways, ways[1:]))
+    assert bool(is_inside(at.real, at.imag, (a, b, c))) == (abs(turns) > pi)

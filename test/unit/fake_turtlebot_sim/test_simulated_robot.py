@@ -57,16 +57,31 @@ def test_the_pose_depends_on_the_commands_and_not_on_the_rate(model, rate_hz, ji
     assert looked_at == pytest.approx(left_alone, rel=0, abs=1e-9)
 
 
-def test_the_robot_stops_at_the_instant_of_the_timeout():
-    robot = SimulatedRobot(KOBUKI)
-    robot.command((0.7, 1.0), 0)
-    robot.advance(SECOND * 6 // 10 - 1)
-    assert (robot.state().v, robot.state().w, robot.is_driven) == (0.7, 1.0, True)
-    robot.advance(SECOND * 6 // 10)
-    assert (robot.state().v, robot.state().w, robot.is_driven) == (0.0, 0.0, False)
+@pytest.mark.parametrize("velocity", [(0.7, 1.0), (-0.7, 0.0), (0.0, 0.0)])
+def test_the_robot_stops_at_the_instant_of_the_timeout(velocity):
+    robot, moves = SimulatedRobot(KOBUKI), any(velocity)
+    robot.command(velocity, 0)
+    assert not robot.advance(SECOND * 6 // 10 - 1)
+    assert (robot.state()[3:5], robot.is_driven, robot.is_moving) == (velocity, True, moves)
+    assert robot.advance(SECOND * 6 // 10) == moves
+    assert (robot.state()[3:5], robot.is_driven, robot.is_moving) == ((0.0, 0.0), False, False)
     state = robot.state()
     robot.advance(SECOND // 2)  # a time that has passed changes nothing
     assert robot.state() == state
+    assert not robot.advance(SECOND) and not robot.is_driven
+
+
+def test_a_ramp_takes_as_long_as_the_slower_part():
+    robot = SimulatedRobot(Parameters(**RAMPS, cmd_vel_timeout=60.0))
+    for second, target, halfway in (
+        (0, (0.5, 2.0), (0.25, 1.0)),
+        (1, (-0.5, 2.0), (0.0, 2.0)),
+        (2, (-0.5, 0.0), (-0.5, 1.0)),
+    ):
+        robot.command(target, second * SECOND)
+        for half, velocity in ((1, halfway), (2, target)):
+            robot.advance(second * SECOND + half * SECOND // 2)
+            assert robot.state()[3:5] == pytest.approx(velocity)
 
 
 @pytest.mark.parametrize("bad", [(nan, 0.0), (0.0, nan), (inf, 0.0), (0.0, -inf)])

@@ -1,14 +1,18 @@
 """The driver without ROS and without a device: bytes and times in, axes and buttons out."""
 
+from dataclasses import FrozenInstanceError
+from pathlib import Path
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gamepad.driver.driver import LONGEST_LIFELESS_S, SHORTEST_SILENCE_S
+from gamepad.driver.driver import LONGEST_LIFELESS_S, SHORTEST_SILENCE_S, Driver
 from gamepad.driver.parameters import DriverParameters
 from gamepad.driver.report import SILENT_FOR, DriverReport
 from gamepad.driver.schedule import Schedule
 from gamepad.js_event import SIGN_OF_LIFE_MS
+from node_kit.parameters import table
 from tutorial_testing.gamepad_events import AXIS, BUTTON, INIT, driver, events, sign
 
 INF = float("inf")
@@ -30,6 +34,7 @@ PUSHED = ((AXIS, 5, 32767), (AXIS, 1, -32767), (BUTTON, 4, 1))
     [
         ({"triggers": (2, 5)}, PUSHED, ((0.0, 0.0, 1.0, 0.0, 0.0, 1.0), (0,) * 5)),
         # A gamepad of which only the number of axes is known.
+        ({"triggers": None}, PUSHED, ((0.0,) * 6, (0,) * 5)),
         ({"triggers": None, "kernel_device": False}, ((AXIS, 7, 32767), *PUSHED),
          ((0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0), (0,) * 5)),
     ],
@@ -39,12 +44,13 @@ def test_a_lost_gamepad_gives_one_neutral_message_with_released_triggers(how, se
     ours.read(events(*sent), now=0.0)
     assert ours.lost(0.1) == [neutral]
     assert ours.due == INF
-    assert ours.lost(0.2) == []  # nobody has to know
+    assert ours.lost(0.2) == driver().lost(0.2) == []  # nobody has to know
 
 
 def test_after_a_loss_it_is_silent_until_the_user_touches_the_gamepad():
     assert 0.5 < SHORTEST_SILENCE_S < 1.0  # longer than joy2twist's ~joy_timeout
     ours = driver(sticky_buttons=True)
+    assert ours.opens_at == -INF
     ours.read(events((BUTTON, 4, 1)), now=0.0)
     ours.lost(1.0)
     assert ours.opens_at == 1.0 + SHORTEST_SILENCE_S
@@ -83,16 +89,17 @@ KERNEL, FIFO = True, False
 )  # fmt: skip
 def test_a_source_that_owes_signs_of_life_is_lifeless(about, kernel_device, read, last_sign):
     assert 0.3 < LONGEST_LIFELESS_S < 0.5  # two signs of virtual_joystick; joy2twist's ~joy_timeout
+    assert not Driver(DriverParameters()).lives
     one = driver(kernel_device, autorepeat_rate=0)
     for data, now in read:
         one.read(data, now)
         one.tick(now + 0.01)
     assert not one.is_lifeless(min(1e9, last_sign + LONGEST_LIFELESS_S - 0.01)), about
-    assert one.is_lifeless(1e10) is (last_sign < INF)
+    assert one.is_lifeless(1e10) is one.lives is (last_sign < INF)
     assert not last_sign < INF or one.is_lifeless(last_sign + LONGEST_LIFELESS_S)
     assert one.due == last_sign + LONGEST_LIFELESS_S
     one.lost(2.0)
-    assert not one.is_lifeless(1e9)
+    assert not one.is_lifeless(1e9) and not one.lives
     one.opened((), kernel_device)
     assert not one.is_lifeless(1e9)
 
@@ -109,13 +116,23 @@ def test_a_sign_publishes_nothing_and_moves_nothing():
     assert (axes[1], buttons) == (pytest.approx(1.0), (1, 0, 0, 0, 1))
 
 
+def test_the_readme_has_the_parameters_which_do_not_change():
+    readme = Path(__file__).parents[3] / "common" / "gamepad" / "README.md"
+    assert table(DriverParameters) in readme.read_text()
+    with pytest.raises(FrozenInstanceError):
+        DriverParameters().deadzone = 0.0
+
+
 def test_a_report_has_the_rates_and_a_change_is_reported_at_once():
     report, pad = DriverReport(DriverParameters(), "/joy"), driver()
+    assert report.due(-1.0) and not report.due(-0.1)
     report.opened("/dev/input/js1", "Pad")
-    report.details(pad, 1, 10.0)
-    pad.read(events((BUTTON, 0, 1), (BUTTON, 0, 0)), 10.5)
-    details = dict(report.details(pad, 1, 12.0))
-    assert (details["recent joystick event rate (Hz)"], details[SILENT_FOR]) == (1.0, "1.5")
+    for now, presses, rates in ((10.0, 5, (0.0, 0.0)), (12.0, 3, (1.5, 3.0)), (12.0, 0, (0, 0))):
+        pad.read(events(*[(BUTTON, 0, 1)] * presses), now - 1.5)
+        report.published += 2 * presses
+        details = dict(report.details(pad, 1, now))
+        names = [f"recent {what} rate (Hz)" for what in ("joystick event", "publication")]
+        assert (*(details[name] for name in names), details[SILENT_FOR]) == (*rates, "1.5")
     assert report.due(12.0) and not report.due(12.9)
     report.lost()
     assert report.due(12.9) and report.summary() == (False, "Joystick not open.")
@@ -164,7 +181,7 @@ def test_every_message_tells_the_newest_state_and_none_is_older_than_the_interva
         assert simulated.driver.due <= min(simulated.untold, default=float("inf")) + interval
 
 
-@pytest.mark.parametrize(("rate", "due"), [(0.5, 3.0), (0, INF)])
+@pytest.mark.parametrize(("rate", "due"), [(0.5, 3.0), (4, 1.25), (0, INF)])
 def test_the_repetition_may_be_slow_or_off(rate, due):
     schedule = Schedule(0.001, rate)
     schedule.published(1.0)

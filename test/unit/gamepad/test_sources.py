@@ -93,7 +93,10 @@ RIGHT = {"right_stick": (0.25, -0.75), "triggers": (0.25, 0.75)}
     [
         (F710_D, {**PUSHED, "mode_led": True}, (0, 1, 0, 0, 1, 0), []),
         (F710_D, RIGHT, (0, 0, 0.25, -0.75, 0, 0), ["RT"]),
+        (F710_D, {"triggers": (0.5, 0.5), "dpad": (-0.5, 0.5)}, (0,) * 6, []),
         (F710_X, {"triggers": (1.0, 0.0), "held": {"A"}}, (0, 0, -1, 0, 0, 1, 0, 0), ["A"]),
+        (F710_X, {"dpad": (-0.75, 0.75)}, (0, 0, 1, 0, 0, 1, -1, 1), []),
+        (F710_X, {}, (0, 0, 1, 0, 0, 1, 0, 0), []),
     ],
 )
 def test_a_position_of_hands_gives_axes_and_buttons(pad, moved, axes, held):

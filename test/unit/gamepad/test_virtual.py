@@ -4,10 +4,13 @@ import select
 import struct
 
 import pytest
+from evdev import ecodes
+from hypothesis import given
+from hypothesis import strategies as st
 
 from gamepad.driver.device import Finder
 from gamepad.driver.device_choice import DeviceError
-from gamepad.gamepads import F710, F710_D
+from gamepad.gamepads import F710, F710_D, F710_X, mode_hint
 from gamepad.js_event import SIGN_OF_LIFE_MS
 from gamepad.liveness import Trembling
 from gamepad.virtual.controls import Controls, positions
@@ -17,11 +20,33 @@ REST = positions(F710_D, Controls())
 PUSHED = positions(F710_D, Controls(left_stick=(0.0, 1.0), held=frozenset(["LB"])))
 
 
-@pytest.mark.parametrize("pad", F710.values(), ids=F710)
-def test_the_ends_and_the_middle_of_every_axis(pad):
-    for axis in pad.axes:
-        ends = [axis.js_value(axis.raw(position)) for position in (1.0, 0.0, -1.0)]
-        assert ends == [-32767, 0, 32767]
+# Least, most and middle of an axis in hid-input.c or xpad.c.
+BYTE, WORD, HAT = (0, 255, 127), (-32768, 32767, 0), (-1, 1, 0)
+
+
+@pytest.mark.parametrize(
+    ("mode", "usb_id", "axes", "ranges", "buttons", "triggers"),
+    [
+        ("D", "046d:c219", "X Y Z RZ HAT0X HAT0Y", [BYTE] * 4 + [HAT] * 2,
+         "A B C X Y Z TL TR TL2 TR2 SELECT START", ()),
+        ("X", "046d:c21f", "X Y Z RX RY RZ HAT0X HAT0Y", [WORD, WORD, BYTE] * 2 + [HAT] * 2,
+         "A B X Y TL TR SELECT START MODE THUMBL THUMBR", (2, 5)),
+    ],
+)  # fmt: skip
+def test_a_gamepad_is_what_the_kernel_shows(mode, usb_id, axes, ranges, buttons, triggers):
+    pad = F710[mode]
+    assert [ecodes.ecodes[f"ABS_{name}"] for name in axes.split()] == [a.code for a in pad.axes]
+    assert [ecodes.ecodes[f"BTN_{name}"] for name in buttons.split()] == list(pad.button_codes)
+    assert [(axis.raw(1.0), axis.high, axis.raw(0.0)) for axis in pad.axes] == ranges
+    assert (pad.usb_id, pad.triggers) == (usb_id, triggers)
+    assert f"in {mode} mode:" in mode_hint(usb_id)
+    assert [mode_hint(other) for other in ("0000:0000", "046d:c21a", "ffff:ffff")] == [None] * 3
+
+
+@given(st.sampled_from([*F710_D.axes, *F710_X.axes]), st.floats(-1, 1) | st.sampled_from([-1, 1]))
+def test_an_axis_gives_the_part_of_its_way(axis, position):
+    value, step = axis.js_value(axis.raw(position)), 65534 / (axis.high - axis.low)
+    assert value == pytest.approx(-32767 * position, abs=0 if position in (-1, 0, 1) else step)
 
 
 @pytest.mark.parametrize("pad", F710.values(), ids=F710)
@@ -34,13 +59,12 @@ def test_a_held_stick_trembles_by_one_step_and_nothing_else_does(pad):
 
 
 def test_one_of_many_equal_messages_trembles_by_the_last_bit():
-    trembling, held = Trembling(), (1.0, -0.5, 0.0)
-    shown = [struct.pack("<3f", *trembling.shown(held)) for _ in range(20)]
-    changed = [k for k, data in enumerate(shown) if data != struct.pack("<3f", *held)]
-    assert changed == [7, 15]
-    assert struct.unpack("<3f", shown[7]) == pytest.approx(held, rel=2e-7)
-    assert struct.unpack("<3f", shown[7])[2] == 0.0
-    assert trembling.shown((0.5, 0.0, 0.0)) == (0.5, 0.0, 0.0)
+    trembling, less = Trembling(), 1.0 - 2.0**-23
+    for held in ((1.0, -0.5, 0.0), (0.5, -1.0, 0.0), (1.0, 0.0, 0.0)):
+        shown = [struct.pack("<3f", *trembling.shown(held)) for _ in range(20)]
+        changed = [k for k, data in enumerate(shown) if data != struct.pack("<3f", *held)]
+        assert changed == [7, 15]
+        assert struct.unpack("<3f", shown[7]) == tuple(less * axis for axis in held)
 
 
 def events(device):

@@ -1,24 +1,34 @@
 """Names, defaults and checks of the private parameters."""
 
+from dataclasses import FrozenInstanceError, asdict
+from pathlib import Path
+
 import pytest
 
-from joy_to_twist.parameters import Axis, load
+from joy_to_twist.parameters import Axis, Parameters, load
+from node_kit.parameters import table
 
 LINEAR_X, LINEAR_Y, LINEAR_Z, ROLL, PITCH, YAW = range(6)
 
 
-def test_without_parameters_it_is_the_node_of_the_tutorial():
-    p = load({})
-    assert p.axes == (Axis(LINEAR_X, 1, 1.0, 1.0), Axis(YAW, 0, 1.0, 1.0))
-    assert (p.enable_button, p.enable_turbo_button, p.require_enable_button) == (-1, -1, False)
-    assert (p.joy_timeout, p.log_rate, p.arm_on_neutral) == (0.0, 50.0, False)
+def test_the_readme_has_the_parameters_which_do_not_change():
+    assert table(Parameters) in (Path(__file__).parents[3] / "joy2twist/README.md").read_text()
+    with pytest.raises(FrozenInstanceError):
+        load({}).joy_timeout = 1.0
+
+
+def test_each_default_may_be_given():
+    defaults = {name: value for name, value in asdict(Parameters()).items() if value is not None}
+    del defaults["axes"]
+    assert load(defaults) == load({})
 
 
 @pytest.mark.parametrize(
     ("given", "axes"),
     [
-        ({"axis_linear": 4, "scale_linear": 0.7, "axis_angular": 3, "scale_angular": 0.4},
-         [Axis(LINEAR_X, 4, 0.7, 1.0), Axis(YAW, 3, 0.4, 0.4)]),
+        ({}, [Axis(LINEAR_X, 1, 1.0, 1.0), Axis(YAW, 0, 1.0, 1.0)]),  # the node of the tutorial
+        ({"axis_linear": 4, "scale_linear": 100, "axis_angular": 3, "scale_angular": 0.4},
+         [Axis(LINEAR_X, 4, 100.0, 1.0), Axis(YAW, 3, 0.4, 0.4)]),
         ({"axis_linear": {"x": 1, "y": 2, "z": -1}, "scale_linear": {"x": 0.7, "y": 0.5, "z": 9},
           "scale_linear_turbo": {"x": 1.5}, "axis_angular": {"roll": 4, "pitch": 5, "yaw": 0},
           "scale_angular": {"roll": 3, "pitch": 2.0, "yaw": 1.0}},
@@ -33,7 +43,8 @@ def test_a_number_stands_for_x_or_yaw_and_a_map_without_turbo_keeps_its_scale(gi
 @pytest.mark.parametrize(
     ("given", "required"),
     [
-        ({"enable_button": 4}, True),
+        ({"enable_button": 0}, True),
+        ({}, False),
         ({"enable_turbo_button": 5}, False),
         ({"enable_turbo_button": 5, "require_enable_button": True}, True),
         ({"enable_button": 4, "require_enable_button": False}, False),
@@ -58,12 +69,12 @@ ARMED = {"arm_on_neutral": True}
          {"axis_linear": {"x": 1, "y": 0}}),
         ("vigilance_timeout", [3], "needs ~arm_on_neutral: true", {}),
         ("vigilance_timeout", [0.3, 61], "must be a number from 1 to 60 s, or 0 for off", ARMED),
-        ("stop_reset_button", [1], "needs ~stop_button", {}),
+        ("stop_reset_button", [0], "needs ~stop_button", {}),
         ("stop_reset_button", [1], "must be a button other than ~stop_button", {"stop_button": 1}),
         ("stop_button", [4], "must be a button other than ~enable_button",
          {"enable_button": 4, "stop_reset_button": 1}),
-        ("enable_turbo_button", [3], "must be a button other than ~enable_button",
-         {"enable_button": 3}),
+        ("enable_turbo_button", [0], "must be a button other than ~enable_button",
+         {"enable_button": 0}),
         ("enable_button", [1.0, -2], BUTTON, {}),
         ("require_enable_button", [True],
          "must be false without ~enable_button and ~enable_turbo_button", {}),

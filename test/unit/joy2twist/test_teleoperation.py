@@ -80,15 +80,6 @@ def test_a_stick_held_for_eight_seconds_is_stopped_unless_it_trembles(step):
     assert ("has not changed for 3 s" in machine.summary(8.0)[1]) is (step == 0)
 
 
-def test_a_robot_that_stands_may_do_so_without_end():
-    machine, warnings = teleoperation(arm_on_neutral=True, enable_button=0, vigilance_timeout=3.0)
-    machine.joy(*RELEASED, 0.0)
-    for i in range(160):
-        machine.joy((0.0, 0.0), HELD[1], 0.1 + i * 0.05)
-    assert machine.summary(9.0)[1] == "driving"
-    assert (machine.safety.due > 9.0, warnings) == (True, [])
-
-
 def test_the_stop_button_is_named_until_it_is_reset_and_sends_zeros_meanwhile():
     machine, warnings = teleoperation(enable_button=0, stop_button=1, stop_reset_button=2)
     machine.joy(*HELD, 0.1)

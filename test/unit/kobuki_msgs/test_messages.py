@@ -1,11 +1,11 @@
-"""Programs and recordings for a real Kobuki fit: a node of ROS 1 compares these sums."""
+"""Programs and recordings for a real Kobuki or turtlesim fit: nodes of ROS 1 compare these sums."""
 
 import pytest
-from kobuki_msgs import msg
+from roslib.message import get_message_class, get_service_class
 
 # getMD5() of what rosserial generated from the released package, as several public repositories
 # have it (firmware/libraries/ros_lib/kobuki_msgs in verlab/hero_common has all).
-UPSTREAM = {
+KOBUKI = {
     "AutoDockingAction": "44be114f3afc06365a090db0a5e982b5",
     "BumperEvent": "ffe360cd50f14f9251d9844083e72ac5",
     "ButtonEvent": "49eca512765dbdec759a79083ffcec8d",
@@ -26,8 +26,20 @@ UPSTREAM = {
     "VersionInfo": "3dc0ce6edd49be1fc86730f4a4a21861",
     "WheelDropEvent": "e102837d89384d67669a0df86b63f33b",
 }
+# The fields of ros/ros_tutorials, Noetic; `rosmsg md5` there.
+TURTLESIM = {
+    "Pose": "863b248d5016ca62ea2e895ae5265cf9",
+    "Color": "353891e354491c51aabe32df673fb446",
+    "Spawn": "0b2d2e872a8e2887d5ed626f2bf2c561",
+    "Kill": "c1f3d28f1b044c871e6eff2e9fc3c667",
+    "SetPen": "9f452acce566bf0c0954594f69a8e41b",
+    "TeleportAbsolute": "a130bc60ee6513855dc62ea83fcc5b20",
+    "TeleportRelative": "9d5c2dcd348ac8f76ce2a4307bd63a13",
+}
+REAL = {f"kobuki_msgs/{k}": v for k, v in KOBUKI.items()}
+REAL.update({f"turtlesim/{k}": v for k, v in TURTLESIM.items()})
 
 
-@pytest.mark.parametrize("name", UPSTREAM)
+@pytest.mark.parametrize("name", REAL)
 def test_a_message_has_the_md5_sum_of_the_real_one(name):
-    assert getattr(msg, name)._md5sum == UPSTREAM[name]
+    assert (get_message_class(name) or get_service_class(name))._md5sum == REAL[name]

@@ -8,9 +8,11 @@ import pytest
 
 from node_kit.parameters import (
     checked,
+    is_number,
     number,
     parameter,
     switch,
+    table,
     text,
     unknown,
     whole_number,
@@ -21,7 +23,7 @@ from node_kit.parameters import (
 class Parameters:
     """Some of each kind."""
 
-    rate: float = parameter(50.0, number(5, 1000, "Hz"))
+    rate: float = parameter(50.0, number(5, 1000, "Hz"), "messages published", "as it comes")
     share: float = parameter(0.5, number(0, 1))
     count: int = parameter(3, whole_number(1, 9, "a whole number from 1 to 9"))
     seed: int = parameter(0, whole_number())
@@ -64,6 +66,30 @@ def test_what_is_allowed(name, good, bad, allowed):
         assert isinstance(kept, type(getattr(Parameters(), name)))
     for value in bad:
         assert message_of({name: value}) == f"~{name}: {value!r}: must be {allowed}"
+
+
+def test_a_number_is_finite_and_fits_in_a_float():
+    assert [is_number(value) for value in (1.7e308, -1, 0, 10**308)] == [True] * 4
+    bad = [nan, inf, -inf, 10**309, -(10**309), True, "1", None]
+    assert [is_number(value) for value in bad] == [False] * len(bad)
+
+
+TABLE = """\
+| parameter | default | allowed | |
+|---|---|---|---|
+| `~rate` | as it comes | a number from 5 to 1000 Hz | messages published |
+| `~share` | 0.5 | a number from 0 to 1 |  |
+| `~count` | 3 | a whole number from 1 to 9 |  |
+| `~seed` | 0 | a whole number |  |
+| `~works` | true | true or false |  |
+| `~frame` | odom | a name without blanks |  |
+| `~robots` | {} |  |  |
+"""
+
+
+def test_the_table_in_a_readme():
+    assert table(Parameters) == TABLE
+    assert table(Entry, where="").endswith("\n| `topic` |  | a text |  |\n")
 
 
 def test_each_set_of_defaults_has_a_map_of_its_own():

@@ -1,17 +1,18 @@
 """Names, pens, teleports, colors and lines of the field, as upstream's."""
 
+import cmath
 import math
 from io import BytesIO
 from unittest import mock
 
 import pytest
-from PIL import Image
+from PIL import Image, ImageChops, ImageDraw
 
-from simulated_turtles.field import START, Field
-from simulated_turtles.turtle import FIELD_M, Turtle
+from simulated_turtles.field import COLORS, START, Field
+from simulated_turtles.turtle import FIELD_M
 
 BLUE, RED = (69, 86, 255), (255, 0, 0)
-PEN = Turtle.color
+PEN = (179, 184, 255)  # as upstream's DEFAULT_PEN
 PIXEL_M = 1 / 45
 
 
@@ -52,7 +53,9 @@ def test_names_are_chosen_or_given_once(field):
         field.call("turtle2/command", {}, 0.0)
     assert spawn(field, "") == "turtle4"  # not the free one, as upstream
     field.call("reset", {}, 0.0)
-    assert [*field.turtles] == ["turtle1"] and field.turtles["turtle1"].pose[:3] == START
+    assert [*field.turtles] == ["turtle1"]
+    # As upstream's wiki has it.
+    assert field.turtles["turtle1"].pose[:3] == pytest.approx((5.544445, 5.544445, 0.0), abs=1e-6)
 
 
 def test_velocities_are_published_without_a_sign_and_end_after_a_second(field):
@@ -98,14 +101,18 @@ def test_what_no_message_holds_is_refused_and_moves_nothing(field, value):
     assert {name: one.pose[:3] for name, one in field.turtles.items()} == {"turtle1": START}
 
 
-@pytest.mark.parametrize(("width", "reach"), [(1, 0), (3, 1), (9, 4)])
-def test_a_line_is_as_wide_as_its_pen(field, width, reach):
-    jump(field, 1.0, 2.0)
-    pen(field, RED, width)
+@pytest.mark.parametrize(("width", "reach"), [(1, 0), (3, 1), (9, 4), (None, 1)])
+def test_a_line_is_as_wide_as_its_pen_and_has_round_ends(field, width, reach):
+    field.call("kill", {"name": "turtle1"}, 0.0)
+    spawn(field, "turtle1", 1.0, 2.0)
+    if width:
+        pen(field, PEN, width)
     jump(field, 3.0, 2.0)
-    rows = [k for k in range(-9, 10) if field.color_at(2.0, 2.0 + k * PIXEL_M) == RED]
-    assert rows == list(range(-reach, reach + 1))
-    assert field.color_at(0.7, 2.0) == field.color_at(3.3, 2.0) == BLUE
+    around = [(k, n) for k in range(-20, 111) for n in range(-20, 21)]
+    drawn = {(k, n) for k, n in around if field.color_at(1 + k * PIXEL_M, 2 + n * PIXEL_M) == PEN}
+    assert drawn >= {(k, n) for k in range(91) for n in range(-reach, reach + 1)}
+    assert {k for k, _ in drawn} == set(range(-reach, 91 + reach))
+    assert all(math.hypot(max(-k, k - 90, 0), n) < reach + 0.6 for k, n in drawn)
 
 
 def test_where_a_thin_line_ends_is_its_color_in_every_direction(field):
@@ -121,6 +128,9 @@ def test_lines_to_far_away_are_cut_at_the_edge(field):
     pen(field, RED, 3)
     jump(field, 1e38, START[1])
     assert field.color_at(FIELD_M, START[1]) == RED and field.color_at(0.0, START[1]) == BLUE
+    spawn(field, "b", *START[:2])
+    field.call("b/teleport_absolute", {"x": -1e38, "y": -1e38, "theta": 0.0}, 0.0)
+    assert field.color_at(1.0, 1.11) == PEN  # to 20,000 pixels left and below
 
 
 def test_the_picture_is_new_while_turtles_move_and_shows_them(field):
@@ -130,6 +140,27 @@ def test_the_picture_is_new_while_turtles_move_and_shows_them(field):
     before = picture()
     field.step(1.0)
     assert picture() == before and before[1] not in (BLUE, PEN)
+    pen(field, PEN, 3)
+    assert field.version > before[0]
     drive(field, 5.0)
     field.step(1.5)
     assert picture()[0] > before[0] and picture()[1] == PEN
+
+
+HALF = (22, 15 - 5j, 13 - 14j, 7 - 11j, -9 - 11j, -16 - 14j)  # ahead, and to the right [pixels]
+
+
+def test_the_picture_is_the_lines_with_turtles_as_they_head_and_their_names(field):
+    for k in range(4):
+        spawn(field, "", 2.0 + k, 3.1, 0.7 * k)
+    expected = Image.new("RGB", (500, 500), BLUE)
+    draw = ImageDraw.Draw(expected)
+    for (name, turtle), color in zip(field.turtles.items(), (*COLORS, COLORS[0])):
+        x, y, theta = turtle.pose[:3]
+        at, turn = complex(45 * x, 499 - 45 * y), cmath.rect(1.0, -theta)
+        outline = [at + turn * one for one in (*HALF, -20, *(p.conjugate() for p in HALF[:0:-1]))]
+        draw.polygon([(p.real, p.imag) for p in outline], color, "#222")
+        for shift, shade in ((17, "#222"), (16, "white")):
+            draw.text((at.real + shift, at.imag + shift), name, shade)
+    shown = Image.open(BytesIO(field.picture("PNG")))
+    assert ImageChops.difference(shown, expected).getbbox() is None

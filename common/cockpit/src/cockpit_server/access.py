@@ -63,8 +63,8 @@ class Access:
 
 def gateways(route_table: str) -> tuple[str, ...]:
     """Return the gateways of a /proc/net/route, which has numbers in the machine's byte order."""
-    rows = [line.split() for line in route_table.splitlines()[1:]]
-    found = [int(row[2], 16).to_bytes(4, sys.byteorder) for row in rows if row[1] == "00000000"]
+    rows = [line.split() for line in route_table.splitlines()]
+    found = [int(row[2], 16).to_bytes(4, sys.byteorder) for row in rows if not row[1].strip("0")]
     return tuple(str(ipaddress.IPv4Address(one)) for one in found)
 
 

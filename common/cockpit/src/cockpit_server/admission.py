@@ -14,7 +14,7 @@ T = TypeVar("T")
 def of_the_fullest(present: Sequence[Tuple[T, str]]) -> List[T]:
     """Return the entries of the address that has most of them. present: (entry, address)."""
     counts = Counter(address for _, address in present)
-    most = max(counts.values(), default=0)
+    most = max(counts.values(), default=None)
     return [one for one, address in present if counts[address] == most]
 
 

@@ -24,7 +24,6 @@ KEPT_BEATS = 16  # [beats] as many as are sent in several SILENCE_S
 # The page's clock may run slower than ours by this; crystals differ by a tenth of it.
 CLOCK_DRIFT = 1e-3
 NEUTRAL = 0.1  # a stick that was let go is within this, as joy2twist has it
-PAGE, BAG = "page", "bag"
 Axes = Tuple[float, ...]
 Buttons = Tuple[int, ...]
 
@@ -48,13 +47,12 @@ class Delay:
     """How much later than the fastest one of its page a message came."""
 
     def __init__(self) -> None:
-        self._least, self._least_at = math.inf, 0.0  # our clock minus the page's, at the least
+        self._least = math.inf  # our clock, slowed by CLOCK_DRIFT, minus the page's
 
     def of(self, t: float, now: float) -> float:
         """Return the delay [s] of a message that the page sent at t of its clock [ms]."""
-        late = now - t / 1000
-        self._least = min(late, self._least + CLOCK_DRIFT * (now - self._least_at))
-        self._least_at = now
+        late = now * (1 - CLOCK_DRIFT) - t / 1000
+        self._least = min(late, self._least)
         return late - self._least
 
 
@@ -88,29 +86,30 @@ class DriverSession:
         self._clear()
 
     def _clear(self) -> None:
-        self.driver, self.robot, self.how = None, "", PAGE
+        self.driver, self.robot = None, ""
+        self.plays = False  # a recording, in place of a hand
         self.armed = False  # all was seen released since the last loss
         self.newest = 0  # number of the newest input that was taken
         self._last: tuple[Axes, Buttons] | None = None  # (axes, buttons) published last
-        self._fresh_at = -math.inf  # when the last fresh input came
+        self._fresh_at = math.nan  # when the last fresh input came
         self._delay = Delay()
-        self._pad, self._pad_at = None, 0.0  # the gamepad's clock, and when it last went on
+        self._pad, self._pad_at = None, math.nan  # the gamepad's clock, and when it last went on
         self._ticks = 0  # how often it did while nothing moved
         self._heard: tuple[Axes, Buttons] | None = None  # (axes, buttons) of the newest input
 
     @property
-    def state(self) -> tuple[int | None, str, str, bool, str]:
-        return self.driver, self.robot, self.how, self.armed, self.why
+    def state(self) -> tuple[int | None, str, bool, bool, str]:
+        return self.driver, self.robot, self.plays, self.armed, self.why
 
-    def take(self, client: int, robot: str, how: str, now: float) -> None:
+    def take(self, client: int, robot: str, now: float, *, plays: bool = False) -> None:
         """Sit down. Raises RefusedError if another sits there."""
         refusal = self.refusal(client)
         if refusal:
             raise RefusedError(refusal)
         self.leave(client)
-        self.driver, self.robot, self.how = client, robot, how
+        self.driver, self.robot, self.plays = client, robot, plays
         self.why, self.stopped = "", None
-        self.armed = how == BAG  # a recording begins as it begins
+        self.armed = plays  # a recording begins as it begins
         self._fresh_at = now
         self._beats.clear()
 
@@ -128,11 +127,11 @@ class DriverSession:
 
     def hand_over(self, client: int, to: int, now: float) -> None:
         """Let another client sit down. Raises RefusedError."""
-        if client != self.driver or self.how != PAGE:
+        if client != self.driver or self.plays:
             raise RefusedError("only the page that drives may hand over")
         robot = self.robot
         self.leave(client)
-        self.take(to, robot, PAGE, now)
+        self.take(to, robot, now)
 
     def beat(self, number: int, now: float) -> None:
         self._beats[number] = now
@@ -143,7 +142,7 @@ class DriverSession:
         whether all that hear this joystick will see that everything is released.
         """
         self.tick(now)  # a silence that was not yet noticed
-        if client != self.driver or self.how != PAGE or not self._is_fresh(message, now):
+        if client != self.driver or self.plays or not self._is_fresh(message, now):
             return
         self.newest, self._fresh_at = message.n, now
         neutral = is_neutral(message.axes, message.buttons)
@@ -174,11 +173,11 @@ class DriverSession:
         return now - self._pad_at > FROZEN_S
 
     def play(self, axes: Axes, buttons: Buttons) -> None:
-        if self.how == BAG and self.driver is not None:
+        if self.plays:
             self._publish(axes, buttons)
 
     def tick(self, now: float) -> None:
-        if self.driver is None or self.how == BAG:
+        if self.driver is None or self.plays:
             return
         silent_s = now - self._fresh_at
         if self.armed and silent_s > SILENCE_S:
@@ -194,7 +193,7 @@ class DriverSession:
         self._rest()
         self.armed = False
         self._report_lost(self.driver, why)
-        if self.how == BAG:
+        if self.plays:
             self._clear()
 
     def free(self, why: str) -> None:
@@ -209,7 +208,7 @@ class DriverSession:
 
     def _keep(self, why: str) -> None:
         """Keep the reason of a stop, if the robot moved until now."""
-        if self.armed and self._last is not None and not is_neutral(*self._last):
+        if self._last is not None and not is_neutral(*self._last):
             self.why, self.stopped = why, self.robot
 
     def moves_on(self, robot: str) -> None:
@@ -230,7 +229,7 @@ class DriverSession:
         self._has_ended = True
 
     def _rest(self) -> None:
-        if self.armed and self._last is not None:
+        if self._last is not None:
             self._publish(*neutral_of(*self._last))
             self._last = None
 

@@ -3,7 +3,6 @@
 from typing import Any, Dict, NamedTuple, Optional, Sequence, Tuple
 
 from cockpit_server.clients import Client, Source
-from cockpit_server.driver_session import BAG
 from cockpit_server.graph import topic_of
 from gamepad.gamepads import F710
 from node_kit.arming import DRIVING
@@ -16,7 +15,7 @@ class About(NamedTuple):
 
     driver: Optional[int] = None  # number of the page that drives it
     name: str = ""  # name of the page that drives it
-    how: str = ""  # PAGE or BAG
+    plays: bool = False  # that page, a recording
     armed: bool = False  # whether all was seen released
     why: str = ""  # the last stop by a loss of the driver
     said: Optional[Dict[str, Any]] = None  # what joy2twist reports: see teleop.report_of()
@@ -43,7 +42,7 @@ def who(about: About, robot: str, page: int) -> str:
     its = robot or "the robot"
     if about.driver is not None:
         i = about.driver == page
-        if about.how == BAG:
+        if about.plays:
             return f"{'You play' if i else f'{about.name} plays'} a recording to {its}."
         return f"You drive {its}." if i else f"{about.name} drives {its}."
     some = " and ".join(about.senders)
@@ -84,7 +83,7 @@ def ready(about: About, robot: str, page: int, refusal: str) -> str:
     button = held(about)
     if about.driver != page:
         todo = sentence(refusal)
-    elif about.how == BAG:
+    elif about.plays:
         todo = ""
     elif not about.armed:
         some = f"{button} and the stick" if button else "the stick"
@@ -99,7 +98,7 @@ def ready(about: About, robot: str, page: int, refusal: str) -> str:
 def how_to(about: About, page: int, may_drive: bool) -> str:
     """Return how a page drives this robot; "" where a hand can do nothing now."""
     is_others = about.driver not in (None, page) or about.is_driven_by_node
-    if not may_drive or is_others or about.how == BAG or not about.is_heard:
+    if not may_drive or is_others or about.plays or not about.is_heard:
         return ""
     button = held(about)
     if button is None:
@@ -149,7 +148,7 @@ class DrivingStatus(Source):
         return About(
             driver=session.driver if page else None,
             name=page.name if page else "",
-            how=session.how if page else "",
+            plays=bool(page) and session.plays,
             armed=bool(page) and session.armed,
             why=session.why if robot == session.stopped else "",
             said=self._teleop.newest(robot),

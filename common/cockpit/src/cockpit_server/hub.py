@@ -10,7 +10,7 @@ from typing import Any, Callable, ClassVar, Sequence
 from cockpit_server import budget, schema
 from cockpit_server.budget import SHARE, Budget
 from cockpit_server.clients import LOOKS_ONLY, Client, Source
-from cockpit_server.driver_session import PAGE, DriverSession, Input, RefusedError
+from cockpit_server.driver_session import DriverSession, Input, RefusedError
 from cockpit_server.driving_status import NO_ROBOT, lost_text
 from cockpit_server.feeds import OnceLater
 from cockpit_server.graph_watch import GraphWatch
@@ -136,7 +136,7 @@ class Hub(Source):
         client.watch = self._schema.watch(**fields)
 
     def on_drive(self, client: Client, now: float, robot: str, mode: str) -> None:
-        self.sit_down(client, robot, PAGE, now)
+        self.sit_down(client, robot, now)
         self._modes = (mode,)
 
     def on_stop(self, client: Client, _now: float) -> None:
@@ -175,12 +175,12 @@ class Hub(Source):
     def on_release(self, client: Client, _now: float, why: str) -> None:
         self._change(lambda: self.session.release(client.number, why))
 
-    def sit_down(self, client: Client, robot: str, how: str, now: float) -> None:
+    def sit_down(self, client: Client, robot: str, now: float, *, plays: bool = False) -> None:
         """Let a client drive a robot. Raises RefusedError."""
         refusal = self.refusal(client, robot, now)
         if refusal:
             raise RefusedError(refusal)
-        self._change(lambda: self.session.take(client.number, robot, how, now))
+        self._change(lambda: self.session.take(client.number, robot, now, plays=plays))
         self._sat_at = now
 
     def refusal(self, client: Client, robot: str, now: float) -> str:
@@ -218,7 +218,7 @@ class Hub(Source):
     def _on_lost(self, number: int, why: str) -> None:
         if number in self.clients:
             keeps = number == self.session.driver
-            again = keeps and self.session.how == PAGE
+            again = keeps and not self.session.plays
             self.clients[number].send("lost", why=why, text=lost_text(why, keeps), again=again)
 
     def send_to(self, client: Client, now: float) -> None:
@@ -227,8 +227,8 @@ class Hub(Source):
             session = self.session
             name = self.clients[session.driver].name if session.driver in self.clients else ""
             client.send(
-                "session", driver=session.driver, name=name, robot=session.robot, how=session.how,
-                yours=session.driver == client.number, armed=session.armed,
+                "session", driver=session.driver, name=name, robot=session.robot,
+                plays=session.plays, yours=session.driver == client.number, armed=session.armed,
             )  # fmt: skip
 
     def tick(self) -> None:

@@ -86,9 +86,8 @@ class Schema:
     def __init__(self, sources: Sequence[Any]) -> None:
         watches = {name: of for one in sources for name, of in one.watches.items()}
         self._nothing = {name: value for name, (_, value) in watches.items()}
-        self.messages: dict[str, Mapping[str, Check]] = {
-            WATCH: {name: check for name, (check, _) in watches.items()}
-        }
+        self._watch = {name: check for name, (check, _) in watches.items()}
+        self.messages: dict[str, Mapping[str, Check]] = {WATCH: self._watch}
         for one in sources:
             self.messages.update(one.messages)
 
@@ -113,7 +112,7 @@ class Schema:
             raise ValueError(f"no such kind of message: {kind[:40]!r}")
         checks = self.messages[kind]
         for name in checks:
-            if name not in given and kind != WATCH:
+            if name not in given and checks is not self._watch:
                 raise ValueError(f"{kind} lacks {name}")
         for name, value in given.items():
             if name not in checks:

@@ -7,16 +7,14 @@ linux/input-event-codes.h.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Sequence
+from typing import NamedTuple, Sequence
 
 from gamepad.js_event import FULL
 
 ABS_X, ABS_Y, ABS_Z, ABS_RX, ABS_RY, ABS_RZ, ABS_HAT0X, ABS_HAT0Y = 0, 1, 2, 3, 4, 5, 16, 17
 
 
-@dataclass(frozen=True)
-class Axis:
+class Axis(NamedTuple):
     """One axis. code: ABS_*. low, high: range of its raw value; low is left, up, or released."""
 
     code: int
@@ -40,8 +38,7 @@ class Axis:
         return int((self.high + self.low) / 2)
 
 
-@dataclass(frozen=True)
-class Gamepad:
+class Gamepad(NamedTuple):
     """A gamepad in one mode; axes and buttons in the order of the joystick device.
 
     buttons: names as printed on the gamepad. button_codes: BTN_*.
@@ -67,10 +64,11 @@ class Gamepad:
     def trembled(self, raws: Sequence[int]) -> list[int]:
         """Return the raw values of all axes, those of held sticks one step nearer to the middle."""
         middles = [int(axis.raw(0.0)) for axis in self.axes]
-        sticks = [i not in self.triggers and a.high - a.low > 2 for i, a in enumerate(self.axes)]
+        digital = [i for i, axis in enumerate(self.axes) if (axis.low, axis.high) == (-1, 1)]
+        still = {*self.triggers, *digital}
         return [
-            raw - (raw > middle) + (raw < middle) if is_stick else raw
-            for raw, middle, is_stick in zip(raws, middles, sticks)
+            raw if i in still else raw - (raw > middles[i]) + (raw < middles[i])
+            for i, raw in enumerate(raws)
         ]
 
 
@@ -109,7 +107,7 @@ def trigger_axes(codes: Sequence[int]) -> tuple[int, ...]:
     Gamepads with triggers have the right stick on RX and RY and the triggers on Z and RZ; those
     without have the right stick there.
     """
-    if not {ABS_RX, ABS_RY} <= set(codes):
+    if not {ABS_RX, ABS_RY}.issubset(codes):
         return ()
     return tuple([i for i, code in enumerate(codes) if code in (ABS_Z, ABS_RZ)])
 

@@ -5,7 +5,8 @@ out of reach does not. A key or a thumb on glass does not change either, but its
 for it.
 """
 
-from typing import Tuple
+import itertools
+from typing import Iterator, Tuple
 
 EVERY = 8  # one in this many equal messages trembles: 0.4 s at 20 Hz
 LAST_BIT = 2.0**-23  # part of a float32, the type of axes in sensor_msgs/Joy
@@ -17,12 +18,12 @@ class Trembling:
     def __init__(self) -> None:
         """No message came yet."""
         self._last: Tuple[float, ...] = ()
-        self._equal = 0  # messages in a row
+        self._equal: Iterator[int] = itertools.count(1)  # messages in a row
 
     def shown(self, axes: Tuple[float, ...]) -> Tuple[float, ...]:
         """Return the axes to publish; an axis at 0 stays there."""
-        self._equal = self._equal + 1 if axes == self._last else 0
-        self._last = axes
-        if self._equal % EVERY != EVERY - 1:
+        if axes != self._last:
+            self._last, self._equal = axes, itertools.count(1)
+        if next(self._equal) % EVERY:
             return axes
         return tuple([axis * (1.0 - LAST_BIT) for axis in axes])

@@ -11,13 +11,13 @@ class Throttle:
 
     def __init__(self, rate: float, burst: float = 1.0) -> None:
         """Take the rate [1/s], 0 for never, and the burst, at least 1."""
-        self._period = 1.0 / rate if rate > 0 else None
-        self._slack = (burst - 1.0) * (self._period or 0.0)
+        self._period = rate and 1.0 / rate
+        self._slack = (burst - 1.0) * self._period
         self._next: float | None = None  # when the next one of an even series comes [s]
 
     def ready(self, now: float) -> bool:
         """Return whether it may happen at the time now [s]."""
-        if self._period is None:
+        if not self._period:
             return False
         if self._next is None or now > self._next:
             self._next = now

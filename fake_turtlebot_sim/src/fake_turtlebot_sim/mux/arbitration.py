@@ -112,8 +112,14 @@ class Arbiter:
         return Verdict.OBEYED
 
     def waited(self, now: float) -> Iterator[tuple[Velocity, Publisher]]:
-        """Yield each command, with its sender, that waited for TOGETHER_S and goes through now."""
-        for (name, sender), one in self._senders.items():
+        """Yield each command, with its sender, that waited for TOGETHER_S and goes through now.
+
+        The highest input first, so that none goes through for a moment below another.
+        """
+        order = [*self._inputs]
+        for (name, sender), one in sorted(
+            self._senders.items(), key=lambda item: order.index(item[0][0])
+        ):
             if one.waiting is not None and now >= one.heard_s + TOGETHER_S:
                 velocity, one.waiting = one.waiting, None
                 if self._obey(name, velocity, now) is Verdict.OBEYED:
@@ -121,7 +127,10 @@ class Arbiter:
 
     def active(self, now: float) -> str:
         """Return the name of the active input at the time now [s], or IDLE."""
-        return next((name for name in self._inputs if now < self._expiry_s[name]), IDLE)
+        return self._highest(now) or IDLE
+
+    def _highest(self, now: float) -> str | None:
+        return next((name for name in self._inputs if now < self._expiry_s[name]), None)
 
     def must_stop(self, now: float) -> bool:
         """Return, once, that all inputs have fallen silent and the last command was not zero.
@@ -129,7 +138,7 @@ class Arbiter:
         A zero is due then, once, so that it never contends with a later command. yocs_cmd_vel_mux
         leaves the stop to the base (yujin_ocs issue 16), but not every base has a timeout.
         """
-        must_stop = self._drives and self.active(now) == IDLE
+        must_stop = self._drives and not self._highest(now)
         self._drives = self._drives and not must_stop
         return must_stop
 

@@ -72,7 +72,7 @@ class MuxParameters:
 def parse_mux_parameters(given: Mapping[str, Any]) -> MuxParameters:
     """Return MuxParameters, checked, with the defaults filled in. Raises ValueError, one line."""
     parameters = MuxParameters(**checked(MuxParameters, given, example=EXAMPLE))
-    for one in parameters.subscribers:
-        if one.topic == parameters.publisher:
-            raise ValueError(f"~publisher: {one.topic!r}: must not be the topic of an input")
+    publisher = parameters.publisher
+    if publisher in [one.topic for one in parameters.subscribers]:
+        raise ValueError(f"~publisher: {publisher!r}: must not be the topic of an input")
     return parameters

@@ -71,8 +71,8 @@ def first_contact(
     near = [one for one in obstacles if gap(x, y, radius, one) <= longest] if longest else []
     if not near:
         return None
-    quarters = ceil(max(abs(velocity[1]), abs(end_velocity[1])) * dt / (pi / 2)) or 1
-    shares = {(k + 1) / quarters for k in range(quarters)}
+    quarters = ceil(max(abs(velocity[1]), abs(end_velocity[1])) * dt / (pi / 2))
+    shares = {1.0, *((k + 1) / quarters for k in range(quarters))}
     shares |= {a / (a - b) for a, b in zip(velocity, end_velocity) if a * b < 0.0}
     after, now = 0.0, velocity
     for share in sorted(shares):

@@ -42,9 +42,7 @@ def arc(pose: Pose, velocity: Velocity, dt: float) -> Pose:
     half_turn = 0.5 * w * dt
     chord = v * dt * (sin(half_turn) / half_turn if half_turn else 1.0)
     heading = yaw + half_turn
-    yaw = heading + half_turn
-    if not -pi < yaw <= pi:  # the call is left out as long as it changes nothing
-        yaw = wrap_angle(yaw)
+    yaw = wrap_angle(heading + half_turn)
     return x + chord * cos(heading), y + chord * sin(heading), yaw
 
 

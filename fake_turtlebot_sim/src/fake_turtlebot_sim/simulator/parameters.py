@@ -141,7 +141,7 @@ class Parameters:
 
     def period_ns(self) -> int:
         """Return the time between two messages [ns]."""
-        return round(1e9 / self.rate)
+        return round(10**9 / self.rate)
 
     def meeting_reach(self) -> float:
         """Return the distance [m] between two robots beyond which they do not meet in a step."""

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from math import inf, pi
+from math import inf, isclose, isfinite, pi
 from typing import NamedTuple, Sequence, Tuple
 
-from fake_turtlebot_sim.simulator.contact import TOUCH_M, Obstacle, Piece, drive_among
+from fake_turtlebot_sim.simulator.contact import Obstacle, Piece, drive_among
 from fake_turtlebot_sim.simulator.differential_drive import Pose, composed
 from fake_turtlebot_sim.simulator.world import World
 
@@ -17,6 +17,7 @@ CENTER_RAD, SIDE_RAD = pi / 6, pi / 2
 # Of the left, center and right cliff sensor, x and y [m] in the frame of the base
 # (kobuki.urdf.xacro).
 CLIFF_SENSORS = ((0.08734, 0.13601), (0.156, 0.0), (0.085, -0.13601))
+SAME_S = 1e-8  # less than this apart the wheels drop together; a rounding, at 1 mm/s
 
 
 class Sensed(NamedTuple):
@@ -31,7 +32,8 @@ def bumpers(contact: float | None) -> Three:
     """Return which bumpers a push in a direction [rad, ahead is 0, left positive] presses."""
     if contact is None or abs(contact) > SIDE_RAD:
         return (False, False, False)  # there is none behind
-    return (contact > CENTER_RAD, abs(contact) <= CENTER_RAD, contact < -CENTER_RAD)
+    left, right = contact > CENTER_RAD, contact < -CENTER_RAD
+    return (left, not (left or right), right)
 
 
 def cliffs(pose: Pose, world: World) -> Three:
@@ -57,8 +59,8 @@ def first_drop(
     for aside in (0.5 * wheel_separation, -0.5 * wheel_separation):
         wheel = composed(pose, (0.0, aside, 0.0))
         begin, end = ((v - w * aside, w) for v, w in piece[:2])
-        pieces, met = drive_among(wheel, Piece(begin, end, piece.dt), 0.0, edges)
-        times.append(pieces[0].dt if met is not None or len(pieces) > 1 else inf)
-    first, speed = min(times), max(abs(piece.velocity[0]), abs(piece.end_velocity[0]), 1e-3)
-    left, right = (time - first <= TOUCH_M / speed for time in times)
-    return (first, (left, right)) if first <= piece.dt else None
+        (free, *more), _ = drive_among(wheel, Piece(begin, end, piece.dt), 0.0, edges)
+        times.append(free.dt if more else inf)
+    first = min(times)
+    left, right = (isclose(time, first, rel_tol=0.0, abs_tol=SAME_S) for time in times)
+    return (first, (left, right)) if isfinite(first) else None

@@ -236,7 +236,7 @@ class SimulatedRobot:
             true = self._errors.true_velocity(wheels[0]), self._errors.true_velocity(end_velocity)
         if self._surroundings is None:
             self._roll(wheels, true, dt)
-        elif self._dropped == ON_ITS_WHEELS:
+        elif not any(self._dropped):
             self._drive_in_world(self._surroundings, Piece(*wheels, dt), Piece(*true, dt))
         else:
             self._velocity = REST  # it stays there until it is lifted

@@ -5,7 +5,7 @@ from __future__ import annotations
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
-from math import hypot, pi
+from math import hypot, nan, pi
 from typing import Any, Iterable, Sequence, Tuple
 
 import numpy as np
@@ -133,14 +133,12 @@ class Surroundings:
 
     def __init__(self, world: World) -> None:
         self.world = world
-        self._at: Point | None = None
-        self._within = 0.0  # [m]
+        self._at, self._within = (nan, nan), nan  # [m]
         self._near: list[Obstacle] = []
 
     def near(self, x: float, y: float, reach: float) -> Sequence[Obstacle]:
         """Return at least all obstacles within reach [m] of (x, y)."""
-        at = self._at
-        if at is None or hypot(x - at[0], y - at[1]) + reach > self._within:
+        if not hypot(x - self._at[0], y - self._at[1]) + reach <= self._within:
             self._at, self._within = (x, y), max(reach, REACH_M)
             is_near = gaps(x, y, self.world.array) <= self._within
             self._near = [self.world.obstacles[i] for i in np.flatnonzero(is_near)]

@@ -7,7 +7,7 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import Any, ClassVar, Sequence
 
 from cockpit_server.clients import Client, Source
-from cockpit_server.driver_session import BAG, RefusedError
+from cockpit_server.driver_session import RefusedError
 from cockpit_server.graph import JOY
 from cockpit_server.player import Player
 from cockpit_server.schema import number, switch, text
@@ -119,7 +119,7 @@ class Bags(Source):
             raise RefusedError(f"the recording has no topic {topic!r}")
         if kind != JOY:
             raise RefusedError(f"{topic} is of type {kind}: only {JOY} may be published from here")
-        self._hub.sit_down(client, robot, BAG, now)
+        self._hub.sit_down(client, robot, now, plays=True)
         opened.topic, opened.rate, opened.loop = topic, rate, loop
         messages, duration = opened.recording.joys[topic], opened.recording.duration
         self._player = Player(messages, duration, rate, loop)
@@ -148,9 +148,7 @@ class Bags(Source):
     def _playing(self, number: int) -> Player | None:
         """Return what a client plays, if anything."""
         session = self._hub.session
-        return (
-            self._player if number == self._owner == session.driver and session.how == BAG else None
-        )
+        return self._player if number == self._owner == session.driver and session.plays else None
 
     def play(self, now: float) -> None:
         """Publish the messages that are due."""

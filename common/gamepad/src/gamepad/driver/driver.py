@@ -7,7 +7,7 @@ from typing import Iterable
 
 from gamepad.driver.parameters import DriverParameters
 from gamepad.driver.schedule import Schedule
-from gamepad.driver.state import NOTHING, NOW, GamepadState, Message
+from gamepad.driver.state import NOW, GamepadState, Message
 from gamepad.js_event import INIT, SIGN_OF_LIFE_MS, Decoder
 
 # After a loss a gamepad is not opened again for this time [s]: a node that stops on silence (0.5 s,
@@ -78,7 +78,7 @@ class Driver:
                 if self._state.knows(event):
                     continue
             urgency = self._state.apply(event)
-            if urgency == NOTHING:
+            if not urgency:
                 self.unknown_events += 1
                 if self._can_give_signs:
                     self._lifeless_at = min(self._lifeless_at, now + LONGEST_LIFELESS_S)

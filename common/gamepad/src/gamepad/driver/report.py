@@ -21,7 +21,7 @@ class DriverReport:
         self._is_open = False
         self.published = 0  # messages so far
         self.next = -inf  # when to report again [s]
-        self._before: tuple[float, int, int] | None = None  # (time, events, messages) reported last
+        self._before = (-inf, 0, 0)  # (time, events, messages) reported last
 
     def opened(self, path: str, name: str) -> None:
         """Note that a gamepad was opened; this is reported at once."""
@@ -45,8 +45,8 @@ class DriverReport:
     def details(self, driver: Driver, subscribers: int, now: float) -> list[tuple[str, Any]]:
         """Return pairs of name and value."""
         events = driver.events
-        began, events_then, published_then = self._before or (now, events, self.published)
-        seconds = (now - began) or 1.0
+        began, events_then, published_then = self._before
+        seconds = (now - began) or inf
         self._before = (now, events, self.published)
         p = self._parameters
         return [

@@ -14,7 +14,7 @@ class Schedule:
     def __init__(self, coalesce_interval: float, autorepeat_rate: float) -> None:
         """Take the interval [s] and the rate [Hz], 0 for no repetition."""
         self._interval = coalesce_interval
-        self._period = 1.0 / autorepeat_rate if autorepeat_rate > 0 else math.inf
+        self._period = 1.0 / autorepeat_rate if autorepeat_rate else math.inf
         self.due = math.inf
 
     def soon(self, now: float) -> None:

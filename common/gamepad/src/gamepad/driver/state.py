@@ -8,7 +8,7 @@ from gamepad.gamepads import triggers_by_count
 from gamepad.js_event import AXIS, BUTTON, FULL, INIT, JsEvent
 
 # What an event asks for.
-NOTHING = 0  # it is of an unknown type
+NOTHING = 0  # it is of an unknown type; the only one that is false
 SOON = 1  # publish together with others that come shortly after it
 NOW = 2  # publish at once
 

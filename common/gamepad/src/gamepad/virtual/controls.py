@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Tuple
 
-from gamepad.gamepads import F710_X, Gamepad
+from gamepad.gamepads import Gamepad
 from node_kit.parameters import Check, is_number, parameter, switch
 
 # A stick moves the D-pad's axes, which know only -1, 0 and 1, from this deflection on.
@@ -54,7 +54,7 @@ def positions(gamepad: Gamepad, controls: Controls) -> Position:
         stick, dpad = dpad, stick
     x, y = [float((v > DIGITAL_THRESHOLD) - (v < -DIGITAL_THRESHOLD)) for v in dpad]
     held = set(controls.held)
-    if gamepad is F710_X:
+    if gamepad.triggers:
         left, right = [1.0 - 2.0 * pressed for pressed in controls.triggers]
         axes: tuple[float, ...] = (*stick, left, *controls.right_stick, right, x, y)
     else:  # in D mode the triggers are buttons

@@ -48,7 +48,7 @@ class Keyboard:
     def __init__(self) -> None:
         self._rest = ""  # the begin of a sequence that a slow line has cut
         self._held: set[str] = set()  # keys of directions and buttons
-        self._released_at = 0.0
+        self._released_at = -math.inf
         self._deflection = 1.0
         self._mode_led = False
         self._plugged = True

@@ -14,7 +14,7 @@ from simulated_turtles.turtle import FIELD_M, Color, Point, Turtle
 
 SIZE, PIXELS_PER_M = 500, 45
 FARTHEST = 20_000.0  # [pixels] from the field; a line ends there
-LARGEST = 1e38  # messages hold float32
+LARGEST = 10.0**38  # messages hold float32
 START = (5.5444446, 5.5444446, 0.0)  # the middle, FIELD_M / 2, as a float32 has it
 NAME = re.compile(r"[A-Za-z]\w*(/[A-Za-z]\w*)*", re.ASCII)
 # A turtle as a polygon: (ahead, left) [pixels]; turtles have the colors in turn.
@@ -37,7 +37,7 @@ class Field:
     ) -> None:  # fmt: skip
         """Begin with turtle1. background: is asked for the color of a blank paper."""
         self._background, self._inform, self._warn = background, inform, warn
-        self._paper, self.version, self._now_s = Image.new("RGB", (SIZE, SIZE)), 0, now_s
+        self.version, self._now_s = 0, now_s
         self._begin()
 
     def call(self, name: str, values: Mapping[str, float | str], now_s: float) -> str:
@@ -72,7 +72,7 @@ class Field:
         self._begin()
 
     def _fill(self) -> None:
-        self._paper.paste(self._background(), (0, 0, SIZE, SIZE))
+        self._paper = Image.new("RGB", (SIZE, SIZE), self._background())
 
     def _begin(self) -> None:
         self._fill()
@@ -112,7 +112,7 @@ class Field:
 
     def color_at(self, x: float, y: float) -> Color:
         """Return the color of a place [m] in the field."""
-        column, row = (min(max(round(value), 0), SIZE - 1) for value in pixel(x, y))
+        column, row = map(round, pixel(x, y))
         red, green, blue = self._paper.getpixel((column, row))
         return red, green, blue
 

@@ -17,7 +17,7 @@ class Turtle:
 
     color: Color = (179, 184, 255)  # of the pen, as upstream's
     width, is_down = 3, True  # [pixels], whether it draws
-    seen: Color = (0, 0, 0)  # where it is, before it draws there, as upstream's sensor
+    seen: Color  # where it is, before it draws there, as upstream's sensor
 
     def __init__(self, x: float, y: float, theta: float, now_s: float) -> None:
         """Stand there, with the pen down."""
