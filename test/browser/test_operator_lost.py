@@ -101,10 +101,6 @@ def start_server(it):
     it.browser.wait_for_text("#session", "Nobody drives")
 
 
-def pull_cable(it):
-    it.world.network.pull_cable("phone")
-
-
 def plug_cable(it):
     it.browser.wait_for_text("#connection", "lost")
     it.world.network.plug_cable("phone")
@@ -133,7 +129,7 @@ WAYS = {
     "gamepad frozen": Way(freeze_gamepad, gamepad(frozen=False), Gamepad),
     "server killed with -9": Way(lambda it: it.world.cockpit.kill(), start_server),
     "server ended": Way(end_server, start_server),
-    CUT: Way(pull_cable, plug_cable),
+    CUT: Way(lambda it: it.world.network.pull_cable("phone"), plug_cable),
 }
 
 

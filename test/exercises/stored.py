@@ -59,8 +59,7 @@ def judged(test, workspace, underlay, exercises, folder, **about):
         turns = answers[_question(question)]
         return turns.pop(0) if len(turns) > 1 else turns[0]
 
-    order = order_of(workspace, underlay, exercises, folder, **about)
-    return judge(order, read_course(), ask)
+    return judge(order_of(workspace, underlay, exercises, folder, **about), read_course(), ask)
 
 
 def _question(one):

@@ -13,7 +13,6 @@ REPOSITORY = Path(__file__).resolve().parents[2]
 # Programs and launch files as the handout prints them: env python, load_manifest, absolute topics,
 # no queue_size, six axes in one format; but in our own words.
 LITERAL = REPOSITORY / "test" / "exercises" / "literal"
-# Terminal, the lines that are typed there, and what must be seen.
 PACKAGES = [
     ("1", "cd ~/ros/hydro/catkin_ws/src", ""),
     ("1", "catkin_create_pkg beginner_tutorials std_msgs rospy roscpp", "Successfully created"),

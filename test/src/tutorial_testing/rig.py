@@ -28,8 +28,7 @@ REST_S = 0.6  # for which all is shown released, until each node has seen it
 
 
 def config(package, name):
-    path = Path(rospkg.RosPack().get_path(package), "config", name)
-    return yaml.safe_load(path.read_text())
+    return yaml.safe_load(Path(rospkg.RosPack().get_path(package), "config", name).read_text())
 
 
 class Rig(Robot):

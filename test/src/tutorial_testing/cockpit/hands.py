@@ -97,8 +97,7 @@ class Gamepad(Hands):
         self.browser.send("Page.addScriptToEvaluateOnNewDocument", source=FAKE_GAMEPAD)
 
     def set(self, **values):
-        script = "Object.assign(fake, arguments[0])"
-        self.browser.driver.execute_script(script, values)
+        self.browser.driver.execute_script("Object.assign(fake, arguments[0])", values)
 
     def hold(self):
         self.set(held=True)
