@@ -41,13 +41,8 @@ def test_a_wrong_argument_is_named(argument, line):
     ("publishers", "subscribers", "services", "names"),
     [
         ([["/joy", ["/pad"]], ["/robot_1/joy", ["/other"]]], [], [], ["/pad"]),
-        ([], [["/joy", ["/echo"]], ["/odom", ["/my_rviz"]]], [], []),
-        (
-            [["/odom", ["/other", "/fake_turtlebot"]]],
-            [["/tf", ["/rosbag"]]],
-            [],
-            ["/fake_turtlebot", "/other", "/rosbag"],
-        ),
+        ([], [["/joy", ["/echo"]], ["/odom", ["/my_rviz", "/rosbag"]]], [], ["/rosbag"]),
+        ([["/odom", ["/other", "/fake_turtlebot"]]], [], [], ["/fake_turtlebot", "/other"]),
     ],
 )
 def test_only_nodes_that_drive_or_have_a_name_of_ours_are_in_the_way(
