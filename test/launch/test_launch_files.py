@@ -1,7 +1,6 @@
 """roslaunch can read every launch file, and finds what it names; a mistake starts nothing."""
 
 import math
-from pathlib import Path
 
 import pytest
 import rosbag
@@ -11,9 +10,9 @@ import roslaunch.rlutil
 import rospy
 from sensor_msgs.msg import Joy
 
+from tutorial_testing.processes import REPOSITORY
 from tutorial_tools.demo.program import NODES, RVIZ_NODE
 
-REPOSITORY = Path(__file__).resolve().parents[2]
 FOLDERS = ("*", "common/*", "common/stand_ins/*")
 FILES = sorted(file for folder in FOLDERS for file in REPOSITORY.glob(f"{folder}/launch/*.launch"))
 CAMERA = """camera publish_tf 3d_sensor depth_registration num_worker_threads scan_topic

@@ -5,7 +5,6 @@ import struct
 import threading
 import time
 from contextlib import contextmanager
-from pathlib import Path
 
 import rospy
 from sensor_msgs.msg import Joy
@@ -13,10 +12,9 @@ from sensor_msgs.msg import Joy
 from node_kit.rospy_patches.connections import sender_of
 from tutorial_testing.nodes import init_node
 from tutorial_testing.ports import free_port
-from tutorial_testing.processes import Program, command_line, descendants
+from tutorial_testing.processes import REPOSITORY, Program, command_line, descendants
 from tutorial_testing.waiting import wait_for
 
-REPOSITORY = Path(__file__).resolve().parents[2]
 CLASS = REPOSITORY / "common/ros2_tutorials/ros2_tutorials/new_joy2twist.py"
 RATE = 50.0  # [Hz]
 BRIDGE = "/ros2_bridge"

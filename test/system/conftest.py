@@ -7,14 +7,13 @@ from pathlib import Path
 import pytest
 
 from tutorial_testing.ports import free_port
-from tutorial_testing.processes import Program
+from tutorial_testing.processes import REPOSITORY, Program
 from tutorial_testing.screen import virtual_screen
 from tutorial_testing.student import Student
 from tutorial_testing.two_hosts.network import Host
 from tutorial_testing.two_hosts.scene import Scene
 from tutorial_testing.waiting import DEADLINE_S
 
-REPOSITORY = Path(__file__).resolve().parents[2]
 LONGEST = (
     "test_handout.py", "test_linked_pages.py", "test_readme.py", "test_other_programs.py",
     "test_workspaces.py", "test_cockpit.py",

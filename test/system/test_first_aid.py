@@ -8,13 +8,12 @@ import os
 import re
 import shutil
 import subprocess
-from pathlib import Path
 
 import pytest
 
+from tutorial_testing.processes import REPOSITORY
 from tutorial_testing.waiting import LONGEST_S
 
-REPOSITORY = Path(__file__).resolve().parents[2]
 PAGE = (REPOSITORY / "common/doc/TROUBLE.md").read_text()
 SENTENCES = PAGE.split("## By the sentence")[1].split("## By what you see")[0]
 CELLS = re.findall(r"^\| (`.*?) \| (.*) \|$", SENTENCES, re.M)

@@ -5,11 +5,10 @@ solutions may be.
 """
 
 import re
-from pathlib import Path
 
+from tutorial_testing.processes import REPOSITORY
 from tutorial_testing.waiting import wait_for
 
-REPOSITORY = Path(__file__).resolve().parents[2]
 # Programs and launch files as the handout prints them: env python, load_manifest, absolute topics,
 # no queue_size, six axes in one format; but in our own words.
 LITERAL = REPOSITORY / "test" / "exercises" / "literal"

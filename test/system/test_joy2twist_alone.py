@@ -1,14 +1,12 @@
 """joy2twist in a workspace of someone else's: the commands of its README, with two folders."""
 
 import re
-from pathlib import Path
 
 import pytest
 
-from tutorial_testing.processes import Program
+from tutorial_testing.processes import REPOSITORY, Program
 from tutorial_testing.waiting import wait_for
 
-REPOSITORY = Path(__file__).resolve().parents[2]
 README = (REPOSITORY / "joy2twist/README.md").read_text()
 SECTION = README.partition("## In your own workspace")[2].partition("\n## ")[0]
 BASH, YAML = (

@@ -5,13 +5,12 @@ from a page is in TUTORIAL.md's table of pages.
 """
 
 import re
-from pathlib import Path
 
 import pytest
 
+from tutorial_testing.processes import REPOSITORY
 from tutorial_testing.student import CTRL_C, END
 
-REPOSITORY = Path(__file__).resolve().parents[2]
 TALKERS = REPOSITORY / "test/exercises/literal/beginner_tutorials/scripts"
 WRITTEN = REPOSITORY / "test/system/linked_pages"  # what the pages show, in our own words
 SOLVED = REPOSITORY / "common/doc/wiki/solutions/right/beginner_tutorials"

@@ -9,7 +9,6 @@ import shlex
 import shutil
 import subprocess
 import time
-from pathlib import Path
 from typing import NamedTuple
 
 import pytest
@@ -17,12 +16,11 @@ import pytest
 from tutorial_check.source import debian_packages
 from tutorial_testing.keys import Tmux
 from tutorial_testing.ports import free_port
-from tutorial_testing.processes import Program
+from tutorial_testing.processes import REPOSITORY, Program
 from tutorial_testing.robot import OBSERVER, PERIOD_S, Robot
 from tutorial_testing.waiting import Stopwatch, lost_s, wait_for
 
 pytestmark = pytest.mark.xdist_group("others")  # All of them use the same robots.
-REPOSITORY = Path(__file__).resolve().parents[2]
 TUTORIAL = str(REPOSITORY / "tutorial")
 PAGE = (REPOSITORY / "common/doc/OTHER_PROGRAMS.md").read_text(encoding="utf-8")
 LAUNCH = {

@@ -6,13 +6,12 @@ workspace.
 """
 
 import re
-from pathlib import Path
 
 import pytest
 
+from tutorial_testing.processes import REPOSITORY
 from tutorial_testing.waiting import wait_for
 
-REPOSITORY = Path(__file__).resolve().parents[2]
 README = REPOSITORY / "README.md"
 PAGES = [README, *sorted((REPOSITORY / "common/doc").glob("*.md"))]
 # What lasts until Ctrl-C, and what it prints once it runs ("": nothing, being there is enough).

@@ -3,12 +3,11 @@
 import os
 import shutil
 import time
-from pathlib import Path
 
 from tutorial_check.course import read_course
 from tutorial_check.launcher import examine
+from tutorial_testing.processes import REPOSITORY
 
-REPOSITORY = Path(__file__).resolve().parents[3]
 ONE_S, ALL_S = 15.0, 90.0  # on two processors with nothing else to do
 
 

@@ -17,6 +17,7 @@ for number in (signal.SIGINT, signal.SIGHUP):
     if signal.getsignal(number) is signal.SIG_IGN:
         signal.signal(number, signal.default_int_handler)
 
+REPOSITORY = Path(__file__).resolve().parents[3]
 MARK = "STARTED_BY_A_TEST"  # environment variable by which a program's descendants are known
 
 
