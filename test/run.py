@@ -106,7 +106,7 @@ def main():
         code = KINDS[kind](arguments)
     except KeyboardInterrupt:
         shutil.rmtree(CACHES / ALL, ignore_errors=True)  # what failed is not known
-        say("test: interrupted")
+        print("tutorial: test: interrupted", file=sys.stderr)
         sys.exit(NUMBER_OF_INTERRUPT)
     if code and kind not in ("again", "faults", "bench"):
         sys.exit(f"tutorial: failed: {kind or 'see above, or ./tutorial test again'}")

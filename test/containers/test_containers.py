@@ -16,8 +16,7 @@ import pytest
 
 from tutorial_testing.cockpit.chromium import Chromium
 from tutorial_testing.cockpit.hands import Keys
-from tutorial_testing.ports import free_port
-from tutorial_testing.processes import Program
+from tutorial_testing.processes import Program, free_port
 from tutorial_testing.robot import OBSERVER, Robot
 from tutorial_testing.waiting import DEADLINE_S, wait_for
 

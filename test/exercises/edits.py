@@ -130,3 +130,8 @@ def mistake_in(exercise, path, *first):
 def apply(edits, src):
     for edit in edits:
         edit(Path(src))
+
+
+def at_night(*cases):
+    """Return cases of a table, too long for each commit, that the nightly workflow runs."""
+    return [pytest.param(case, marks=pytest.mark.night) for case in cases]

@@ -9,13 +9,12 @@ import signal
 import subprocess
 
 import pytest
-from edits import TALKER, apply, put
+from edits import TALKER, apply, at_night, put
 from test_awkward import PYTHONPATH, command, examines
 from test_endings import path_without_namespaces
 from test_mistakes import OF_HANDOUT
 
 from tutorial_check.launcher import examine
-from tutorial_testing.night import at_night
 from tutorial_testing.processes import Program, command_line, descendants, signal_all
 from tutorial_testing.two_hosts.network import Network
 from tutorial_testing.waiting import wait_for

@@ -3,13 +3,12 @@
 import re
 import shutil
 import subprocess
-from pathlib import Path
 
 import pytest
 
 from tutorial_check.self_test import patch
+from tutorial_testing.processes import REPOSITORY
 
-REPOSITORY = Path(__file__).resolve().parents[2]
 SQUARE, WIKI = REPOSITORY / "common/doc/square", REPOSITORY / "common/doc/wiki"
 
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from edits import TALKER, B, write
+from edits import TALKER, B, at_night, write
 from stored import REPOSITORY
 from test_awkward import PYTHONPATH, check, command
 from test_hostile import processes_like
@@ -15,7 +15,6 @@ from test_hostile import processes_like
 from tutorial_check.isolation import bubblewrap
 from tutorial_check.launcher import order_of
 from tutorial_check.worker_process import Worker
-from tutorial_testing.night import at_night
 from tutorial_testing.processes import Program, command_line, descendants, lives
 from tutorial_testing.waiting import wait_for
 

@@ -3,7 +3,6 @@
 import os
 import shutil
 import subprocess
-from pathlib import Path
 
 import pytest
 import variants
@@ -13,8 +12,8 @@ from test_mistakes import is_reported
 from tutorial_check.course import checks_of, read_course
 from tutorial_check.launcher import examine
 from tutorial_check.report.text import lines_of
+from tutorial_testing.processes import REPOSITORY
 
-REPOSITORY = Path(__file__).resolve().parents[2]
 CHECKS = checks_of(read_course())
 NOETIC = "/opt/ros/noetic/setup.bash"  # where ROS is not of Debian
 LATE = "def made():\n    rospy.sleep(0.5)\n    return rospy.Publisher('/cmd_vel', Twist)\n\n\n"

@@ -3,12 +3,11 @@
 import re
 
 import pytest
-from edits import TALKER, J, put
+from edits import TALKER, J, at_night, put
 
 from tutorial_check.course import read_course
 from tutorial_check.report.text import lines_of
 from tutorial_check.variants import drawn
-from tutorial_testing.night import at_night
 
 COURSE = read_course()
 TOPICS = {"joy", "cmd_vel"}

@@ -15,8 +15,7 @@ from pathlib import Path
 
 import pytest
 
-from tutorial_testing.ports import free_port
-from tutorial_testing.processes import Program
+from tutorial_testing.processes import Program, free_port
 
 LONGEST_S = 3600.0  # alone some minutes; beside other tests several times as long
 CACHE = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "ros1_tutorial/kernel"

@@ -11,8 +11,7 @@ from sensor_msgs.msg import Joy
 
 from node_kit.rospy_patches.connections import sender_of
 from tutorial_testing.nodes import init_node
-from tutorial_testing.ports import free_port
-from tutorial_testing.processes import REPOSITORY, Program, command_line, descendants
+from tutorial_testing.processes import REPOSITORY, Program, command_line, descendants, free_port
 from tutorial_testing.waiting import wait_for
 
 CLASS = REPOSITORY / "common/ros2_tutorials/ros2_tutorials/new_joy2twist.py"

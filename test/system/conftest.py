@@ -6,8 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tutorial_testing.ports import free_port
-from tutorial_testing.processes import REPOSITORY, Program
+from tutorial_testing.processes import REPOSITORY, Program, free_port
 from tutorial_testing.screen import virtual_screen
 from tutorial_testing.student import Student
 from tutorial_testing.two_hosts.network import Host

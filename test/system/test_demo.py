@@ -5,8 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from tutorial_testing.ports import free_port
-from tutorial_testing.processes import Program
+from tutorial_testing.processes import Program, free_port
 from tutorial_testing.waiting import DEADLINE_S, lost_s, wait_for
 
 pytestmark = pytest.mark.usefixtures("master_uri")

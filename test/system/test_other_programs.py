@@ -15,8 +15,7 @@ import pytest
 
 from tutorial_check.source import debian_packages
 from tutorial_testing.keys import Tmux
-from tutorial_testing.ports import free_port
-from tutorial_testing.processes import REPOSITORY, Program
+from tutorial_testing.processes import REPOSITORY, Program, free_port
 from tutorial_testing.robot import OBSERVER, PERIOD_S, Robot
 from tutorial_testing.waiting import Stopwatch, lost_s, wait_for
 

@@ -10,7 +10,7 @@ from live import FAKE_TURTLEBOT, JOY2TWIST, delays, master, running
 
 from tutorial_testing import flood as flood_program
 from tutorial_testing.nodes import node_path
-from tutorial_testing.ports import free_port
+from tutorial_testing.processes import free_port
 from tutorial_testing.socket_page import SocketPage
 
 ALONE = 1000  # inputs

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import rosgraph
 
-from tutorial_testing.ports import free_port
+from tutorial_testing.processes import free_port
 from tutorial_testing.waiting import wait_for
 
 HERE = Path(__file__).parent

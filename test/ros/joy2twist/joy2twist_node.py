@@ -14,8 +14,7 @@ from geometry_msgs.msg import Twist
 from sensor_msgs.msg import Joy
 
 from tutorial_testing.nodes import node_path
-from tutorial_testing.ports import free_port
-from tutorial_testing.processes import Program
+from tutorial_testing.processes import Program, free_port
 from tutorial_testing.rostests import RosTest
 from tutorial_testing.waiting import BUSY_S, Stopwatch, wait_for
 

@@ -3,8 +3,7 @@
 
 def over_time(machine, start, end, step=0.01):
     """Call tick() when it is due and at every step; return the (time, velocity) that it sends."""
-    sent = []
-    now = start
+    sent, now = [], start
     while now < end:
         velocity = machine.tick(now)
         if velocity is not None:

@@ -3,6 +3,7 @@
 import contextlib
 import os
 import signal
+import socket
 import subprocess
 import tempfile
 import time
@@ -179,3 +180,10 @@ class Program:
         Known by their environment: roslaunch gives each node a session of its own.
         """
         return with_environment(f"{MARK}={self._mark}")
+
+
+def free_port():
+    """Return a TCP port of this machine that no program uses now."""
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]

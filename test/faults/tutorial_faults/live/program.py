@@ -19,7 +19,7 @@ from tutorial_faults.live.table import FAULTS
 from tutorial_faults.live.world import World
 from tutorial_faults.worlds import moves
 from tutorial_testing.hands import DRIVE, RELEASED, STICK, TURBO, TURN
-from tutorial_testing.ports import free_port
+from tutorial_testing.processes import free_port
 
 # The handout's own class, as printed there, by the name under which --node knows it.
 HANDOUT, LITERAL = "handout", "test/exercises/literal/joy2twist/scripts/new_joy2twist.py"

@@ -4,8 +4,7 @@ import re
 from pathlib import Path
 
 from tutorial_testing.nodes import node_path
-from tutorial_testing.ports import free_port
-from tutorial_testing.processes import Program
+from tutorial_testing.processes import Program, free_port
 from tutorial_testing.robot import OBSERVER, Robot
 from tutorial_testing.waiting import wait_for
 

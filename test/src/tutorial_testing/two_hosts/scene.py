@@ -4,13 +4,12 @@ import re
 import subprocess
 from pathlib import Path
 
+from tutorial_testing.processes import REPOSITORY
 from tutorial_testing.robot import OBSERVER, Robot
 from tutorial_testing.waiting import wait_for
 
 from .network import Network
 
-HERE = Path(__file__).resolve().parent
-REPOSITORY = HERE.parents[3]
 ROBOT, WORKSTATION = "robot", "workstation"
 
 
@@ -57,7 +56,9 @@ class Scene(Robot):
 
     def launch_pilot(self):
         """Let a person sit at the workstation, whose joystick tell() moves."""
-        self._pilot = self.start(WORKSTATION, f"'{HERE}/pilot.py'", stdin=subprocess.PIPE)
+        self._pilot = self.start(
+            WORKSTATION, f"'{Path(__file__).with_name('pilot.py')}'", stdin=subprocess.PIPE
+        )
         wait_for(self._pilot_lines, "pilot")
 
     def tell(self, word):
