@@ -22,10 +22,6 @@ BRIDGE = "--bridge"  # option of the faults
 MUTATE = CACHES.parent / "mutation/bin/python"  # with the lowest priority, as it takes hours
 
 
-def say(line):
-    print(f"tutorial: {line}", file=sys.stderr, flush=True)
-
-
 def interrupt(number, _):
     raise KeyboardInterrupt(number)
 
