@@ -45,7 +45,8 @@ def run(*command, text="", **environment):
         command, env={**os.environ, **environment}, cwd=SOURCE, text=True, timeout=300, input=text,
         stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False,
     )  # fmt: skip
-    assert done.returncode == 0, f"{' '.join(command)}: {done.returncode}\n{done.stdout}"
+    if done.returncode:  # assert would escape the ends of lines
+        raise AssertionError(f"{' '.join(command)}: {done.returncode}\n{done.stdout}")
     return done.stdout
 
 
