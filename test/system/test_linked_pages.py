@@ -16,6 +16,7 @@ WRITTEN = REPOSITORY / "test/system/linked_pages"  # what the pages show, in our
 SOLVED = REPOSITORY / "common/doc/wiki/solutions/right/beginner_tutorials"
 WS = "~/ros/hydro/catkin_ws"
 TWIST = "geometry_msgs/Twist"
+TALKS = r"good day(.*\n)+.*good day"  # A Ctrl-C within the first one may lock rospy for ever.
 CMD_VEL = f"/turtle1/cmd_vel {TWIST}"
 RECORD = "stdbuf -oL rosbag record"  # it prints at once, as it does on a screen
 
@@ -130,20 +131,20 @@ PUBLISHER_AND_SERVER = [
     ("sim", CTRL_C, ""),
 ]
 NAMES = [
-    ("sim", "rosrun beginner_tutorials talker.py", "good day"),
-    ("keys", "rosrun beginner_tutorials talker.py chatter:=/wg/chatter", "good day"),
+    ("sim", "rosrun beginner_tutorials talker.py", TALKS),
+    ("keys", "rosrun beginner_tutorials talker.py chatter:=/wg/chatter", TALKS),
     ("1", "rosnode list", r"^/talker_\d+_.*\n/talker_"),
     ("1", "rostopic echo -n 1 /wg/chatter", "data: .good day"),
     ("keys", CTRL_C, ""),
     ("sim", CTRL_C, ""),
-    ("sim", "rosrun beginner_tutorials talker.py __name:=one __ns:=/wg _word:=5", "good day"),
+    ("sim", "rosrun beginner_tutorials talker.py __name:=one __ns:=/wg _word:=5", TALKS),
     ("1", "rosparam get /wg/one/word", "^5"),
-    ("keys", "rosrun beginner_tutorials talker.py __name:=one __ns:=/wg", "good day"),
+    ("keys", "rosrun beginner_tutorials talker.py __name:=one __ns:=/wg", TALKS),
     ("sim", "", "new node registered with same name"),
     ("keys", CTRL_C, ""),
 ]
 LARGE = [
-    ("sim", "ROBOT=sim roslaunch beginner_tutorials large.launch limit:=3", "good day"),
+    ("sim", "ROBOT=sim roslaunch beginner_tutorials large.launch limit:=3", TALKS),
     ("1", "rosparam get /wg", "kernel: .Linux\n(.*\n)*limit: 30\n(.*\n)*rooms:\n- hall"),
     ("1", "rostopic echo -n 1 /wg/hello", "data: .good day"),
     ("sim", CTRL_C, ""),
