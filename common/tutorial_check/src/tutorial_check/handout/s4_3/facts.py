@@ -1,4 +1,4 @@
-"""A Drive of a program beside its text: the facts from which conversation says what is wrong."""
+"""A Drive of a program beside its text: the facts from which diagnoses says what is wrong."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ STRAYS = 2  # zeros in a row of Joys that may be
 
 
 class Facts:
-    """A Drive beside the text of its program: the facts of the rows of conversation."""
+    """A Drive beside the text of its program: the facts of the rows of diagnoses."""
 
     def __init__(self, session: Session, seen: Drive) -> None:
         self.session, self.seen, self.script = session, seen, seen.script

@@ -14,7 +14,8 @@ BEFORE = (
     Row(lambda e: not e.moving, "every Twist is zero",
         "are linear.x and angular.z of the message that is published set from data.axes?"),
 )  # fmt: skip
-# Of a field that does not follow its axis by a constant. The first row that applies counts.
+# Of a field that is no positive constant times its axis, or not by the scale of the task (wanted).
+# The first row that applies counts.
 OF_A_FIELD = (
     Row(lambda f: f.is_scaled, PRODUCT, JUST),
     Row(lambda f: f.wanted and f.rule and f.rule.axis == f.axis, WRONG_SIGN, JUST),
