@@ -47,7 +47,7 @@ def write(test, outcomes, workspace, underlay):
 def judged(test, workspace, underlay, exercises, folder, **about):
     """Return the Outcomes of a workspace, judged from what is stored. folder: for its copy, empty."""
     path = path_of(test)
-    assert path.exists(), f"{path.name} is missing: ./tutorial test exercises --store -k ROW -n 1"
+    assert path.exists(), f"{path.name} is missing: ./tutorial test exercises --store -k 'A and B'"
     text = lzma.decompress(path.read_bytes()).decode()
     for path, name in {**names(workspace, underlay), str(folder): HANDED_IN}.items():
         text = text.replace(name, path)
