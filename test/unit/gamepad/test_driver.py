@@ -125,17 +125,17 @@ def test_the_readme_has_the_parameters_which_do_not_change():
 
 def test_a_report_has_the_rates_and_a_change_is_reported_at_once():
     report, pad = DriverReport(DriverParameters(), "/joy"), driver()
-    assert report.due(-1.0) and not report.due(-0.1)
+    assert report.published == 0 and report.due(-1.0) and not report.due(-0.1)
     report.opened("/dev/input/js1", "Pad")
     for now, presses, rates in ((10.0, 5, (0.0, 0.0)), (12.0, 3, (1.5, 3.0)), (12.0, 0, (0, 0))):
-        pad.read(events(*[(BUTTON, 0, 1)] * presses), now - 1.5)
+        pad.read(events(*[(BUTTON, 0, 1)] * presses), now - 8.0)
         report.published += 2 * presses
         details = dict(report.details(pad, 1, now))
         names = [f"recent {what} rate (Hz)" for what in ("joystick event", "publication")]
-        assert (*(details[name] for name in names), details[SILENT_FOR]) == (*rates, "1.5")
-    assert report.due(12.0) and not report.due(12.9)
+        assert (*(details[name] for name in names), details[SILENT_FOR]) == (*rates, "8.0")
+    assert report.due(12.0) and not report.due(12.9) and report.due(13.0) and report.summary()[0]
     report.lost()
-    assert report.due(12.9) and report.summary() == (False, "Joystick not open.")
+    assert report.due(-2.0) and report.summary() == (False, "Joystick not open.")
 
 
 class Simulated:
