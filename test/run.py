@@ -49,7 +49,7 @@ def tests(kinds, given, *options, cache=""):
 def run_all(_):
     """Run unit tests, then the others at once."""
     shutil.rmtree(CACHES / ALL, ignore_errors=True)  # a killed run may have left some
-    options = os.environ.get("TUTORIAL_UNIT", f"-n {JOBS}").split()  # of pytest: .ci/run
+    options = os.environ.get("TUTORIAL_UNIT", f"-n {JOBS}").split()  # .ci/run sets it
     failed = tests("unit", options, cache=ALL)
     together = ["-n", 5 * JOBS, "--dist", "loadgroup"]
     return tests(TOGETHER, [], *together, cache=ALL) or failed

@@ -42,7 +42,7 @@ def test_a_workspace_that_is_a_link_was_built_over_the_suite(literal, underlay, 
 @pytest.mark.night
 @pytest.mark.parametrize(("what", "exercise"), [("", "2"), (J, "4.3"), (TALKER, "3")])
 def test_ones_own_links_are_followed(literal, home, verdicts, what, exercise):
-    path = literal / what  # of which a link stays
+    path = literal / what  # A link to it stays.
     shutil.move(str(path.resolve()), str(home / path.name))
     path.symlink_to(home / path.name)
     verdicts(exercise)

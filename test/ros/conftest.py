@@ -48,7 +48,7 @@ def pytest_collect_file(file_path, parent):
     return None
 
 
-def pytest_pycollect_makemodule(module_path, parent):  # of a file that is named
+def pytest_pycollect_makemodule(module_path, parent):  # if a file is named
     return RosFile.from_parent(parent, path=module_path)
 
 

@@ -58,7 +58,7 @@ class Safety:
         self._sent: Velocity = ZERO  # the last velocity sent
         self._target: Velocity = ZERO  # where the acceleration limits lead to
         self._stopping = False  # zeros are being repeated, or have been
-        self._repeats = math.inf  # zeros still to come
+        self._repeats: float = 0  # zeros still to come
         self._next_output = math.inf  # when a zero or a step of the acceleration is due
         self._sender: object = None  # sent the last good message
         self._switched_at = -math.inf  # when that was another one than before

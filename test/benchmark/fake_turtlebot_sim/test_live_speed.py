@@ -6,7 +6,7 @@ import pytest
 from live import BARE_NODE, FAKE_TURTLEBOT, PERIOD_NS, lost_periods, observe, topics_of
 
 MESSAGES = ["/odom", "/tf", "/joint_states"]
-BEAMS, ROBOTS, SECONDS, MOST_LOAD = 640, 30, 20, 0.3  # of a class that scans
+BEAMS, ROBOTS, SECONDS, MOST_LOAD = 640, 30, 20, 0.3  # A whole class scans.
 
 
 @pytest.fixture(scope="module", autouse=True)

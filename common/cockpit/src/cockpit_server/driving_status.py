@@ -15,7 +15,7 @@ class About(NamedTuple):
 
     driver: Optional[int] = None  # number of the page that drives it
     name: str = ""  # name of the page that drives it
-    plays: bool = False  # that page, a recording
+    plays: bool = False  # whether that page plays a recording
     armed: bool = False  # whether all was seen released
     why: str = ""  # the last stop by a loss of the driver
     said: Optional[Dict[str, Any]] = None  # what joy2twist reports: see teleop.report_of()

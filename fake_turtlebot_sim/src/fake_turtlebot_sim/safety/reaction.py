@@ -41,8 +41,8 @@ class Reaction:
         sides = {sensor for _, sensor in self._until}
         if not sides:
             return None
-        if not sides - {LEFT}:
+        if sides == {LEFT}:
             return BACK_M_S, -TURN_RAD_S
-        if not sides - {RIGHT}:
+        if sides == {RIGHT}:
             return BACK_M_S, TURN_RAD_S
         return BACK_M_S, 0.0

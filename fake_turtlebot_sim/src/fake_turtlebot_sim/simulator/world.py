@@ -133,7 +133,7 @@ class Surroundings:
 
     def __init__(self, world: World) -> None:
         self.world = world
-        self._at, self._within = (nan, nan), nan  # [m]
+        self._at, self._within = (nan, nan), nan  # [m]; not looked yet
         self._near: list[Obstacle] = []
 
     def near(self, x: float, y: float, reach: float) -> Sequence[Obstacle]:
