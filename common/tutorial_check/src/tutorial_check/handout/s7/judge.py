@@ -45,7 +45,8 @@ def reads_bumper(session: Session) -> str:
         kind = "kobuki_msgs/BumperEvent"
         raise _elsewhere(wrong, "subscribes to", BUMPER, kind, seen.subscribers, seen.types)
     for number, (side, shown) in enumerate(zip(SIDES, seen.shown)):
-        if not re.search(wanted(number), shown):
+        # The paths of a traceback may have the number, too.
+        if not re.search(wanted(number), re.split("bad callback|Traceback", shown)[0]):
             expected = f"the {side} bumper on the screen when it is pressed"
             hint = f"event.bumper is {number} (BumperEvent.{side.upper()}), event.state 1"
             if seen.program.ended or "Traceback" in shown:
