@@ -20,7 +20,6 @@ from tutorial_testing.processes import signal_all, with_environment
 
 RESULTS = Path(os.environ["TUTORIAL_RESULTS"]) / "rostests"
 ONE = Path(__file__).with_name("one.test")
-LONGEST = ("node_kit", "faults")  # folders
 BROKEN = ("error", "failure")  # as JUnit files note it; rosunit notes no skips
 
 
@@ -50,10 +49,6 @@ def pytest_collect_file(file_path, parent):
 
 def pytest_pycollect_makemodule(module_path, parent):  # if a file is named
     return RosFile.from_parent(parent, path=module_path)
-
-
-def pytest_collection_modifyitems(items):
-    items.sort(key=lambda item: item.path.parent.name not in LONGEST)
 
 
 class RosFile(pytest.File):

@@ -13,16 +13,6 @@ from tutorial_testing.two_hosts.network import Host
 from tutorial_testing.two_hosts.scene import Scene
 from tutorial_testing.waiting import DEADLINE_S
 
-LONGEST = (
-    "test_handout.py", "test_linked_pages.py", "test_readme.py", "test_other_programs.py",
-    "test_workspaces.py", "test_cockpit.py",
-)  # fmt: skip
-
-
-def pytest_collection_modifyitems(items):
-    """Begin with those that take the longest, so that none of them ends long after the others."""
-    items.sort(key=lambda item: item.path.name not in LONGEST)
-
 
 @pytest.fixture
 def master_uri(monkeypatch):
