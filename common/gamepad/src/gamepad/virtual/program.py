@@ -74,14 +74,6 @@ def make_source(options: argparse.Namespace) -> tuple[Gamepad, KeySource | Timed
     return gamepad, KeySource(gamepad, Keyboard())
 
 
-def follow(pad: StreamPad | UinputPad, source: KeySource | TimedSource) -> None:
-    """Move the gamepad as the source says until its end."""
-    while step := source.at(time.monotonic()):
-        position, until = step
-        pad.show(position)
-        wait(pad, None, until)
-
-
 def follow_keys(pad: StreamPad | UinputPad, source: KeySource, terminal: Terminal) -> None:
     """Move the gamepad by the keys of a terminal until one of them quits."""
     keyboard = source.keyboard
@@ -126,7 +118,10 @@ def run(options: argparse.Namespace) -> None:
         while not pad.connected:  # a script must not begin before a program reads
             wait(pad, None, math.inf)
             pad.show(positions(gamepad, Controls()))
-        follow(pad, source)
+        while step := source.at(time.monotonic()):
+            position, until = step
+            pad.show(position)
+            wait(pad, None, until)
 
 
 def main() -> None:

@@ -18,9 +18,9 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 from node_kit.manifests import broken_manifests, manifests
-from tutorial_tools.command.rqt_packages import RQT, make_rqt
 from tutorial_tools.hidden import hidden_stand_ins
 from tutorial_tools.system.apt import SetUpError, say
+from tutorial_tools.windows import RQT, make_rqt
 
 REPOSITORY = Path(__file__).resolve().parents[5]
 # The prefix of a ROS that is not the system's own, as ./tutorial has found it.

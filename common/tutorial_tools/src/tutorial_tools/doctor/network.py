@@ -13,6 +13,8 @@ from contextlib import suppress
 from typing import Any, TypeVar
 from xmlrpc.server import SimpleXMLRPCServer
 
+import rosgraph.network
+
 from node_kit import ros_api
 from node_kit.ros_api import TIMEOUT_S, Answer, family
 
@@ -106,12 +108,11 @@ def listen(node_uri: str, topic: str, seconds: float, most: int = 1) -> list[tup
     end = time.monotonic() + seconds
     # A name for each connection: a node drops an older one of the same name.
     name = f"{CALLER}_{next(_number)}"
-    fields = [f"callerid={name}", f"topic={topic}", "md5sum=*", "type=*"]
-    header = b"".join(struct.pack("<I", len(field)) + field.encode() for field in fields)
+    fields = {"callerid": name, "topic": topic, "md5sum": "*", "type": "*"}
     with suppress(OSError, ValueError, TypeError, struct.error):  # late, or the node has gone
         _, (_, host, port) = call(node_uri, "requestTopic", topic, [["TCPROS"]])
         with socket.create_connection((host, port), TIMEOUT_S) as connection:
-            connection.sendall(struct.pack("<I", len(header)) + header)
+            connection.sendall(rosgraph.network.encode_ros_handshake_header(fields))
             stream = connection.makefile("rb")
             _block(connection, stream, end)  # the node's own header
             while len(heard) < most:
