@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from gamepad.arguments import check
-from gamepad.dead_man import check_recording
+from gamepad.bags import check_recording
 
 JOY_BAG = Path(__file__).parents[3] / "common" / "gamepad" / "bag" / "joy.bag"
 TRUE_OR_FALSE = "must be true or false"

@@ -113,7 +113,7 @@ def main() -> None:
         for name, value in given.items():
             check(name, value)
         if "none" not in (given.get("bag", "none"), given.get("joy_config", "none")):
-            from gamepad.dead_man import check_recording  # noqa: PLC0415  rosbag takes a while
+            from gamepad.bags import check_recording  # noqa: PLC0415  rosbag takes a while
 
             check_recording(given["bag"], given["joy_config"])
     except ValueError as error:
