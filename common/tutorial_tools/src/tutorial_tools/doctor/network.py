@@ -10,15 +10,17 @@ import threading
 import time
 from collections.abc import Callable, Iterable
 from contextlib import suppress
+from functools import partial
 from typing import Any, TypeVar
 from xmlrpc.server import SimpleXMLRPCServer
 
 import rosgraph.network
 
 from node_kit import ros_api
-from node_kit.ros_api import TIMEOUT_S, Answer, family
+from node_kit.ros_api import TIMEOUT_S, family
 
 CALLER = f"/doctor_{os.getpid()}"
+call = partial(ros_api.call, caller=CALLER)
 LONGEST_MESSAGE = 10_000_000  # bytes; the stamped messages looked at are far shorter
 Thing = TypeVar("Thing")
 Found = TypeVar("Found")
@@ -64,12 +66,6 @@ def is_here(address: str) -> bool:
             return address not in ("0.0.0.0", "::")
     except OSError:
         return False
-
-
-def call(uri: str, method: str, *arguments: Any) -> tuple[Answer, Any]:
-    """Call a master's or a node's method as this program; return (Answer, its value or None)."""
-    answer, value = ros_api.call(uri, method, *arguments, caller=CALLER)
-    return answer, value if answer is Answer.WELL else None
 
 
 def is_called_back(master_uri: str, own_name: str) -> bool:
