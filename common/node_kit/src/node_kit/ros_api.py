@@ -58,7 +58,7 @@ def call(
     caller: str | None = None,
     timeout_s: float = TIMEOUT_S,
 ) -> tuple[Answer, Any]:
-    """Ask a master or a node, as `caller` or under a name of no node; return (Answer, value or None)."""
+    """Ask a master or a node, as `caller` or as no node; return (Answer, value or None)."""
     answer: list[tuple[Answer, Any]] = [(Answer.SILENT, None)]
 
     def ask() -> None:
