@@ -9,12 +9,7 @@ import rosgraph
 import rospy
 from rospy.client import load_command_line_node_params
 
-from node_kit.ending import (
-    end_in_time,
-    end_on_signals,
-    is_ending,
-    wait_for_goodbye,
-)
+from node_kit.ending import end_in_time, end_on_signals, is_ending, wait_for_goodbye
 from node_kit.parameters import checked_value, switch
 from node_kit.ros_api import Answer, call, holder
 from node_kit.rospy_patches.connections import be_careful
