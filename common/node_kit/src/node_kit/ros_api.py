@@ -52,11 +52,7 @@ class _Transport(xmlrpc.client.Transport):
 
 
 def call(
-    uri: str,
-    method: str,
-    *arguments: Any,
-    caller: str | None = None,
-    timeout_s: float = TIMEOUT_S,
+    uri: str, method: str, *arguments: Any, caller: str | None = None, timeout_s: float = TIMEOUT_S
 ) -> tuple[Answer, Any]:
     """Ask a master or a node, as `caller` or as no node; return (Answer, value or None)."""
     answer: list[tuple[Answer, Any]] = [(Answer.SILENT, None)]

@@ -130,10 +130,8 @@ def build_both(workspace: Path) -> None:
         (workspace / "bin" / "python").symlink_to("/usr/bin/python3")
     log.write_text("")
     below = Path(PREFIX, "setup.bash") if PREFIX else None
-    if not (
-        clean_catkin_make(below, lower, log)
-        and clean_catkin_make(lower / "devel" / "setup.bash", workspace, log)
-    ):
+    is_lower_built = clean_catkin_make(below, lower, log)
+    if not is_lower_built or not clean_catkin_make(lower / "devel/setup.bash", workspace, log):
         print(*log.read_text().splitlines()[-15:], sep="\n", file=sys.stderr)
         raise SetUpError(f"catkin_make failed; {log} has all of it")
     (workspace / "built").write_text(f"{built}\n")
