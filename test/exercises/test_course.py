@@ -46,8 +46,8 @@ def test_a_student_of_the_wiki_reads_line_and_cause(tmp_path):
 def test_a_self_test_finds_a_check_that_passes_everything(tmp_path):
     course = shutil.copytree(SQUARE, tmp_path / "square")
     for solution in (course / "solutions").iterdir():
-        if solution.name not in ("right", "wrong_S2_turns_too_little"):
-            shutil.rmtree(solution)
+        if solution.stem not in ("right", "wrong_S2_turns_too_little"):
+            subprocess.run(["rm", "-r", solution], check=True)
     checks = (course / "square.py").read_text().replace("NEAR_M = 0.1", "NEAR_M = 10.0")
     (course / "square.py").write_text(checks)
     code, output = check("--course", course, "--self-test")

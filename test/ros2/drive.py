@@ -17,7 +17,7 @@ from tutorial_testing.waiting import wait_for
 CLASS = REPOSITORY / "common/ros2_tutorials/ros2_tutorials/new_joy2twist.py"
 RATE = 50.0  # [Hz]
 BRIDGE = "/ros2_bridge"
-SIDES = {"ROS 1": "ros2_bridge.ros1_node", "ROS 2": "ros2_side.py"}
+SIDES = {"ROS 1": "ros2_bridge.ros1_side", "ROS 2": "ros2_side.py"}
 ZERO = (0.0, 0.0)  # velocity [m/s, rad/s]
 REST_S = 0.62  # by then a robot without a driver stands, but for a tolerance()
 

@@ -82,7 +82,7 @@ def is_of_python(name):
 @pytest.mark.parametrize("path", [*SOURCES, *SCRIPTS], ids=lambda path: path.name)
 def test_a_file_is_read_in_five_minutes_and_a_script_only_starts_its_program(path):
     is_start = path in SCRIPTS and path.parts[-3] != "beginner_tutorials"
-    most = 20 if is_start and path.name not in ("rqt_graph", "view_robot") else 300
+    most = 20 if is_start else 300
     assert len(path.read_text(encoding="utf-8").splitlines()) <= most
 
 

@@ -1,4 +1,4 @@
-"""Launch files of joy2twist: what drives by a recording, how it ends, and which view opens."""
+"""Launch files of joy2twist: what drives by a recording, and how it ends."""
 
 import os
 
@@ -9,7 +9,6 @@ from geometry_msgs.msg import Twist
 from sensor_msgs.msg import Joy
 
 from tutorial_testing.hands import record
-from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.robot import Robot
 from tutorial_testing.rostests import RosTest
@@ -20,10 +19,6 @@ SAMPLE_S = 6.0  # how much is looked at; the tour begins with a second of rest
 FILE = "launch_joy_node_realTurtlebot.launch"
 TELEOP = "/cmd_vel_mux/input/teleop"
 SPEED = 0.35  # [m/s] at full deflection, config/f710_d.yaml
-PACKAGE = """<package>
-  <name>turtlebot_rviz_launchers</name><version>0.0.0</version><description>None</description>
-  <maintainer email="nobody@example.org">Nobody</maintainer><license>None</license>
-</package>"""
 
 
 class LaunchFilesTest(RosTest):
@@ -67,22 +62,3 @@ class LaunchFilesTest(RosTest):
         self.assertNotIn("died", launch.output)  # a normal end does not look like a crash
         self.assertIn("axis 1 -> linear.x", launch.output)
         self.assertNotIn("Get from Joy", launch.output)  # which would scroll that away
-
-    def test_the_view_is_that_of_the_suite_of_a_turtlebot_if_installed_or_the_users(self):
-        packages, folder = rospkg.RosPack(), self.folder()
-        for program in ("rviz", "roslaunch"):  # in their place: it says what it was given
-            (folder / program).write_text('#!/bin/sh\necho "$0" "$@"\n')
-            (folder / program).chmod(0o755)
-        launchers = folder / "turtlebot_rviz_launchers"
-        launchers.mkdir()
-        (launchers / "package.xml").write_text(PACKAGE)
-        ours = os.environ["ROS_PACKAGE_PATH"]
-        real, suite = f"{folder}:{ours}", packages.get_path("fake_turtlebot_sim")
-        for config, path, command in (
-            ("auto", ours, f"rviz -d {suite}/rviz/sim.rviz"),
-            ("/my.rviz", real, "rviz -d /my.rviz"),
-            ("auto", real, f"roslaunch {launchers}/launch/view_robot.launch"),
-        ):
-            given = {"PATH": f"{folder}:{os.environ['PATH']}", "ROS_PACKAGE_PATH": path}
-            view = self.start(node_path("tutorial_tools", "view_robot"), config, **given)
-            self.assertEqual((view.wait(), view.output), (0, f"{folder}/{command}\n"))

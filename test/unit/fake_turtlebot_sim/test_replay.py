@@ -14,7 +14,7 @@ from sensor_msgs.msg import Joy
 
 from cockpit_server.sources import recording
 from fake_turtlebot_sim.replay import command as replay_command
-from gamepad.dead_man import check_recording
+from gamepad.bags import check_recording
 from tutorial_testing.hostile import end_of
 from tutorial_tools import bag as rqt_bag
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from gamepad.arguments import check
-from gamepad.dead_man import check_recording
+from gamepad.bags import check_recording
 
 JOY_BAG = Path(__file__).parents[3] / "common" / "gamepad" / "bag" / "joy.bag"
 TRUE_OR_FALSE = "must be true or false"
@@ -29,8 +29,6 @@ def refused(name, value):
         ("cockpit_port", ["1", "8080", "65535"], ["0", "65536", "-1", "http", "8080.5", ""],
          "must be a port, a number from 1 to 65535"),
         ("joystick", ["gamepad", "browser"], ["keys", ""], "must be gamepad or browser"),
-        ("joy_pkg", ["gamepad", "joy", "another"], ["joy2twist"],
-         "joy_node is no longer there: leave joy_pkg out, or give joy or gamepad"),
         ("vigilance_timeout", ["0", "0.0", "1", "3.0", "60"], ["-1", "0.3", "61", "soon", ""],
          "must be a number from 1 to 60 s, or 0 for off"),
         ("joy_timeout", ["0", "0.5", "60"], ["-1", "61", "soon"],

@@ -1,8 +1,5 @@
 """A professor's own course: what is read, what is refused in one line, and which check is where."""
 
-import re
-from pathlib import Path
-
 import pytest
 
 from tutorial_check.course import checks_of, read_course
@@ -115,10 +112,3 @@ def test_a_patch_changes_adds_and_removes(tmp_path):
         diff.write_text(text)
         with pytest.raises(CannotCheck, match=r"there is no (\.\./)?gone"):
             patch(tmp_path, diff)
-
-
-def test_the_example_of_the_page_imports_what_there_is():
-    page = (Path(__file__).resolve().parents[3] / "common/doc/COURSES.md").read_text()
-    found = {"__name__": "tutorial_course.example"}
-    exec(re.findall(r"```python\n(.*?)```", page, re.DOTALL)[-1], found)
-    assert found["is_at"](found["Transform"]((2.0, 0.0, 0.0), ()), 2.0)

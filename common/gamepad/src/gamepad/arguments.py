@@ -33,12 +33,6 @@ def recording(value: str) -> None:
         raise ValueError(str(error).replace(f"{value}: ", "", 1)) from None
 
 
-def driver(value: str) -> None:
-    """Check for a package with a joy_node; it was in joy2twist once."""
-    if value == "joy2twist":
-        raise ValueError("joy_node is no longer there: leave joy_pkg out, or give joy or gamepad")
-
-
 def robot(value: str) -> None:
     """Check for the name of a robot of classroom.launch, which begins its topics."""
     if not value:
@@ -75,7 +69,6 @@ RULES: dict[str, Callable[[str], object]] = {
     ),
     "cockpit_port": Check("a port, a number from 1 to 65535", _is_port),
     "joy_config": preset,
-    "joy_pkg": driver,
     "joy_timeout": Check("a number up to 60 s, or 0 for off", lambda v: _is_timeout(v, 0.0)),
     "joystick": Check("gamepad or browser", ("gamepad", "browser").__contains__),
     "lan": true_or_false,
@@ -113,7 +106,7 @@ def main() -> None:
         for name, value in given.items():
             check(name, value)
         if "none" not in (given.get("bag", "none"), given.get("joy_config", "none")):
-            from gamepad.dead_man import check_recording  # noqa: PLC0415  rosbag takes a while
+            from gamepad.bags import check_recording  # noqa: PLC0415  rosbag takes a while
 
             check_recording(given["bag"], given["joy_config"])
     except ValueError as error:

@@ -1,4 +1,4 @@
-"""Recordings, opened so that each mistake in the file is one line."""
+"""Recordings: each mistake in the file is one line; whether one presses the dead-man button."""
 
 from __future__ import annotations
 
@@ -7,6 +7,11 @@ from pathlib import Path
 from typing import Iterator
 
 import rosbag
+import yaml
+
+from gamepad.gamepads import F710
+
+KEYS = ("enable_button", "enable_turbo_button")  # either of them drives
 
 
 class BagError(ValueError):
@@ -30,3 +35,27 @@ def opened(path: str | Path) -> Iterator[rosbag.Bag]:
     except Exception as error:  # rosbag lets struct.error and more through from a damaged file
         why = " ".join(str(error).split()) or type(error).__name__
         raise BagError(f"{path}: not a bag that can be read: {why:.200}") from None
+
+
+def check_recording(bag: str, preset: str) -> None:
+    """Raise ValueError with one line if no Joy of the bag presses a dead-man button of the preset.
+
+    Both are paths. A preset without a dead-man button drives by any recording.
+    """
+    parameters = yaml.safe_load(Path(preset).read_text(encoding="utf-8"))
+    numbers = [parameters[key] for key in KEYS if parameters.get(key, -1) >= 0]
+    with opened(bag) as recorded:
+        for _, joy, _ in recorded.read_messages("/joy"):
+            if not numbers or any(any(joy.buttons[one : one + 1]) for one in numbers):
+                return
+    buttons = " or ".join(_name(number, Path(preset).stem) for number in numbers)
+    raise ValueError(
+        f"bag:={bag}: {buttons}, the dead-man button of {Path(preset).name}, is never pressed in"
+        " it, so nothing would move: hold it while you record, or play this with launch_bag.launch"
+    )
+
+
+def _name(number: int, preset: str) -> str:
+    if not preset.startswith("f710"):
+        return f"button {number}"
+    return f"{F710[preset[-1].upper()].buttons[number]} (button {number})"

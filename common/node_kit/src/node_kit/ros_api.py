@@ -52,13 +52,9 @@ class _Transport(xmlrpc.client.Transport):
 
 
 def call(
-    uri: str,
-    method: str,
-    *arguments: Any,
-    caller: str | None = None,
-    timeout_s: float = TIMEOUT_S,
+    uri: str, method: str, *arguments: Any, caller: str | None = None, timeout_s: float = TIMEOUT_S
 ) -> tuple[Answer, Any]:
-    """Ask a master or a node, as `caller` or under a name of no node; return (Answer, value)."""
+    """Ask a master or a node, as `caller` or as no node; return (Answer, value or None)."""
     answer: list[tuple[Answer, Any]] = [(Answer.SILENT, None)]
 
     def ask() -> None:
@@ -66,7 +62,7 @@ def call(
             with xmlrpc.client.ServerProxy(uri, transport=_Transport(timeout_s)) as server:
                 name = caller or f"/question_{os.getpid()}"
                 code, _, value = getattr(server, method)(name, *arguments)
-                answer[0] = (Answer.WELL if code == 1 else Answer.STRANGE, value)
+                answer[0] = (Answer.WELL, value) if code == 1 else (Answer.STRANGE, None)
         except Exception as error:
             answer[0] = (next(a for kind, a in _MEANINGS if isinstance(error, kind)), None)
 

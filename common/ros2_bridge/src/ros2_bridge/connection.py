@@ -7,25 +7,20 @@ are dropped, and topics take turns. So the newest velocity never waits behind ol
 from __future__ import annotations
 
 import ctypes
+import pickle
 import signal
 import socket
-import struct
 import threading
 import time
 from collections import OrderedDict, deque
 from contextlib import suppress
-from dataclasses import dataclass
-from typing import Callable, Iterator
+from typing import Callable, Iterator, NamedTuple
 
-HEAD = struct.Struct("<IdB")  # bytes that follow the head, when it was received [s], flags
-LATCHED, ANNOUNCES = 1, 2  # flags
-MOST_BYTES = 1 << 30
 PR_SET_PDEATHSIG = 1  # linux/prctl.h
 BUFFER_BYTES = 1 << 16  # what the kernel keeps cannot be dropped any more
 
 
-@dataclass(frozen=True)
-class Frame:
+class Frame(NamedTuple):
     """A message on its way.
 
     Without a topic it is a sign of life; data: a line for each topic that cannot be carried.
@@ -39,28 +34,17 @@ class Frame:
     announces: bool = False  # no message, but that some will come: subscribers find the topic
 
     def packed(self) -> bytes:
-        """Return the frame as it is sent."""
-        names = f"{self.topic}\0{self.type}\0".encode()
-        flags = LATCHED * self.is_latched | ANNOUNCES * self.announces
-        head = HEAD.pack(len(names) + len(self.data), self.stamp_s, flags)
-        return b"".join((head, names, self.data))
+        """Return the frame as it is sent: the other side has its class in another module."""
+        return pickle.dumps(tuple(self))
 
 
 def frames(connection: socket.socket) -> Iterator[Frame]:
     """Yield what comes, until the other side is gone."""
-    # Reset: it ended before it had read all that was sent to it.
-    with connection.makefile("rb", buffering=1 << 18) as stream, suppress(ConnectionResetError):
+    # Reset: it ended before it had read all that was sent to it; the others: within a frame.
+    ends = ConnectionResetError, EOFError, pickle.UnpicklingError
+    with connection.makefile("rb", buffering=1 << 18) as stream, suppress(*ends):
         while True:
-            head = stream.read(HEAD.size)
-            if len(head) < HEAD.size:
-                return
-            size, stamp_s, flags = HEAD.unpack(head)
-            body = stream.read(size) if size <= MOST_BYTES else b""
-            if len(body) < size or size > MOST_BYTES:
-                return
-            topic, kind, data = body.split(b"\0", 2)
-            is_latched, announces = bool(flags & LATCHED), bool(flags & ANNOUNCES)
-            yield Frame(topic.decode(), kind.decode(), data, stamp_s, is_latched, announces)
+            yield Frame(*pickle.load(stream))
 
 
 class Sender:

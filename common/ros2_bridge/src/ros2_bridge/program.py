@@ -57,7 +57,7 @@ def main() -> int:
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, signal.default_int_handler)
     with tempfile.TemporaryDirectory(prefix="ros2_bridge_") as folder:
-        ros1 = [sys.executable, "-m", "ros2_bridge.ros1_node", folder, *sys.argv[1:]]
+        ros1 = [sys.executable, "-m", "ros2_bridge.ros1_side", folder, *sys.argv[1:]]
         ros2 = ros2_python.command([str(HERE / "ros2_side.py"), folder])
         sides = [Side("ROS 1", ros1), Side("ROS 2", ros2)]
         try:

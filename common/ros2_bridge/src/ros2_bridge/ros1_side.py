@@ -1,21 +1,28 @@
-"""The side of ROS 1: forwards the bytes of any type. It listens for the other side."""
+"""The side of ROS 1: forwards the bytes of any type. It listens for the other side.
+
+program.py starts it: python3 -m ros2_bridge.ros1_side FOLDER.
+"""
 
 from __future__ import annotations
 
 import socket
+import sys
 import threading
 import time
 from pathlib import Path
-from typing import Callable
+from typing import Any, Callable
 
+import rospkg
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 
 from node_kit.raw_messages import Raw, RawPublisher, senders, subscribe, types_of_others
-from ros2_bridge.connection import Frame, Sender, frames, is_late
-from ros2_bridge.routes import Route, depth_of
+from node_kit.start import run
+from ros2_bridge.connection import Frame, Sender, end_with_parent, frames, is_late
+from ros2_bridge.routes import Route, depth_of, read_routes
 
 NAME = "ros2_bridge"
+SOCKET, LIST = "socket", "topics.yaml"  # in the folder that both sides know
 LOOK_S = 0.5  # how often the master is asked which topics there are; and the state is published
 FORGET_S = 5.0  # after the last latched sender: by then subscribers in ROS 2 have its messages
 SILENT_S = 2.0  # the other side gives a sign of life each half second
@@ -171,3 +178,35 @@ class Ros1Side:
             self._warn_of(frame.topic, str(error))
         self._publishers[frame.topic] = (frame.type, frame.is_latched), publisher
         return publisher
+
+
+def load(folder: Path, given: dict[str, Any]) -> list[Route]:
+    """Return the Routes; write their list for the other side. Raises ValueError with one line."""
+    file = given.pop("topics", "") or f"{rospkg.RosPack().get_path(NAME)}/config/bridge.yaml"
+    if given:
+        raise ValueError(f"~{next(iter(given))}: is not known; known is ~topics")
+    if not isinstance(file, str):
+        raise ValueError(f"~topics: {file!r}: the path of a YAML list is wanted")
+    try:
+        text = Path(file).read_text(encoding="utf-8")
+        routes = read_routes(text)
+    except (OSError, ValueError) as error:
+        raise ValueError(f"~topics: {file}: {getattr(error, 'strerror', error)}") from None
+    (folder / LIST).write_text(text, encoding="utf-8")
+    return routes
+
+
+def main() -> int:
+    """Run the node; return its exit code."""
+    end_with_parent()
+    folder = Path(sys.argv.pop(1))
+    return run(
+        NAME,
+        lambda given: load(folder, given),
+        lambda routes: Ros1Side(routes, str(folder / SOCKET), rospy.logwarn).run(),
+        keeps_name=True,
+    )
+
+
+if __name__ == "__main__":
+    sys.exit(main())

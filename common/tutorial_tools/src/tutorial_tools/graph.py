@@ -6,7 +6,6 @@ import argparse
 import json
 import os
 import re
-import socket
 import subprocess
 import sys
 from pathlib import Path
@@ -15,10 +14,9 @@ from urllib.parse import urlsplit
 
 import rosgraph
 
-from node_kit.ros_api import address
+from node_kit.ros_api import Answer, address, call
 
 ENDINGS = (".png", ".svg", ".pdf", ".dot")
-TIMEOUT_S = 5.0  # for each answer of the master; on one network it takes milliseconds
 # Every node is connected to /rosout, which would hide the rest.
 DEBUG_NODES = {"/rosout"}
 DEBUG_TOPICS = {"/rosout", "/rosout_agg", "/statistics"}
@@ -89,15 +87,14 @@ def dot_text(state: Any, machines: dict[str, str], everything: bool = False) -> 
 
 def ask_master() -> tuple[Any, dict[str, str]]:
     """Return (state, machines) for dot_text()."""
-    master = rosgraph.Master("/draw_graph")
-    state = master.getSystemState()
-    machines = {}
-    for node in {node for part in state for _, nodes in part for node in nodes}:
-        try:
-            machines[node] = urlsplit(master.lookupNode(node)).hostname
-        except rosgraph.MasterException:
-            pass  # it has exited meanwhile
-    return state, machines
+    uri = rosgraph.get_master_uri()
+    answer, state = call(uri, "getSystemState")
+    if answer is not Answer.WELL:
+        fail(f"no ROS master at {uri}; start one with: roscore")
+    nodes = {node for part in state for _, nodes in part for node in nodes}
+    answers = {node: call(uri, "lookupNode", node) for node in nodes}
+    found = {node: urlsplit(one).hostname for node, (_, one) in answers.items() if one}
+    return state, found  # without those that have exited meanwhile
 
 
 def picture(text: str, kind: str) -> bytes:
@@ -134,11 +131,7 @@ def main(arguments: list[str] | None = None) -> None:
     kind = file.suffix.lower()
     if kind not in ENDINGS:
         fail(f"{file} must end in {', '.join(ENDINGS[:-1])} or {ENDINGS[-1]}")
-    socket.setdefaulttimeout(TIMEOUT_S)
-    try:
-        state, machines = ask_master()
-    except Exception:  # no answer, or none of a master
-        fail(f"no ROS master at {rosgraph.get_master_uri()}; start one with: roscore")
+    state, machines = ask_master()
     text = dot_text(state, machines, options.all)
     if '"node ' not in text:
         fail(f"nothing runs on {rosgraph.get_master_uri()} to be drawn; start a node first")

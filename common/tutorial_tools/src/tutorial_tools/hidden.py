@@ -23,9 +23,8 @@ def hidden_stand_ins(workspace: Path, suite: Path, share: Path) -> list[tuple[st
     known = {*own, *(path.parent.name for path in installed)}
     found = []
     for name in sorted(set(own) & set(stand_ins)):
-        files = [
-            own[name] / "launch" / file.name for file in stand_ins[name].glob("launch/*.launch")
-        ]
+        theirs = stand_ins[name].glob("launch/*.launch")
+        files = [own[name] / "launch" / file.name for file in theirs]
         texts = [file.read_text(errors="replace") for file in files if file.is_file()]
         pairs = NAMED.findall(re.sub("(?s)<!--.*?-->", "", "".join(texts)))
         missing = {package for pair in pairs for package in pair if package} - known

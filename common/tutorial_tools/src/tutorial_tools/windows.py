@@ -1,8 +1,10 @@
-"""The windows of rqt, and where the cockpit's page has what they show (pure)."""
+"""The windows of rqt, which Debian lacks: their packages, and where the cockpit's page has them."""
 
 from __future__ import annotations
 
-from typing import Sequence
+import contextlib
+from pathlib import Path
+from typing import Iterator, Sequence
 from urllib.parse import urlencode
 
 # Command and package -> the tab.
@@ -10,6 +12,11 @@ TABS = {
     "rqt": "", "rqt_gui": "", "rqt_console": "log", "rqt_logger_level": "log", "rqt_plot": "plot",
     "rqt_publisher": "topics", "rqt_service_caller": "topics", "rqt_topic": "topics",
 }  # fmt: skip
+MODEL = "common/stand_ins/rqt_gui"  # from which the others are made
+SCRIPTS = "common/tutorial_tools/scripts"
+# Package -> its one program, of the same name.
+RQT = {name: f"{MODEL}/scripts/rqt_gui" for name in sorted(set(TABS) - {"rqt_gui"})}
+RQT.update({name: f"{SCRIPTS}/{name}" for name in ("rqt_bag", "rqt_graph")})
 
 
 def place(window: str, names: Sequence[str]) -> str:
@@ -28,3 +35,18 @@ def _fields(text: str) -> list[str]:
     first, *others = text.split(":")
     above = first.rpartition("/")[0]
     return [first, *(f"{above}/{other}" for other in others)]
+
+
+def make_rqt(repository: Path, share: Path, folder: Path) -> Iterator[Path]:
+    """Make the packages that are not below share, where ROS has its own; yield each program."""
+    for name, script in RQT.items():
+        if (share / name / "package.xml").exists():
+            continue
+        program = folder / name / "scripts" / name
+        program.parent.mkdir(parents=True, exist_ok=True)
+        for file in ("CMakeLists.txt", "package.xml"):
+            text = (repository / MODEL / file).read_text(encoding="utf-8")
+            (folder / name / file).write_text(text.replace("rqt_gui", name), encoding="utf-8")
+        with contextlib.suppress(FileExistsError):
+            program.symlink_to(repository / script)
+        yield program

@@ -58,9 +58,8 @@ def read_commands(
         raise ReplayError(f"{path}: no message on {topic}")
     for (before_ns, _), (after_ns, _) in zip(commands, commands[1:]):
         if after_ns - before_ns > LONGEST_SILENCE_S * 1e9:
-            said = (
-                f"is silent for {(after_ns - before_ns) / 3.6e12:.1f} h: damaged, or no one drive"
-            )
+            hours = (after_ns - before_ns) / 3.6e12
+            said = f"is silent for {hours:.1f} h: damaged, or no one drive"
             raise ReplayError(f"{path}: {topic} {said}")
     return commands
 

@@ -70,7 +70,7 @@ def _world(value: Any) -> World | None:
 
 @dataclass(frozen=True)
 class Parameters:
-    """What can be set, with the defaults; README.md and config/fake_turtlebot.yaml explain each."""
+    """What can be set, with the defaults; README.md has them as a table."""
 
     rate: float = parameter(50.0, number(5, 1000, "Hz"), "of odometry, transform and wheels")
     cmd_vel_timeout: float = parameter(

@@ -26,12 +26,7 @@ class RobotTopics:
     """A simulated robot and its topics, in the namespace of its name if it has one."""
 
     def __init__(
-        self,
-        name: str,
-        start_pose: Pose,
-        parameters: Parameters,
-        motion: Motion,
-        log: Log,
+        self, name: str, start_pose: Pose, parameters: Parameters, motion: Motion, log: Log
     ) -> None:
         """Take the Motion of all robots."""
         prefix = f"{name}/" if name else ""

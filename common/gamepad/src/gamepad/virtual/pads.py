@@ -41,7 +41,6 @@ class UinputPad(ContextManager["UinputPad"]):
             raise PadError("python3-evdev is missing: apt install python3-evdev") from None
         self._evdev = evdev
         self._gamepad = gamepad
-        self._raw: dict[tuple[int, int], int] = {}  # (type, code) -> value sent last
         self._position: Position | None = None  # shown last
         self._bent = False  # whether its sticks are one step off
         self._device: Any = None
@@ -77,7 +76,7 @@ class UinputPad(ContextManager["UinputPad"]):
         if position is None:
             if self._device:
                 self._device.close()
-            self._device, self._raw = None, {}
+            self._device = None
             return
         if not self._device:
             self._plug_in()
@@ -87,14 +86,12 @@ class UinputPad(ContextManager["UinputPad"]):
         self._bent = position == self._position and not self._bent
         raws = pad.trembled(raws) if self._bent else raws
         self._position = position
-        raw = {(EV_ABS, axis.code): value for axis, value in zip(pad.axes, raws)}
-        raw.update({(EV_KEY, code): value for code, value in zip(pad.button_codes, buttons)})
-        changes = raw.items() - self._raw.items()
-        for (kind, code), value in sorted(changes):
-            self._device.write(kind, code, value)
-        if changes:
-            self._device.syn()
-        self._raw = raw
+        # The kernel reports only what changes.
+        for code, value in zip(pad.button_codes, buttons):
+            self._device.write(EV_KEY, code, value)
+        for axis, value in zip(pad.axes, raws):
+            self._device.write(EV_ABS, axis.code, value)
+        self._device.syn()
 
     def watch(self, poll: select.poll) -> float:
         """Return the longest time to wait [s]; there is nothing to poll."""

@@ -1,10 +1,4 @@
-"""Fixes three faults of rospy's connections from outside.
-
-A peer that connects and sends nothing holds up every other, since rospy greets one after the other.
-A message that cannot be read leaves its bytes in the buffer, so that the next connection counts as
-broken, too, and the node receives nothing more. The same happens when the master names a publisher
-twice and connects twice at once: the publisher may close one of the two, the subscriber the other.
-"""
+"""Fixes three faults of rospy's connections from outside; README.md says which."""
 
 from __future__ import annotations
 

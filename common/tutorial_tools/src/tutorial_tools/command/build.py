@@ -18,9 +18,9 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 from node_kit.manifests import broken_manifests, manifests
-from tutorial_tools.command.rqt_packages import RQT, make_rqt
 from tutorial_tools.hidden import hidden_stand_ins
 from tutorial_tools.system.apt import SetUpError, say
+from tutorial_tools.windows import RQT, make_rqt
 
 REPOSITORY = Path(__file__).resolve().parents[5]
 # The prefix of a ROS that is not the system's own, as ./tutorial has found it.
@@ -130,10 +130,8 @@ def build_both(workspace: Path) -> None:
         (workspace / "bin" / "python").symlink_to("/usr/bin/python3")
     log.write_text("")
     below = Path(PREFIX, "setup.bash") if PREFIX else None
-    if not (
-        clean_catkin_make(below, lower, log)
-        and clean_catkin_make(lower / "devel" / "setup.bash", workspace, log)
-    ):
+    is_lower_built = clean_catkin_make(below, lower, log)
+    if not is_lower_built or not clean_catkin_make(lower / "devel/setup.bash", workspace, log):
         print(*log.read_text().splitlines()[-15:], sep="\n", file=sys.stderr)
         raise SetUpError(f"catkin_make failed; {log} has all of it")
     (workspace / "built").write_text(f"{built}\n")

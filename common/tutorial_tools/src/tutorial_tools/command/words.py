@@ -75,7 +75,7 @@ _tutorial() {
     COMPREPLY=($("${COMP_WORDS[0]}" completion "${COMP_WORDS[@]:1:COMP_CWORD}" 2>/dev/null))
 }
 complete -o default -F _tutorial tutorial ./tutorial"""
-Plan = Dict[str, List[str]]  # sections of packages, programs, builds, student and the command
+Plan = Dict[str, List[str]]  # sections of packages, builds, student and the command
 
 
 def parser_of(word: str) -> Parser:
@@ -161,7 +161,6 @@ def plan_of_test(kind: str, rest: list[str]) -> Plan:
     made = {"sections": ["demo", "more", "test"], "builds": ["workspace", f"pypi={PYPI}"]}
     if kind in ("browser", "containers"):
         made["sections"].append("browser")
-        made["programs"] = ["chromium", "chromedriver"]
     if kind in ("lint", "docs"):
         made["builds"].append(f"pypi={kind}:test/requirements-{kind}.txt")
         return {**made, "command": [str(REPOSITORY / "test" / kind), *rest]}

@@ -119,19 +119,12 @@ def where_to_look(values: dict[str, str]) -> str:
     return f"open http://127.0.0.1:{port}/ in a browser; from another machine: {tunnel}"
 
 
-def age_of_this_process() -> float:
-    """Return how long ago [s] the user's command began; ./tutorial becomes this process by exec."""
-    with open("/proc/self/stat") as stat, open("/proc/uptime") as uptime:
-        started = int(stat.read().rsplit(")", 1)[1].split()[19])  # proc(5): starttime [ticks]
-        return float(uptime.read().split()[0]) - started / os.sysconf("SC_CLK_TCK")
-
-
 def main() -> None:
     """Check, then launch; exit code 0 if it ran and, with --for, if the robot moved."""
     for number in ENDING:
         signal.signal(number, signal.default_int_handler)
     options = parser_of("demo").parse_args()
-    launch, interrupted = None, False
+    launch, interrupted, began_s = None, False, time.monotonic()
     try:
         launch_file = f"{rospkg.RosPack().get_path('joy2twist')}/launch/launch_bag.launch"
         values = launch_arguments(launch_file, options.arguments)
@@ -142,7 +135,7 @@ def main() -> None:
         command = ["roslaunch", launch_file, *options.arguments, f"bag:={values['bag']}"]
         with claim_master(), Launch(command, nodes) as launch:
             launch.wait_for_odometry()
-            print(f"demo: first /odom after {age_of_this_process():.1f} s", flush=True)
+            print(f"demo: first /odom after {time.monotonic() - began_s:.1f} s", flush=True)
             given = any(argument.startswith("rviz:=") for argument in options.arguments)
             if not with_rviz and not given:
                 print(f"demo: {WITHOUT_SCREEN}{where_to_look(values)}", flush=True)

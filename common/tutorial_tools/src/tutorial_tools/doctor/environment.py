@@ -52,17 +52,14 @@ def _of_python(path: str) -> Iterator[tuple[str, str]]:
         yield f"python3 is {path}, which has no {', '.join(missing)}", todo
     elif origins and "RAW_OPT" not in _text(Path(origins["em"])):
         todo = f"{path} -m pip uninstall em empy (--break-system-packages, if it asks for that)"
-        yield (
-            f"{path} takes em from {origins['em']}, which is not empy 3: no message is built",
-            todo,
-        )
+        seen = f"{path} takes em from {origins['em']}, which is not empy 3: no message is built"
+        yield seen, todo
 
 
 def _of_workspace(workspace: Path) -> Iterator[tuple[str, str]]:
     build, rebuild = workspace / "build", f"cd {workspace}; rm -r build devel; catkin_make"
-    source = re.search(
-        "^CMAKE_HOME_DIRECTORY:INTERNAL=(.*)$", _text(build / "CMakeCache.txt"), re.M
-    )
+    cache = _text(build / "CMakeCache.txt")
+    source = re.search("^CMAKE_HOME_DIRECTORY:INTERNAL=(.*)$", cache, re.M)
     tool = _text(build / ".built_by").strip()
     if tool not in ("", "catkin_make"):
         yield f"{build} was made by {tool}, not by catkin_make", rebuild

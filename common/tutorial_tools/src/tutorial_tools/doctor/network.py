@@ -10,13 +10,17 @@ import threading
 import time
 from collections.abc import Callable, Iterable
 from contextlib import suppress
+from functools import partial
 from typing import Any, TypeVar
 from xmlrpc.server import SimpleXMLRPCServer
 
+import rosgraph.network
+
 from node_kit import ros_api
-from node_kit.ros_api import TIMEOUT_S, Answer, family
+from node_kit.ros_api import TIMEOUT_S, family
 
 CALLER = f"/doctor_{os.getpid()}"
+call = partial(ros_api.call, caller=CALLER)
 LONGEST_MESSAGE = 10_000_000  # bytes; the stamped messages looked at are far shorter
 Thing = TypeVar("Thing")
 Found = TypeVar("Found")
@@ -64,12 +68,6 @@ def is_here(address: str) -> bool:
         return False
 
 
-def call(uri: str, method: str, *arguments: Any) -> tuple[Answer, Any]:
-    """Call a master's or a node's method as this program; return (Answer, its value or None)."""
-    answer, value = ros_api.call(uri, method, *arguments, caller=CALLER)
-    return answer, value if answer is Answer.WELL else None
-
-
 def is_called_back(master_uri: str, own_name: str) -> bool:
     """Return whether the master reaches this machine under its own name.
 
@@ -106,12 +104,11 @@ def listen(node_uri: str, topic: str, seconds: float, most: int = 1) -> list[tup
     end = time.monotonic() + seconds
     # A name for each connection: a node drops an older one of the same name.
     name = f"{CALLER}_{next(_number)}"
-    fields = [f"callerid={name}", f"topic={topic}", "md5sum=*", "type=*"]
-    header = b"".join(struct.pack("<I", len(field)) + field.encode() for field in fields)
+    fields = {"callerid": name, "topic": topic, "md5sum": "*", "type": "*"}
     with suppress(OSError, ValueError, TypeError, struct.error):  # late, or the node has gone
         _, (_, host, port) = call(node_uri, "requestTopic", topic, [["TCPROS"]])
         with socket.create_connection((host, port), TIMEOUT_S) as connection:
-            connection.sendall(struct.pack("<I", len(header)) + header)
+            connection.sendall(rosgraph.network.encode_ros_handshake_header(fields))
             stream = connection.makefile("rb")
             _block(connection, stream, end)  # the node's own header
             while len(heard) < most:

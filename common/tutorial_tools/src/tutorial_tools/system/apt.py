@@ -115,9 +115,8 @@ def apt_get(log: Path, script: str, *arguments: str, size: str = "") -> bool:
 def download_and_install(log: Path, names: Sequence[str]) -> bool:
     """Install packages, in two steps, as only the first may be cut; return whether it succeeded."""
     arguments, size = ("install", "-o", "APT::Status-Fd=3", *names), size_of(names)
-    return apt_get(log, CAN_BE_CUT, *arguments, "--download-only", size=size) and apt_get(
-        log, IS_FINISHED, *arguments
-    )
+    is_there = apt_get(log, CAN_BE_CUT, *arguments, "--download-only", size=size)
+    return is_there and apt_get(log, IS_FINISHED, *arguments)
 
 
 def errors(log: Path) -> list[str]:
