@@ -34,7 +34,8 @@ class Program:
     """A program of the student's, or one that serves the check."""
 
     def __init__(self, process: subprocess.Popen[bytes], name: str) -> None:
-        self.process, self.name = process, name
+        assert process.stdout
+        self.process, self.name, self.pipe = process, name, process.stdout
         self.was_stopped = False  # by us: then how it ended says nothing
         self._worked_s = 0.0
         self._times: Times = {}  # per thread, at the last rests()
@@ -82,8 +83,7 @@ class Program:
 
     def read(self) -> bool:
         """Take what it printed since the last time; return False at the end of its output."""
-        assert self.process.stdout
-        data = self.process.stdout.read(65536)
+        data = self.pipe.read(65536)
         if data is None:  # nothing yet
             return True
         self._printed += len(data)
