@@ -5,11 +5,10 @@ from __future__ import annotations
 import ast
 import re
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, Iterable, Iterator, Sequence, Tuple, Union
 
-from tutorial_check.source.class_facts import ClassFacts, class_facts
 from tutorial_check.source.python_text import is_broad, last_name, python_lines, text_of
 
 KEYBOARD = ("input", "raw_input", "tcgetattr", "setraw", "setcbreak", "initscr", "getch", "getchar")
@@ -23,6 +22,19 @@ class Call:
     line: int
     words: list[str]  # the arguments as text, strings without quotes
     names: dict[str, str]  # the same of keyword arguments
+
+
+@dataclass
+class ClassFacts:
+    """A class of the file."""
+
+    name: str
+    line: int
+    methods: list[str]
+    instantiated: bool
+    is_node: bool
+    attributes: set[str]  # that an object has, besides methods
+    bases: set[str]  # but object
 
 
 class PythonFacts:
@@ -84,7 +96,7 @@ class PythonFacts:
 
     @cached_property
     def classes(self) -> list[ClassFacts]:
-        return [class_facts(node, set(self.calls)) for node in self._of(ast.ClassDef)]
+        return [_class_facts(node, set(self.calls)) for node in self._of(ast.ClassDef)]
 
     @property
     def sunken_main(self) -> Place:
@@ -232,3 +244,43 @@ def shows(handler: ast.ExceptHandler) -> bool:
 
 def _is_main(node: ast.AST) -> bool:
     return isinstance(node, ast.If) and "__name__" in ast.dump(node.test)
+
+
+def _class_facts(node: ast.ClassDef, called: set[str]) -> ClassFacts:
+    parts = list(ast.walk(node))
+    words = {last_name(part) for part in parts if isinstance(part, ast.Call)}
+    bases = {text_of(base) for base in node.bases}
+    stored = [part for part in parts if isinstance(getattr(part, "ctx", None), ast.Store)]
+    return ClassFacts(
+        name=node.name,
+        line=node.lineno,
+        methods=[part.name for part in node.body if isinstance(part, ast.FunctionDef)],
+        instantiated=node.name in called,
+        # A message or an exception of its own is no node.
+        is_node=bool(words & {"Subscriber", "Publisher", "init_node", "publish"})
+        and not any(base.endswith(("Exception", "Error")) for base in bases),
+        attributes={getattr(part, "attr", getattr(part, "id", "")) for part in stored},
+        bases=bases - {"object"},
+    )
+
+
+def with_bases(classes: list[ClassFacts]) -> list[ClassFacts]:
+    """Return the ClassFacts, each with what the bases among them give it."""
+    by_name = {one.name: one for one in classes}
+
+    def whole(one: ClassFacts, below: tuple[str, ...] = ()) -> ClassFacts:
+        for base in sorted(one.bases):
+            parent = by_name.get(base.rpartition(".")[2])
+            if parent is None or parent.name in (one.name, *below):
+                continue
+            parent = whole(parent, (one.name, *below))
+            one = replace(
+                one,
+                methods=[*one.methods, *parent.methods],
+                is_node=one.is_node or parent.is_node,
+                attributes=one.attributes | parent.attributes,
+                bases=(one.bases - {base}) | parent.bases,
+            )
+        return one
+
+    return [whole(one) for one in classes]
