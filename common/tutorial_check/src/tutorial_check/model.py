@@ -58,16 +58,31 @@ def master_gone(where: str = "") -> Wrong:
     return Wrong("the ROS master is left alone", seen, where, hint, sure=True)
 
 
+MASTER_GONE, MULTIPLIES, CANNOT_START = "master gone", "multiplies", "cannot start"
+UNREADABLE, NO_TYPE = "unreadable package.xml", "no such type"
+
+
 @dataclass
 class CutShort(Exception):
-    """Nothing more can be recorded. kind: one of those below. seen: more about it."""
+    """Nothing more can be recorded. kind: one of those above. seen: more about it."""
 
     kind: str
     seen: str = ""
 
-
-MASTER_GONE, MULTIPLIES, CANNOT_START = "master gone", "multiplies", "cannot start"
-UNREADABLE, NO_TYPE = "unreadable package.xml", "no such type"
+    def as_wrong(self) -> Wrong:
+        """Return the Wrong for it."""
+        if self.kind == MASTER_GONE:
+            return master_gone()
+        if self.kind == MULTIPLIES:
+            seen = f"it starts itself again and again: {self.seen}"
+            hint = "where does it call os.fork, or start programs?"
+            return Wrong("a program that is one process, or a few", seen, hint=hint, sure=True)
+        if self.kind == NO_TYPE:
+            expected = "messages and services as they are asked for"
+            hint = "rosmsg show, or rossrv show, after catkin_make; CMakeLists.txt lists its file"
+            return Wrong(expected, self.seen, hint=hint, sure=True)
+        hint = "look at the first line of the file: #!/usr/bin/env python3"
+        return Wrong("a program that can be started", self.seen, hint=hint)
 
 
 class CannotCheck(Exception):
@@ -182,21 +197,25 @@ class Run:
 
     def _make(self, check: Check) -> Result:
         culprits = list(self._culprits(check))
-        if culprits:
-            return self._unreached(check, culprits)
-        try:
-            found = self._call(check)
-        except Wrong as wrong:
-            same = self._same_cause(wrong)
-            if same:  # one cause is reported once, at the first check that it keeps from holding
-                return self._unreached(check, same)
-            return check.result(WRONG, wrong)
-        except Exception as error:  # also a bug of ours: the other checks are made all the same
-            why = self._troubles[check.id] = fault(error)
-            result = check.result(UNREACHED, f"could not be checked: {why}")
-            self._blocked_by[check.id] = [result]
-            return result
-        return check.result(NOTE if isinstance(found, Note) else OK, found or "")
+        if not culprits:
+            try:
+                found = self._call(check)
+                return check.result(NOTE if isinstance(found, Note) else OK, found or "")
+            except Wrong as wrong:
+                culprits = self._same_cause(wrong)
+                if not culprits:
+                    return check.result(WRONG, wrong)
+                # One cause is reported once, at the first check that it keeps from holding.
+            except Exception as error:  # also a bug of ours: the other checks are made all the same
+                why = self._troubles[check.id] = fault(error)
+                result = check.result(UNREACHED, f"could not be checked: {why}")
+                self._blocked_by[check.id] = [result]
+                return result
+        self._blocked_by[check.id] = culprits
+        first = culprits[0]
+        todo = f"first fix {first.id}: {first.title}"
+        lost = f"{first.id} could not be checked"
+        return check.result(UNREACHED, lost if first.status == UNREACHED else todo)
 
     def _same_cause(self, wrong: Wrong) -> list[Result]:
         """Return the wrong results about the same cause. "No such file" alone may be said of two files."""
@@ -226,14 +245,6 @@ class Run:
                 raise
             why = f"the machine has too much else to do for a verdict ({wrong.seen})"
             raise CannotCheck(f"{check.id}: {why}") from None
-
-    def _unreached(self, check: Check, culprits: list[Result]) -> Result:
-        self._blocked_by[check.id] = culprits
-        first = culprits[0]
-        why = f"first fix {first.id}: {first.title}"
-        if first.status == UNREACHED:
-            why = f"{first.id} could not be checked"
-        return check.result(UNREACHED, why)
 
 
 def passed(results: Iterable[Result]) -> bool:
