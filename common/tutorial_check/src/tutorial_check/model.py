@@ -146,7 +146,7 @@ class Run:
         self._session = session
         self._second_look, self._too_busy = second_look, too_busy
         self._done: dict[str, Result] = {}
-        self._blocked_by: dict[str, list[Result]] = {}  # by each unreached check
+        self._blamed: dict[str, list[Result]] = {}  # for each check that is wrong or unreached
         self._reported: set[str] = set()
         self._troubles: dict[str, str] = {}  # id of a check that could not be made: why
 
@@ -187,35 +187,31 @@ class Run:
     def _of(self, exercise: str) -> list[Check]:
         return [check for check in self._checks.values() if check.exercise == exercise]
 
-    def _culprits(self, check: Check) -> Iterator[Result]:
-        for needed in check.needs:
-            result = self.result(needed)
-            if result.status == WRONG:
-                yield result
-            elif result.status == UNREACHED:
-                yield from self._blocked_by[needed]
+    def _culprits(self, check: Check) -> list[Result]:
+        """Return what keeps a check from being made, after the checks that it needs."""
+        lost = (each for each in check.needs if self.result(each).status in (WRONG, UNREACHED))
+        return [culprit for each in lost for culprit in self._blamed[each]]
 
     def _make(self, check: Check) -> Result:
-        culprits = list(self._culprits(check))
-        if not culprits:
-            try:
+        culprits = self._culprits(check)
+        try:
+            if not culprits:
                 found = self._call(check)
                 return check.result(NOTE if isinstance(found, Note) else OK, found or "")
-            except Wrong as wrong:
-                culprits = self._same_cause(wrong)
-                if not culprits:
-                    return check.result(WRONG, wrong)
-                # One cause is reported once, at the first check that it keeps from holding.
-            except Exception as error:  # also a bug of ours: the other checks are made all the same
-                why = self._troubles[check.id] = fault(error)
-                result = check.result(UNREACHED, f"could not be checked: {why}")
-                self._blocked_by[check.id] = [result]
-                return result
-        self._blocked_by[check.id] = culprits
-        first = culprits[0]
-        todo = f"first fix {first.id}: {first.title}"
-        lost = f"{first.id} could not be checked"
-        return check.result(UNREACHED, lost if first.status == UNREACHED else todo)
+        except Wrong as wrong:
+            # One cause is reported once, at the first check that it keeps from holding.
+            culprits = self._same_cause(wrong)
+            result = check.result(WRONG, wrong)
+        except Exception as error:  # also a bug of ours: the other checks are made all the same
+            why = self._troubles[check.id] = fault(error)
+            result = check.result(UNREACHED, f"could not be checked: {why}")
+        if culprits:
+            first = culprits[0]
+            todo = f"first fix {first.id}: {first.title}"
+            lost = f"{first.id} could not be checked"
+            result = check.result(UNREACHED, lost if first.status == UNREACHED else todo)
+        self._blamed[check.id] = culprits or [result]
+        return result
 
     def _same_cause(self, wrong: Wrong) -> list[Result]:
         """Return the wrong results about the same cause. "No such file" alone may be said of two files."""
