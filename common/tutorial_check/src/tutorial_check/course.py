@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import importlib
 import pkgutil
+import re
 import sys
 import threading
 import traceback
@@ -206,7 +207,8 @@ def _load(course: Course) -> list[Check]:
         lost = set(one.needs) - checks.keys()
         if lost:
             raise CannotCheck(f"{one.id} needs {', '.join(sorted(lost))}, which is no check")
-    return sorted(checks.values(), key=lambda one: (order.index(one.exercise), one.number))
+    numbers = {name: int(re.sub(r"\D", "", name) or 0) for name in checks}  # 12 of C12
+    return sorted(checks.values(), key=lambda one: (order.index(one.exercise), numbers[one.id]))
 
 
 def _place(error: Exception, folder: Path) -> str:

@@ -111,11 +111,6 @@ class Check:
     eager: bool = False  # its hint is about the set-up, and shown at once
     function: Callable[[Any], Any] = lambda session: None  # returns a text, a Note or None
 
-    @property
-    def number(self) -> int:
-        """That of the id: 12 of C12."""
-        return int(re.sub(r"\D", "", self.id) or 0)
-
     def result(self, status: str, found: Wrong | Note | str = "") -> Result:
         """Return a Result. found: what was seen, or all that is said of it."""
         one = Note(found) if isinstance(found, str) else found

@@ -65,15 +65,11 @@ class Program:
         return before == self._times and not any(is_ready(pid, thread) for thread in before)
 
     @property
-    def spins(self) -> bool:
-        """Whether it worked without end until we ended it, so that no busy machine is to blame."""
-        return self.was_stopped and self._worked_s > SPINNING_S
-
-    @property
     def ran(self) -> Ran:
         """What a recording keeps of it."""
         code = self.process.poll() if not self.was_stopped else None
-        return Ran(self.name, self.output, code, self.spins, self.was_stopped)
+        spins = self.was_stopped and self._worked_s > SPINNING_S
+        return Ran(self.name, self.output, code, spins, self.was_stopped)
 
     @property
     def output(self) -> str:

@@ -57,6 +57,14 @@ class PythonFacts:
                 self.error_text = lines[self.error_line].strip(" \t")
         self._nodes: list[Any] = list(ast.walk(tree))
         self._functions = self._of(ast.FunctionDef)
+        self.functions = {node.name: node.lineno for node in self._functions}
+        self.globals = [node.lineno for node in self._of(ast.Global)]
+        self.calls: dict[str, list[Call]] = {}  # {last part of the name: its calls, by line}
+        for node in sorted(self._of(ast.Call), key=lambda call: call.lineno):
+            words = [text_of(word) for word in node.args]
+            names = {word.arg: text_of(word.value) for word in node.keywords if word.arg}
+            self.calls.setdefault(last_name(node), []).append(Call(node.lineno, words, names))
+        self.classes = [_class_facts(node, set(self.calls)) for node in self._of(ast.ClassDef)]
         inner = [node for function in self._functions for node in ast.walk(function)]
         self.inner_names = {name for _, name in _made(inner)}  # that functions make, or are given
         self.has_main = any(map(_is_main, self._nodes))
@@ -75,28 +83,6 @@ class PythonFacts:
 
     def _of(self, *kinds: type[ast.AST]) -> list[Any]:
         return [node for node in self._nodes if isinstance(node, kinds)]
-
-    @property
-    def functions(self) -> dict[str, int]:
-        return {node.name: node.lineno for node in self._functions}
-
-    @property
-    def globals(self) -> list[int]:
-        return [node.lineno for node in self._of(ast.Global)]
-
-    @cached_property
-    def calls(self) -> dict[str, list[Call]]:
-        """{last part of the name: its calls, by line}."""
-        found: dict[str, list[Call]] = {}
-        for node in sorted(self._of(ast.Call), key=lambda call: call.lineno):
-            words = [text_of(word) for word in node.args]
-            names = {word.arg: text_of(word.value) for word in node.keywords if word.arg}
-            found.setdefault(last_name(node), []).append(Call(node.lineno, words, names))
-        return found
-
-    @cached_property
-    def classes(self) -> list[ClassFacts]:
-        return [_class_facts(node, set(self.calls)) for node in self._of(ast.ClassDef)]
 
     @property
     def sunken_main(self) -> Place:
