@@ -148,8 +148,13 @@ def order_of(
         checks.mkdir()
         for path in (course / FILE, *course.glob("*.py")):
             shutil.copy(path, checks)
+    # What the programs need: the underlay and its sources, this package among them.
     underlay = os.path.abspath(underlay)
-    kept = _kept(underlay)
+    devel = Path(underlay).parent
+    names = devel / ".catkin"
+    sources = filter(None, names.read_text().split(";") if names.is_file() else [])
+    links = [link for source in sources for link in Path(source).glob("*") if link.is_dir()]
+    kept = (devel.parent, *(link.resolve() for link in links))
     return Order(
         folder, layout, own, tuple(exercises), only_first, checks, dict(variant), underlay,
         _environment(underlay), kept, (*shown, checks, *kept),
@@ -171,15 +176,6 @@ def _environment(underlay: str) -> dict[str, str]:
     found = environment_of(done.stdout.split("\0"))
     own = {name: os.environ[name] for name in OF_SUITE if name in os.environ}
     return {**found, **own, "OPENBLAS_NUM_THREADS": "1"}
-
-
-def _kept(underlay: str) -> tuple[Path, ...]:
-    """Return the folders that the programs need: the underlay and its sources, this package among them."""
-    devel = Path(underlay).parent
-    names = devel / ".catkin"
-    sources = filter(None, names.read_text().split(";") if names.is_file() else [])
-    links = [link for source in sources for link in Path(source).glob("*") if link.is_dir()]
-    return (devel.parent, *(link.resolve() for link in links))
 
 
 def must_start_programs(order: Order, is_other: bool) -> None:
