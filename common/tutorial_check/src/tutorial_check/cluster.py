@@ -107,7 +107,7 @@ class Cluster:
     def examine(
         self, workspace: Path, exercises: Sequence[str], course: Path, variant: Variant
     ) -> list[Outcome]:
-        """Return the Outcomes of a submission, as launcher.examine does. Raises CannotCheck, or Gone."""
+        """Return the Outcomes of a submission, as launcher.examine. Raises CannotCheck, or Gone."""
         parts = {"submission": workspace, **({} if course == OURS else {"course": course})}
         version = digest_of_checks(read_course(course), exercises, 2)
         about = _packed(parts), exercises, variant, version

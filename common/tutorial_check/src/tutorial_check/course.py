@@ -168,11 +168,8 @@ def _known(kind: type, given: Any) -> dict[str, Any]:
 
 
 def checks_of(course: Course) -> list[Check]:
-    """Load the Python files of a course, once; return their checks, in its order. Raises CannotCheck.
-
-    Several threads may ask.
-    """
-    with _loading:
+    """Load the files of a course, once; return their checks, in its order. Raises CannotCheck."""
+    with _loading:  # several threads may ask
         return _load(course)
 
 

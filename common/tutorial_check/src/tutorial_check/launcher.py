@@ -132,7 +132,7 @@ def order_of(
     course: Path = OURS,
     variant: Mapping[str, object] = MappingProxyType({}),
 ) -> Order:
-    """Copy a workspace or zip into an empty folder; return the order to check it. Raises CannotCheck."""
+    """Copy a workspace or zip into an empty folder; return the order. Raises CannotCheck."""
     layout, inside = workspaces.hand_in(os.path.abspath(workspace), folder)
     workspaces.must_be_ones_own(layout, SUITE)
     copied = workspaces.copy(layout, folder / workspaces.COPY, None if own else inside)

@@ -1,10 +1,10 @@
 """Records in isolation: python3 -m tutorial_check.worker.
 
-Standard output is a socket, which, unlike a pipe, is opened by no path in /proc. Its first line is the
-order, and answered by {"ready": true}. Each other one asks for a recording,
+Standard output is a socket, which, unlike a pipe, is opened by no path in /proc. Its first line is
+the order, and answered by {"ready": true}. Each other one asks for a recording,
 {"recorder": "MODULE:NAME", "arguments": [...]}, and is answered by a line: {"recording": {...}},
-{"cut_short": {"kind", "seen"}} (see model.CutShort), or {"cannot": "why"}; each also says whether the
-machine kept the programs waiting, and has the version of recordings.
+{"cut_short": {"kind", "seen"}} (see model.CutShort), or {"cannot": "why"}; each also says whether
+the machine kept the programs waiting, and has the version of recordings.
 """
 
 from __future__ import annotations

@@ -105,7 +105,7 @@ class Worker:
             raise Ended(f"the worker's answer is no recording: {text[:60]!r}") from None
 
     def _read(self) -> None:
-        """Read what has come, if anything has. Raises Ended, EOFError, or OSError for a question left unread."""
+        """Read what has come. Raises Ended; EOFError or OSError if the worker has ended."""
         if no_more.is_set():
             raise Ended("it was ended")
         if time.monotonic() > self._end_s:

@@ -91,7 +91,7 @@ def limit(limits: dict[int, int]) -> None:
 def limits_of_programs() -> dict[int, int]:
     """Return the limits of programs that run as this process's user.
 
-    /proc hides threads outside of a container, RLIMIT_NPROC counts them: so, how many one may start.
+    RLIMIT_NPROC counts threads outside of a container, which /proc hides: so, what may be started.
     """
     threads, starts_one_more = MOST_THREADS, ["sh", "-c", "(:); :"]
     while threads < MOST_PIDS:

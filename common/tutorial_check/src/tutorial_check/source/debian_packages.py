@@ -1,4 +1,4 @@
-"""Which Debian package has a Python module or a ROS package, and what Debian lacks: by debian_packages.yaml."""
+"""Which Debian package has a Python module or a ROS package: by debian_packages.yaml. Pure."""
 
 from __future__ import annotations
 
