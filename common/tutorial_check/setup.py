@@ -4,7 +4,14 @@ from setuptools import find_packages, setup
 setup(
     **generate_distutils_setup(
         packages=find_packages("src"),
-        package_data={"tutorial_check.handout": ["course.yaml"]},
+        package_data={
+            "tutorial_check": [
+                "*/*.yaml",
+                "autograder/*",
+                "isolation/session/bin/*",
+                "isolation/session/view/*/rviz/*",
+            ]
+        },
         package_dir={"": "src"},
     )
 )

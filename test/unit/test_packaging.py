@@ -105,7 +105,7 @@ def test_pip_installs_only_what_a_lock_has():
 
 
 def test_workflows_may_only_read_and_take_actions_by_their_commit():
-    made = REPOSITORY / "common/tutorial_check/src/tutorial_check/package.py"
+    made = REPOSITORY / "common/tutorial_check/src/tutorial_check/autograder/check.yml"
     for text in map(Path.read_text, [made, *(REPOSITORY / ".github/workflows").glob("*.yml")]):
         assert re.search(r"^permissions: \{contents: read\}$", text, re.M)
         assert len(re.findall(r"\buses: ", text)) == len(

@@ -37,8 +37,8 @@ def examine(tmp_path, monkeypatch):
     monkeypatch.setattr(launcher, "checks_of", lambda course: checks)
 
     def examined(answers, ending="", tell=lambda outcome, result: None):
-        # The order ends with the input; questions come from where answers go.
-        script = ["cat >/dev/null", *(f"echo '{line}'; read -r _ <&1" for line in answers), ending]
+        # The order, and then questions, come from where answers go.
+        script = [*(f"read -r _ <&1; echo '{line}'" for line in answers), ending]
         monkeypatch.setattr(bubblewrap, "command", lambda *_: ["sh", "-c", "\n".join(script)])
         return launcher.examine(tmp_path, setup, ["2", "3", "5"], tell)
 

@@ -8,16 +8,7 @@ from pathlib import Path
 from typing import Any, Callable, cast
 
 from tutorial_check.isolation.bubblewrap import SYSTEM
-from tutorial_check.model import (
-    MASTER_GONE,
-    MULTIPLIES,
-    NO_TYPE,
-    UNREADABLE,
-    CannotCheck,
-    Result,
-    Wrong,
-    master_gone,
-)
+from tutorial_check.model import UNREADABLE, CannotCheck, CutShort, Result, Wrong
 from tutorial_check.order import Line, Order
 from tutorial_check.record.recording import as_json, from_json, recorded_by
 from tutorial_check.record.session import Recorded, Recorder, Session
@@ -64,25 +55,11 @@ class Case(Session):
         if "cannot" in answer:
             raise CannotCheck(str(answer["cannot"]))
         if "cut_short" in answer:
-            raise self._why_cut_short(**answer["cut_short"])
+            end = CutShort(**answer["cut_short"])
+            if end.kind == UNREADABLE and self.broken:
+                raise unreadable(self.broken)
+            raise end.as_wrong()
         return from_json(recorded_by(recorder), answer["recording"])
-
-    def _why_cut_short(self, kind: str, seen: str) -> Wrong:
-        if kind == UNREADABLE and self.broken:
-            return unreadable(self.broken)
-        if kind == MASTER_GONE:
-            return master_gone()
-        if kind == MULTIPLIES:
-            seen, hint = (
-                f"it starts itself again and again: {seen}",
-                "where does it call os.fork, or start programs?",
-            )
-            return Wrong("a program that is one process, or a few", seen, hint=hint, sure=True)
-        if kind == NO_TYPE:
-            hint = "rosmsg show, or rossrv show, after catkin_make; CMakeLists.txt lists its file"
-            return Wrong("messages and services as they are asked for", seen, hint=hint, sure=True)
-        hint = "look at the first line of the file: #!/usr/bin/env python3"
-        return Wrong("a program that can be started", seen, hint=hint)
 
     def second_look(self, explained: bool) -> bool:
         """Return whether to look again at what programs do; then forget what they did.
@@ -107,8 +84,9 @@ class Case(Session):
         # Commands work in any folder, where the workspace is known.
         is_known = self.order.own and self.folder not in layout.root.parents
         root = f"{shlex.quote(str(layout.root))}/" if is_known else ""
-        found = dict(vars(result))
-        for name, words in found.items():
-            if isinstance(words, str):
-                found[name] = words.replace(copied, root if name in ("hint", "look") else "")
+        roots = {"hint": root, "look": root}
+        found: dict[str, Any] = {
+            name: words.replace(copied, roots.get(name, "")) if isinstance(words, str) else words
+            for name, words in vars(result).items()
+        }
         return Result(**found)

@@ -18,7 +18,7 @@ import sys
 import tarfile
 import tempfile
 from pathlib import Path
-from typing import Any, Callable, Mapping, NoReturn, Sequence, TypeVar
+from typing import Any, Mapping, NoReturn, Sequence
 from urllib.parse import urlsplit
 
 from node_kit.arguments import Parser
@@ -43,7 +43,6 @@ OPENSSL = """openssl req -x509 -newkey rsa:3072 -nodes -days 3650 -subj /CN=ros1
 NO_PAGES = {f"DASK_DISTRIBUTED__{one}__HTTP__ROUTES": "[]" for one in ("SCHEDULER", "WORKER")}
 LOCAL = ("--no-dashboard", "--dashboard-address", "127.0.0.1:0")
 INSISTS = "TUTORIAL_NOT_ISOLATED"  # variable of a worker of --not-isolated
-Value = TypeVar("Value")
 
 
 class Gone(CannotCheck):
@@ -105,11 +104,16 @@ class Cluster:
         if not self._client.nthreads():
             print(f"no worker yet; on each machine: ./tutorial worker {address}", flush=True)
 
-    def call(self, function: Callable[..., Value], *arguments: object) -> Value:
-        """Return what a function of this suite returns on a worker. Raises what it raises, or Gone."""
+    def examine(
+        self, workspace: Path, exercises: Sequence[str], course: Path, variant: Variant
+    ) -> list[Outcome]:
+        """Return the Outcomes of a submission, as launcher.examine. Raises CannotCheck, or Gone."""
+        parts = {"submission": workspace, **({} if course == OURS else {"course": course})}
+        version = digest_of_checks(read_course(course), exercises, 2)
+        about = _packed(parts), exercises, variant, version
         try:
-            found: Value = self._client.submit(function, *arguments, pure=False).result()
-            return found
+            outcomes: list[Outcome] = self._client.submit(_examine, *about, pure=False).result()
+            return outcomes
         except self._dask.KilledWorker:
             why = f"abandoned: {TRIES} workers have ended while they checked it"
             raise CannotCheck(why) from None
@@ -122,14 +126,6 @@ class Cluster:
                     raise
             why = f"the scheduler at {self._address} is gone; call again, and it goes on from here"
             raise Gone(why) from error
-
-    def examine(
-        self, workspace: Path, exercises: Sequence[str], course: Path, variant: Variant
-    ) -> list[Outcome]:
-        """Return the Outcomes of a submission, as examination.examine does. Raises CannotCheck."""
-        parts = {"submission": workspace, **({} if course == OURS else {"course": course})}
-        version = digest_of_checks(read_course(course), exercises, 2)
-        return self.call(_examine, _packed(parts), exercises, variant, version)
 
     def close(self) -> None:
         """Give up what was not checked yet."""

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import functools
 import importlib
+import pkgutil
+import re
 import sys
 import threading
 import traceback
@@ -131,7 +133,7 @@ def read_course(folder: str | Path = OURS) -> Course:
     names = f"; a course is a folder with {FILE}, or one of {', '.join(shipped)}"
     given = read_yaml(file, names)
     try:
-        about = _known(Course, given, ("folder",))
+        about = _known(Course, given)
         named, varied = about.pop("exercises", None), about.pop("variants", {})
         if not isinstance(named, dict) or not named:
             raise ValueError('exercises: {"1": TITLE, ...} is missing')
@@ -150,11 +152,10 @@ def read_course(folder: str | Path = OURS) -> Course:
     return course
 
 
-def _known(kind: type, given: Any, but: tuple[str, ...] = ()) -> dict[str, Any]:
+def _known(kind: type, given: Any) -> dict[str, Any]:
     """Return the fields of a dataclass that are given. Raises ValueError."""
-    known = {
-        one.name: str(one.type).partition("[")[0] for one in fields(kind) if one.name not in but
-    }
+    known = {one.name: str(one.type).partition("[")[0] for one in fields(kind)}
+    known.pop("folder", None)  # where the file itself is
     if not isinstance(given, dict):
         raise ValueError(f"a map of {', '.join(known)} is wanted, and not {given!r}")
     for name, value in given.items():
@@ -167,17 +168,13 @@ def _known(kind: type, given: Any, but: tuple[str, ...] = ()) -> dict[str, Any]:
 
 
 def checks_of(course: Course) -> list[Check]:
-    """Load the Python files of a course; return their checks, in its order. Raises CannotCheck.
-
-    Several threads may ask. Files that have not changed are loaded once.
-    """
-    files = sorted(course.folder.rglob("*.py"))
-    with _loading:
-        return _load(course, tuple((path, path.stat().st_mtime_ns) for path in files))
+    """Load the files of a course, once; return their checks, in its order. Raises CannotCheck."""
+    with _loading:  # several threads may ask
+        return _load(course)
 
 
 @functools.lru_cache(maxsize=8)
-def _load(course: Course, _: tuple[tuple[Path, int], ...]) -> list[Check]:
+def _load(course: Course) -> list[Check]:
     package = package_of(course)
     if course.folder != OURS:
         for name in [each for each in sys.modules if f"{each}.".startswith(f"{PACKAGE}.")]:
@@ -185,37 +182,30 @@ def _load(course: Course, _: tuple[tuple[Path, int], ...]) -> list[Check]:
         _checks[:] = [one for one in _checks if not one.function.__module__.startswith(PACKAGE)]
         sys.modules[PACKAGE] = types.ModuleType(PACKAGE)
         sys.modules[PACKAGE].__path__ = [str(course.folder)]
-    names = [f"{package}.{'.'.join(inside.parts)}" for inside in _modules_of(course)]
-    for name in names:
-        try:
-            importlib.import_module(name)
-        except Exception as error:
-            raise CannotCheck(f"{_place(error, course.folder)}: {error}") from None
+    try:
+        found = pkgutil.walk_packages([str(course.folder)], f"{package}.")
+        names = {importlib.import_module(one.name).__name__ for one in found}
+    except Exception as error:
+        raise CannotCheck(f"{_place(error, course.folder)}: {error}") from None
     order = list(course.exercises)
-    found: dict[str, Check] = {}
+    checks: dict[str, Check] = {}
     for one in _checks:
         if one.function.__module__ not in names:
             continue
         inside = [each for each in order if f"{one.section}.".startswith(f"{each}.")]
         if not inside:
             raise CannotCheck(f"{one.id}: section {one.section} is of no exercise of {FILE}")
-        if one.id in found:
+        if one.id in checks:
             raise CannotCheck(f"two checks are {one.id}; each needs a name of its own")
         exercise = max(inside, key=len)
         document = f"{course.exercises[exercise].document} {one.section}"
-        found[one.id] = replace(one, exercise=exercise, section=document)
-    for one in found.values():
-        lost = set(one.needs) - found.keys()
+        checks[one.id] = replace(one, exercise=exercise, section=document)
+    for one in checks.values():
+        lost = set(one.needs) - checks.keys()
         if lost:
             raise CannotCheck(f"{one.id} needs {', '.join(sorted(lost))}, which is no check")
-    return sorted(found.values(), key=lambda one: (order.index(one.exercise), one.number))
-
-
-def _modules_of(course: Course) -> list[Path]:
-    """Return the paths of a course's modules within its folder; only ours has folders of them."""
-    pattern = "**/*.py" if course.folder == OURS else "*.py"
-    paths = (path.relative_to(course.folder) for path in sorted(course.folder.glob(pattern)))
-    return [path.with_suffix("") for path in paths if path.name != "__init__.py"]
+    numbers = {name: int(re.sub(r"\D", "", name) or 0) for name in checks}  # 12 of C12
+    return sorted(checks.values(), key=lambda one: (order.index(one.exercise), numbers[one.id]))
 
 
 def _place(error: Exception, folder: Path) -> str:

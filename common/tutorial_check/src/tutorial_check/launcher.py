@@ -116,8 +116,8 @@ def examine(
         raise CannotCheck(str(error)) from None
     finally:
         if user is not None:
-            privileges.end_all_of(user)
-        shutil.rmtree(folder, ignore_errors=True)
+            end_all = [*privileges.as_user(user), "sh", "-c", "kill -KILL -1"]
+            subprocess.run(end_all, check=False)
         cleaner.communicate()
 
 
@@ -132,11 +132,29 @@ def order_of(
     course: Path = OURS,
     variant: Mapping[str, object] = MappingProxyType({}),
 ) -> Order:
-    """Copy a workspace into an empty folder; return the order to check it. Raises CannotCheck."""
-    layout, shown = _hand_in(os.path.abspath(workspace), folder, own)
-    checks = _course_within(folder, course)
+    """Copy a workspace or zip into an empty folder; return the order. Raises CannotCheck."""
+    layout, inside = workspaces.hand_in(os.path.abspath(workspace), folder)
+    workspaces.must_be_ones_own(layout, SUITE)
+    copied = workspaces.copy(layout, folder / workspaces.COPY, None if own else inside)
+    shown = [inside, copied]
+    if own:
+        shown += [layout.source, *map(Path, workspaces.named_outside(copied))]
+    # A home folder is no workspace, though one may be in it.
+    home = Path(os.path.expanduser("~")).resolve()
+    shown = [each for each in shown if each.resolve() not in (home, *home.parents)]
+    checks = course
+    if course != OURS:  # what a worker needs of it, and no solution
+        checks = folder / "course"
+        checks.mkdir()
+        for path in (course / FILE, *course.glob("*.py")):
+            shutil.copy(path, checks)
+    # What the programs need: the underlay and its sources, this package among them.
     underlay = os.path.abspath(underlay)
-    kept = _kept(underlay)
+    devel = Path(underlay).parent
+    names = devel / ".catkin"
+    sources = filter(None, names.read_text().split(";") if names.is_file() else [])
+    links = [link for source in sources for link in Path(source).glob("*") if link.is_dir()]
+    kept = (devel.parent, *(link.resolve() for link in links))
     return Order(
         folder, layout, own, tuple(exercises), only_first, checks, dict(variant), underlay,
         _environment(underlay), kept, (*shown, checks, *kept),
@@ -160,15 +178,6 @@ def _environment(underlay: str) -> dict[str, str]:
     return {**found, **own, "OPENBLAS_NUM_THREADS": "1"}
 
 
-def _kept(underlay: str) -> tuple[Path, ...]:
-    """Return the folders that the programs need: the underlay and its sources, this package among them."""
-    devel = Path(underlay).parent
-    names = devel / ".catkin"
-    sources = filter(None, names.read_text().split(";") if names.is_file() else [])
-    links = [link for source in sources for link in Path(source).glob("*") if link.is_dir()]
-    return (devel.parent, *(link.resolve() for link in links))
-
-
 def must_start_programs(order: Order, is_other: bool) -> None:
     """Raise CannotCheck where no program can be started. is_other: as another user."""
     if not order.apart and os.statvfs(order.folder).f_flag & os.ST_NOEXEC:
@@ -187,55 +196,27 @@ def must_start_programs(order: Order, is_other: bool) -> None:
             )
 
 
-def _course_within(folder: Path, course: Path) -> Path:
-    """Copy what a worker needs of a course, and no solution, into its folder; ours is there."""
-    if course == OURS:
-        return course
-    copied = folder / "course"
-    copied.mkdir()
-    for path in (course / FILE, *course.glob("*.py")):
-        shutil.copy(path, copied)
-    return copied
-
-
-def _hand_in(workspace: str, folder: Path, own: bool) -> tuple[workspaces.Layout, list[Path]]:
-    """Copy a workspace or zip; return its Layout, and what to show of it. Raises CannotCheck."""
-    layout, inside = workspaces.hand_in(workspace, folder)
-    workspaces.must_be_ones_own(layout, SUITE)
-    copied = workspaces.copy(layout, folder / workspaces.COPY, None if own else inside)
-    shown = [inside, folder / workspaces.COPY]
-    if own:
-        shown += [layout.source, *map(Path, workspaces.named_outside(copied))]
-    # A home folder is no workspace, though one may be in it.
-    home = Path(os.path.expanduser("~")).resolve()
-    return layout, [each for each in shown if each.resolve() not in (home, *home.parents)]
-
-
 def judge(
     order: Order, course: Course, ask: Ask, report: Report = lambda outcome, result: None
 ) -> list[Outcome]:
     """Make the checks of an order from what a worker answers. Raises CannotCheck."""
-    checks, known = checks_of(course), course.exercises  # the task's class is among the checks
-    task = task_of(course)(order.variant)
-    case = Case(order, task, ask)
+    checks = checks_of(course)
+    task = task_of(course)(order.variant)  # its class is among the checks
     checks = [replace(one, title=task.fill(one.title), look=task.fill(one.look)) for one in checks]
-    outcomes = [
-        Outcome(name, title=known[name].title, points=known[name].points)
-        for name in order.exercises
-    ]
+    case = Case(order, task, ask)
     run = Run(checks, case, case.second_look, case.too_busy)
-    ending = ""
+    known = ((name, course.exercises[name]) for name in order.exercises)
+    outcomes = [Outcome(name, title=one.title, points=one.points) for name, one in known]
     try:
         for outcome in outcomes:
             _make_checks(run, case, outcome, order.only_first, report)
             if order.only_first and not passed(outcome.results):
                 break
     except Ended as error:
-        ending = str(error)
-    if ending and (no_more.is_set() or not any(outcome.results for outcome in outcomes)):
-        raise CannotCheck(ending)
-    for outcome in outcomes:
-        outcome.trouble = outcome.trouble if outcome.done else ending
+        if no_more.is_set() or not any(outcome.results for outcome in outcomes):
+            raise CannotCheck(str(error)) from None
+        for outcome in outcomes:
+            outcome.trouble = outcome.trouble if outcome.done else str(error)
     return outcomes
 
 

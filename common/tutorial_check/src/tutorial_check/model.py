@@ -58,16 +58,31 @@ def master_gone(where: str = "") -> Wrong:
     return Wrong("the ROS master is left alone", seen, where, hint, sure=True)
 
 
+MASTER_GONE, MULTIPLIES, CANNOT_START = "master gone", "multiplies", "cannot start"
+UNREADABLE, NO_TYPE = "unreadable package.xml", "no such type"
+
+
 @dataclass
 class CutShort(Exception):
-    """Nothing more can be recorded. kind: one of those below. seen: more about it."""
+    """Nothing more can be recorded. kind: one of those above. seen: more about it."""
 
     kind: str
     seen: str = ""
 
-
-MASTER_GONE, MULTIPLIES, CANNOT_START = "master gone", "multiplies", "cannot start"
-UNREADABLE, NO_TYPE = "unreadable package.xml", "no such type"
+    def as_wrong(self) -> Wrong:
+        """Return the Wrong for it."""
+        if self.kind == MASTER_GONE:
+            return master_gone()
+        if self.kind == MULTIPLIES:
+            seen = f"it starts itself again and again: {self.seen}"
+            hint = "where does it call os.fork, or start programs?"
+            return Wrong("a program that is one process, or a few", seen, hint=hint, sure=True)
+        if self.kind == NO_TYPE:
+            expected = "messages and services as they are asked for"
+            hint = "rosmsg show, or rossrv show, after catkin_make; CMakeLists.txt lists its file"
+            return Wrong(expected, self.seen, hint=hint, sure=True)
+        hint = "look at the first line of the file: #!/usr/bin/env python3"
+        return Wrong("a program that can be started", self.seen, hint=hint)
 
 
 class CannotCheck(Exception):
@@ -95,11 +110,6 @@ class Check:
     timeless: bool = False  # it reads files alone: no machine is too busy for that
     eager: bool = False  # its hint is about the set-up, and shown at once
     function: Callable[[Any], Any] = lambda session: None  # returns a text, a Note or None
-
-    @property
-    def number(self) -> int:
-        """That of the id: 12 of C12."""
-        return int(re.sub(r"\D", "", self.id) or 0)
 
     def result(self, status: str, found: Wrong | Note | str = "") -> Result:
         """Return a Result. found: what was seen, or all that is said of it."""
@@ -131,7 +141,7 @@ class Run:
         self._session = session
         self._second_look, self._too_busy = second_look, too_busy
         self._done: dict[str, Result] = {}
-        self._blocked_by: dict[str, list[Result]] = {}  # by each unreached check
+        self._blamed: dict[str, list[Result]] = {}  # for each check that is wrong or unreached
         self._reported: set[str] = set()
         self._troubles: dict[str, str] = {}  # id of a check that could not be made: why
 
@@ -172,31 +182,31 @@ class Run:
     def _of(self, exercise: str) -> list[Check]:
         return [check for check in self._checks.values() if check.exercise == exercise]
 
-    def _culprits(self, check: Check) -> Iterator[Result]:
-        for needed in check.needs:
-            result = self.result(needed)
-            if result.status == WRONG:
-                yield result
-            elif result.status == UNREACHED:
-                yield from self._blocked_by[needed]
+    def _culprits(self, check: Check) -> list[Result]:
+        """Return what keeps a check from being made, after the checks that it needs."""
+        lost = (each for each in check.needs if self.result(each).status in (WRONG, UNREACHED))
+        return [culprit for each in lost for culprit in self._blamed[each]]
 
     def _make(self, check: Check) -> Result:
-        culprits = list(self._culprits(check))
-        if culprits:
-            return self._unreached(check, culprits)
+        culprits = self._culprits(check)
         try:
-            found = self._call(check)
+            if not culprits:
+                found = self._call(check)
+                return check.result(NOTE if isinstance(found, Note) else OK, found or "")
         except Wrong as wrong:
-            same = self._same_cause(wrong)
-            if same:  # one cause is reported once, at the first check that it keeps from holding
-                return self._unreached(check, same)
-            return check.result(WRONG, wrong)
+            # One cause is reported once, at the first check that it keeps from holding.
+            culprits = self._same_cause(wrong)
+            result = check.result(WRONG, wrong)
         except Exception as error:  # also a bug of ours: the other checks are made all the same
             why = self._troubles[check.id] = fault(error)
             result = check.result(UNREACHED, f"could not be checked: {why}")
-            self._blocked_by[check.id] = [result]
-            return result
-        return check.result(NOTE if isinstance(found, Note) else OK, found or "")
+        if culprits:
+            first = culprits[0]
+            todo = f"first fix {first.id}: {first.title}"
+            lost = f"{first.id} could not be checked"
+            result = check.result(UNREACHED, lost if first.status == UNREACHED else todo)
+        self._blamed[check.id] = culprits or [result]
+        return result
 
     def _same_cause(self, wrong: Wrong) -> list[Result]:
         """Return the wrong results about the same cause. "No such file" alone may be said of two files."""
@@ -226,14 +236,6 @@ class Run:
                 raise
             why = f"the machine has too much else to do for a verdict ({wrong.seen})"
             raise CannotCheck(f"{check.id}: {why}") from None
-
-    def _unreached(self, check: Check, culprits: list[Result]) -> Result:
-        self._blocked_by[check.id] = culprits
-        first = culprits[0]
-        why = f"first fix {first.id}: {first.title}"
-        if first.status == UNREACHED:
-            why = f"{first.id} could not be checked"
-        return check.result(UNREACHED, why)
 
 
 def passed(results: Iterable[Result]) -> bool:

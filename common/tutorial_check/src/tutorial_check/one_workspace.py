@@ -91,14 +91,6 @@ def stamps(folder: str) -> dict[str, tuple[int, int]]:
     return found
 
 
-def wait_for_change(folder: str, before: dict[str, tuple[int, int]]) -> None:
-    """Return once something differs from before, and then nothing changes for a moment."""
-    last, now = before, before
-    while now == before or now != last:
-        time.sleep(PERIOD_S)
-        last, now = now, stamps(folder)
-
-
 def watch(options: argparse.Namespace) -> NoReturn:
     """Until Ctrl-C: look, report the first that is wrong, wait for a change. Raises CannotCheck."""
     if not os.path.isdir(options.workspace):
@@ -115,4 +107,7 @@ def watch(options: argparse.Namespace) -> NoReturn:
             all_passed = all(outcome.passed for outcome in outcomes)
             print(summary(outcomes) if all_passed else f"done: {solved or 'none yet'}")
         print(f"waiting for a change in {options.workspace} (Ctrl-C ends)", flush=True)
-        wait_for_change(options.workspace, before)
+        last = now = before
+        while now == before or now != last:  # and then nothing changes for a moment
+            time.sleep(PERIOD_S)
+            last, now = now, stamps(options.workspace)

@@ -13,6 +13,7 @@ import tempfile
 import threading
 import time
 from pathlib import Path
+from typing import cast
 
 from tutorial_check.isolation import bubblewrap, privileges
 from tutorial_check.model import CannotCheck
@@ -54,22 +55,17 @@ class Worker:
         self._process = subprocess.Popen(
             # -s: without what pip put into the home folder, which may be shown nowhere
             [*wrapper, "/usr/bin/python3", "-s", "-m", "tutorial_check.worker"],
-            stdin=subprocess.PIPE,
+            stdin=subprocess.DEVNULL,
             stdout=theirs.fileno(),
             stderr=self._log,
             env=environment,
             start_new_session=True,
             pass_fds=bubblewrap.granted().descriptors if order.apart else (),
             cwd="/",
-            text=True,
         )
         theirs.close()
 
     def __enter__(self) -> Worker:
-        assert self._process.stdin
-        with contextlib.suppress(BrokenPipeError):  # it has ended, as its answer will show
-            json.dump(as_json(self._order), self._process.stdin)
-            self._process.stdin.close()
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -86,8 +82,8 @@ class Worker:
             self._log.close()
 
     def begin(self) -> None:
-        """Wait until it can record. Raises CannotCheck."""
-        answer = self._answer()
+        """Give it the order; wait until it can record. Raises CannotCheck, or Ended."""
+        answer = self.ask(cast(Line, as_json(self._order)))
         if "cannot" in answer:
             raise CannotCheck(str(answer["cannot"]))
 
@@ -95,24 +91,10 @@ class Worker:
         """Return the answer to a question; see worker. Raises Ended."""
         try:
             self._line.sendall(json.dumps(question).encode() + b"\n")
-        except OSError:
+            while b"\n" not in self._buffer:
+                self._read()
+        except (EOFError, OSError):
             raise Ended(self._last_words()) from None
-        return self._answer()
-
-    def _answer(self) -> Line:
-        while b"\n" not in self._buffer:
-            if no_more.is_set():
-                raise Ended("it was ended")
-            if time.monotonic() > self._end_s:
-                why = "the machine has too much else to do"
-                raise Ended(f"the check took longer than {LONGEST_S:.0f} s: {why}")
-            if select.select([self._line], [], [], 0.2)[0]:
-                data = self._line.recv(1 << 20)
-                if not data:
-                    raise Ended(self._last_words())
-                self._buffer += data
-                if len(self._buffer) > MOST_BYTES:
-                    raise Ended(f"the worker's answer is longer than {MOST_BYTES:,} bytes")
         line, _, self._buffer = self._buffer.partition(b"\n")
         # Programs run in ws, a copy of what was handed in.
         text, folder = line.decode(errors="replace"), self._order.folder
@@ -121,6 +103,21 @@ class Worker:
             return dict(json.loads(text))
         except (ValueError, TypeError, RecursionError):  # whatever has written it
             raise Ended(f"the worker's answer is no recording: {text[:60]!r}") from None
+
+    def _read(self) -> None:
+        """Read what has come. Raises Ended; EOFError or OSError if the worker has ended."""
+        if no_more.is_set():
+            raise Ended("it was ended")
+        if time.monotonic() > self._end_s:
+            why = "the machine has too much else to do"
+            raise Ended(f"the check took longer than {LONGEST_S:.0f} s: {why}")
+        if select.select([self._line], [], [], 0.2)[0]:
+            data = self._line.recv(1 << 20)
+            if not data:
+                raise EOFError
+            self._buffer += data
+            if len(self._buffer) > MOST_BYTES:
+                raise Ended(f"the worker's answer is longer than {MOST_BYTES:,} bytes")
 
     def _last_words(self) -> str:
         with contextlib.suppress(subprocess.TimeoutExpired):

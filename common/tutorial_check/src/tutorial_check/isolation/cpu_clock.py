@@ -68,7 +68,8 @@ class CpuClock:
     ) -> None:
         """ours: ids of the processes whose work is not the programs'; the set may grow later."""
         self._ours, self._read, self._ready, self._clock = ours, read, ready, clock
-        self._whole = self._part = clock(), 0.0  # when it began, and what had been lost by then
+        # When all, and the newest part, began, and what had been lost by then.
+        self._whole_and_part = [(clock(), 0.0)]
         self._last_s = self._busy_s = clock()
         self._last: Times = {}
         self._changed_s: dict[int, float] = {}
@@ -126,15 +127,16 @@ class CpuClock:
     def begin(self) -> None:
         """Let strained() judge what begins now on its own, too."""
         self.now()
-        self._part = self._clock(), self._lost_s
+        self._whole_and_part[1:] = [(self._clock(), self._lost_s)]
 
     def strained(self) -> bool:
         """Return whether a late answer proves little, as the machine was busy: since the start, or begin()."""
-        return max(self._lost_share(*self._whole), self._lost_share(*self._part)) > STRAINED
+        return max(self._lost_shares()) > STRAINED
 
     def hopeless(self) -> bool:
         """Return whether a late answer proves nothing: the machine was too busy."""
-        return self._lost_share(*self._whole) > HOPELESS
+        return self._lost_shares()[0] > HOPELESS
 
-    def _lost_share(self, began_s: float, lost_s: float) -> float:
-        return (self._lost_s - lost_s) / max(1e-3, self._clock() - began_s)
+    def _lost_shares(self) -> list[float]:
+        now_s = self._clock()
+        return [(self._lost_s - lost) / max(1e-3, now_s - at) for at, lost in self._whole_and_part]

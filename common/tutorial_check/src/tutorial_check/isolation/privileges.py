@@ -65,11 +65,6 @@ def open_to(user: int, folder: str) -> None:
     os.chmod(folder, 0o1770)
 
 
-def end_all_of(user: int) -> None:
-    """End each process of an unused user."""
-    subprocess.run([*as_user(user), "sh", "-c", "kill -KILL -1"], check=False)
-
-
 def unused_user(number: int, uid_map: Path = Path("/proc/self/uid_map")) -> int | None:
     """Return an unused uid for an examination, or None.
 
@@ -84,11 +79,6 @@ def unused_user(number: int, uid_map: Path = Path("/proc/self/uid_map")) -> int 
     return first + count // 2 + number % (count // 4) if count >= FEW_IDS else None
 
 
-def limits_of_programs() -> dict[int, int]:
-    """Return the limits of programs that run as this process's user."""
-    return {resource.RLIMIT_NPROC: _threads_of_this_user() + MOST_THREADS, **LIMITS}
-
-
 def limit(limits: dict[int, int]) -> None:
     """Set these limits for this process, or keep those that are lower."""
     for what, wanted in limits.items():
@@ -98,12 +88,15 @@ def limit(limits: dict[int, int]) -> None:
             resource.setrlimit(what, (value, value))
 
 
-def _threads_of_this_user() -> int:
-    """Return an upper bound, also of threads outside of a container: /proc hides them, RLIMIT_NPROC counts them."""
+def limits_of_programs() -> dict[int, int]:
+    """Return the limits of programs that run as this process's user.
+
+    RLIMIT_NPROC counts threads outside of a container, which /proc hides: so, what may be started.
+    """
     threads, starts_one_more = MOST_THREADS, ["sh", "-c", "(:); :"]
     while threads < MOST_PIDS:
         tried = ["prlimit", f"--nproc={threads}", *starts_one_more]
         if not subprocess.run(tried, check=False, stderr=subprocess.DEVNULL).returncode:
             break
         threads *= 2
-    return threads
+    return {resource.RLIMIT_NPROC: threads + MOST_THREADS, **LIMITS}

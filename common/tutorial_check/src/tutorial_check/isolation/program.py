@@ -34,7 +34,8 @@ class Program:
     """A program of the student's, or one that serves the check."""
 
     def __init__(self, process: subprocess.Popen[bytes], name: str) -> None:
-        self.process, self.name = process, name
+        assert process.stdout
+        self.process, self.name, self.pipe = process, name, process.stdout
         self.was_stopped = False  # by us: then how it ended says nothing
         self._worked_s = 0.0
         self._times: Times = {}  # per thread, at the last rests()
@@ -64,15 +65,11 @@ class Program:
         return before == self._times and not any(is_ready(pid, thread) for thread in before)
 
     @property
-    def spins(self) -> bool:
-        """Whether it worked without end until we ended it, so that no busy machine is to blame."""
-        return self.was_stopped and self._worked_s > SPINNING_S
-
-    @property
     def ran(self) -> Ran:
         """What a recording keeps of it."""
         code = self.process.poll() if not self.was_stopped else None
-        return Ran(self.name, self.output, code, self.spins, self.was_stopped)
+        spins = self.was_stopped and self._worked_s > SPINNING_S
+        return Ran(self.name, self.output, code, spins, self.was_stopped)
 
     @property
     def output(self) -> str:
@@ -82,8 +79,7 @@ class Program:
 
     def read(self) -> bool:
         """Take what it printed since the last time; return False at the end of its output."""
-        assert self.process.stdout
-        data = self.process.stdout.read(65536)
+        data = self.pipe.read(65536)
         if data is None:  # nothing yet
             return True
         self._printed += len(data)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import contextlib
 import os
-import select
+import selectors
 import signal
 import subprocess
 import sys
@@ -35,24 +35,23 @@ class Runner:
         self,
         environment: Mapping[str, str],
         alone: bool = False,
-        result: int | None = None,
+        reader: int | None = None,
         ruleset: int | None = None,
     ) -> None:
         """alone: whether they have a PID namespace of their own.
 
-        result: a socket without whose reader nothing of this is wanted any more; ruleset: see landlock.
+        reader: a socket whose other end waits for what is found; ruleset: see landlock.
         """
         self.environment = environment
-        self._alone, self._result, self._ruleset = alone, result, ruleset
+        self._alone, self._ruleset = alone, ruleset
         self._limits = privileges.limits_of_programs()
         self._open: list[Program] = []
-        self._reading: dict[int, Program] = {}  # by the descriptor of its output
         # Left alone: ours, and those that we start, which lead sessions of their own.
         self.trusted = {os.getsid(0), os.getpid()}
         self.clock = CpuClock(self.trusted)
-        self._poll = select.poll()
-        if result is not None:
-            self._poll.register(result, 0)  # the end of its reader is always reported
+        self._selector = selectors.PollSelector()  # what programs print
+        if reader is not None:
+            self._selector.register(reader, selectors.EVENT_READ)
 
     def start(
         self,
@@ -77,11 +76,8 @@ class Runner:
             self.trusted.add(process.pid)
         program = Program(process, os.path.basename(command[0]))
         self._open.append(program)
-        assert process.stdout
-        descriptor = process.stdout.fileno()
-        os.set_blocking(descriptor, False)
-        self._reading[descriptor] = program
-        self._poll.register(descriptor, select.POLLIN | select.POLLHUP)
+        os.set_blocking(program.pipe.fileno(), False)
+        self._selector.register(program.pipe, selectors.EVENT_READ, program)
         return program
 
     def _restrict(self) -> None:
@@ -99,7 +95,8 @@ class Runner:
         """Return the first true value of condition(), or its value at the deadline.
 
         The deadline goes by the programs' time, see CpuClock. or_idle: no longer than until they
-        have done nothing for IDLE_S. Raises CutShort for a program that multiplies without end.
+        have done nothing for IDLE_S. Raises CutShort for a program that multiplies without end, and
+        SystemExit when nobody waits for what is found; clear() ends what was started.
         """
         began_s = self.clock.now()
         while True:
@@ -113,7 +110,11 @@ class Runner:
                 return value
             if self._is_crowded():
                 raise CutShort(MULTIPLIES, f"more than {MOST_PROCESSES} processes")
-            self._pump(max(0.01, 2 * (time.monotonic() - asked_s)))  # asking takes others' time
+            # Asking takes others' time.
+            for key, _ in self._selector.select(max(0.01, 2 * (time.monotonic() - asked_s))):
+                if key.data is None:  # no question comes before the answer
+                    sys.exit("the checker has ended")
+                self._read(key.data)
 
     def _is_crowded(self) -> bool:
         """Return whether the living programs are too many. Reap those that have ended."""
@@ -122,23 +123,10 @@ class Runner:
         self._reap()
         return len(self._strays()) > MOST_PROCESSES
 
-    def _pump(self, longest_s: float) -> None:
-        """Read what was printed; return when something was, or after the given time.
-
-        Raises SystemExit when it is of no use any more; clear() ends what was started.
-        """
-        for descriptor, _ in self._poll.poll(longest_s * 1000):
-            if descriptor == self._result:
-                sys.exit("the checker has ended")
-            self._read(descriptor)
-
-    def _read(self, descriptor: int, is_last: bool = False) -> None:
-        program = self._reading.get(descriptor)
-        if program and (not program.read() or is_last):
-            del self._reading[descriptor]
-            self._poll.unregister(descriptor)
-            assert program.process.stdout
-            program.process.stdout.close()
+    def _read(self, program: Program, is_last: bool = False) -> None:
+        if not program.pipe.closed and (not program.read() or is_last):
+            self._selector.unregister(program.pipe)
+            program.pipe.close()
 
     def end(self, program: Program, grace_s: float = GRACE_S) -> float | None:
         """End a program; return how long it took after Ctrl-C [s], or None if it had to be killed."""
@@ -161,9 +149,7 @@ class Runner:
         for program in programs:  # with what one that has ended left behind in its group
             program.signal(signal.SIGKILL)
             program.process.wait()
-        for descriptor, program in list(self._reading.items()):
-            if program in programs:
-                self._read(descriptor)  # at most a pipe's size is left, which is read at once
+            self._read(program)  # at most a pipe's size is left, which is read at once
         return [took_s.get(program) for program in programs]
 
     def clear(self) -> None:
@@ -181,8 +167,7 @@ class Runner:
             _signal(stopped, signal.SIGKILL)
         for program in self._open:
             program.process.wait()
-        for descriptor in list(self._reading):
-            self._read(descriptor, is_last=True)
+            self._read(program, is_last=True)
         self._open.clear()
         self._reap()
 

@@ -5,11 +5,10 @@ from __future__ import annotations
 import ast
 import re
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, Iterable, Iterator, Sequence, Tuple, Union
 
-from tutorial_check.source.class_facts import ClassFacts, class_facts
 from tutorial_check.source.python_text import is_broad, last_name, python_lines, text_of
 
 KEYBOARD = ("input", "raw_input", "tcgetattr", "setraw", "setcbreak", "initscr", "getch", "getchar")
@@ -23,6 +22,19 @@ class Call:
     line: int
     words: list[str]  # the arguments as text, strings without quotes
     names: dict[str, str]  # the same of keyword arguments
+
+
+@dataclass
+class ClassFacts:
+    """A class of the file."""
+
+    name: str
+    line: int
+    methods: list[str]
+    instantiated: bool
+    is_node: bool
+    attributes: set[str]  # that an object has, besides methods
+    bases: set[str]  # but object
 
 
 class PythonFacts:
@@ -45,6 +57,14 @@ class PythonFacts:
                 self.error_text = lines[self.error_line].strip(" \t")
         self._nodes: list[Any] = list(ast.walk(tree))
         self._functions = self._of(ast.FunctionDef)
+        self.functions = {node.name: node.lineno for node in self._functions}
+        self.globals = [node.lineno for node in self._of(ast.Global)]
+        self.calls: dict[str, list[Call]] = {}  # {last part of the name: its calls, by line}
+        for node in sorted(self._of(ast.Call), key=lambda call: call.lineno):
+            words = [text_of(word) for word in node.args]
+            names = {word.arg: text_of(word.value) for word in node.keywords if word.arg}
+            self.calls.setdefault(last_name(node), []).append(Call(node.lineno, words, names))
+        self.classes = [_class_facts(node, set(self.calls)) for node in self._of(ast.ClassDef)]
         inner = [node for function in self._functions for node in ast.walk(function)]
         self.inner_names = {name for _, name in _made(inner)}  # that functions make, or are given
         self.has_main = any(map(_is_main, self._nodes))
@@ -63,28 +83,6 @@ class PythonFacts:
 
     def _of(self, *kinds: type[ast.AST]) -> list[Any]:
         return [node for node in self._nodes if isinstance(node, kinds)]
-
-    @property
-    def functions(self) -> dict[str, int]:
-        return {node.name: node.lineno for node in self._functions}
-
-    @property
-    def globals(self) -> list[int]:
-        return [node.lineno for node in self._of(ast.Global)]
-
-    @cached_property
-    def calls(self) -> dict[str, list[Call]]:
-        """{last part of the name: its calls, by line}."""
-        found: dict[str, list[Call]] = {}
-        for node in sorted(self._of(ast.Call), key=lambda call: call.lineno):
-            words = [text_of(word) for word in node.args]
-            names = {word.arg: text_of(word.value) for word in node.keywords if word.arg}
-            found.setdefault(last_name(node), []).append(Call(node.lineno, words, names))
-        return found
-
-    @cached_property
-    def classes(self) -> list[ClassFacts]:
-        return [class_facts(node, set(self.calls)) for node in self._of(ast.ClassDef)]
 
     @property
     def sunken_main(self) -> Place:
@@ -232,3 +230,43 @@ def shows(handler: ast.ExceptHandler) -> bool:
 
 def _is_main(node: ast.AST) -> bool:
     return isinstance(node, ast.If) and "__name__" in ast.dump(node.test)
+
+
+def _class_facts(node: ast.ClassDef, called: set[str]) -> ClassFacts:
+    parts = list(ast.walk(node))
+    words = {last_name(part) for part in parts if isinstance(part, ast.Call)}
+    bases = {text_of(base) for base in node.bases}
+    stored = [part for part in parts if isinstance(getattr(part, "ctx", None), ast.Store)]
+    return ClassFacts(
+        name=node.name,
+        line=node.lineno,
+        methods=[part.name for part in node.body if isinstance(part, ast.FunctionDef)],
+        instantiated=node.name in called,
+        # A message or an exception of its own is no node.
+        is_node=bool(words & {"Subscriber", "Publisher", "init_node", "publish"})
+        and not any(base.endswith(("Exception", "Error")) for base in bases),
+        attributes={getattr(part, "attr", getattr(part, "id", "")) for part in stored},
+        bases=bases - {"object"},
+    )
+
+
+def with_bases(classes: list[ClassFacts]) -> list[ClassFacts]:
+    """Return the ClassFacts, each with what the bases among them give it."""
+    by_name = {one.name: one for one in classes}
+
+    def whole(one: ClassFacts, below: tuple[str, ...] = ()) -> ClassFacts:
+        for base in sorted(one.bases):
+            parent = by_name.get(base.rpartition(".")[2])
+            if parent is None or parent.name in (one.name, *below):
+                continue
+            parent = whole(parent, (one.name, *below))
+            one = replace(
+                one,
+                methods=[*one.methods, *parent.methods],
+                is_node=one.is_node or parent.is_node,
+                attributes=one.attributes | parent.attributes,
+                bases=(one.bases - {base}) | parent.bases,
+            )
+        return one
+
+    return [whole(one) for one in classes]

@@ -16,8 +16,7 @@ from tutorial_check.judge.rows import Row, demand
 from tutorial_check.judge.scripts import check_file, misnamed_init, must_be_one
 from tutorial_check.model import Note, Wrong
 from tutorial_check.record.session import Session
-from tutorial_check.source.class_facts import ClassFacts, with_bases
-from tutorial_check.source.python_facts import Call
+from tutorial_check.source.python_facts import Call, ClassFacts, with_bases
 from tutorial_check.source.tracebacks import last_lines
 
 NAMES_IT = re.compile(r"not defined|NameError")  # what the lack of the import leads to
