@@ -4,7 +4,7 @@ import json
 from types import SimpleNamespace
 
 from cockpit_server.clients import Client
-from cockpit_server.driver_session import DriverSession, Input
+from cockpit_server.driving.driver_session import DriverSession, Input
 from tutorial_testing.nodes import serialised
 
 ANNA, BOB = 1, 2

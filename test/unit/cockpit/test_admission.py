@@ -4,8 +4,8 @@ import pytest
 
 from cockpit_server.access import DRIVER, VIEWER
 from cockpit_server.admission import page_to_close
-from cockpit_server.budget import Budget
 from cockpit_server.clients import LONGEST_FLOOD, Client
+from cockpit_server.limits import Budget
 from tutorial_testing.session_room import page
 
 ADA, BOB, CY = "10.0.0.1", "10.0.0.2", "10.0.0.3"

@@ -10,8 +10,8 @@ import rosbag
 import rospy
 from sensor_msgs.msg import Joy
 
-from cockpit_server.driver_session import RefusedError
-from cockpit_server.player import Player
+from cockpit_server.clients import RefusedError
+from cockpit_server.driving.player import Player
 from cockpit_server.sources import bags, recording
 from cockpit_server.sources.recording import corners, read
 from gamepad.bags import BagError

@@ -6,15 +6,15 @@ from types import SimpleNamespace
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 
-from cockpit_server import driving_status
 from cockpit_server.access import DRIVER
-from cockpit_server.clients import LOOKS_ONLY
-from cockpit_server.driver_session import DriverSession, RefusedError
-from cockpit_server.driving_status import About, DrivingStatus, sentence
+from cockpit_server.clients import LOOKS_ONLY, RefusedError
+from cockpit_server.driving import words
+from cockpit_server.driving.driver_session import DriverSession
+from cockpit_server.driving.teleop import DEADMAN, Teleop
+from cockpit_server.driving.words import About, DrivingStatus, sentence
 from cockpit_server.graph import Graph
 from cockpit_server.hub import Hub
 from cockpit_server.sources.resets import Resets
-from cockpit_server.sources.teleop import DEADMAN, Teleop
 from tutorial_testing.session_room import Topics, look, page
 
 ANNA, BOB = 1, 2
@@ -43,9 +43,9 @@ WHO = {
 @pytest.mark.parametrize("case", WHO)
 def test_who_drives(case):
     about, said = WHO[case]
-    assert driving_status.who(about, "ada", ANNA) == said
-    assert driving_status.who(about, "", ANNA) == said.replace("ada", "the robot")
-    assert (driving_status.driver(about) == "") == said.startswith(("Nobody", "No joystick"))
+    assert words.who(about, "ada", ANNA) == said
+    assert words.who(about, "", ANNA) == said.replace("ada", "the robot")
+    assert (words.driver(about) == "") == said.startswith(("Nobody", "No joystick"))
 
 
 UNHEARD = "No node subscribes to /ada/joy: nothing moves before you start joy2twist for ada."
@@ -75,11 +75,11 @@ READY = {  # -> why it stands and what to do now; how it is driven, without "Esc
 @pytest.mark.parametrize("case", READY)
 def test_the_page_says_why_the_robot_stands_and_what_to_do(case):
     about, said, how = READY[case]
-    assert driving_status.ready(about, "ada", ANNA, "") == said
-    assert driving_status.how_to(about, ANNA, may_drive=True) == f"{how} Esc: stop." * bool(how)
-    assert driving_status.how_to(about, ANNA, may_drive=False) == ""
+    assert words.ready(about, "ada", ANNA, "") == said
+    assert words.how_to(about, ANNA, may_drive=True) == f"{how} Esc: stop." * bool(how)
+    assert words.how_to(about, ANNA, may_drive=False) == ""
     if about.driver is None:
-        viewed = driving_status.ready(about, "ada", ANNA, LOOKS_ONLY)
+        viewed = words.ready(about, "ada", ANNA, LOOKS_ONLY)
         assert viewed == f"{said} {sentence(LOOKS_ONLY)}".strip()
 
 

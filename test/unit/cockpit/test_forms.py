@@ -8,8 +8,7 @@ import pytest
 import rospy
 from roslib.message import get_message_class
 
-from cockpit_server.clients import LOOKS_ONLY
-from cockpit_server.driver_session import RefusedError
+from cockpit_server.clients import LOOKS_ONLY, RefusedError
 from cockpit_server.graph import Graph
 from cockpit_server.sources import forms
 from tutorial_testing.session_room import page

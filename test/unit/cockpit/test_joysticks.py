@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import rospy
 
-from cockpit_server import joysticks
+from cockpit_server.driving import joysticks
 from tutorial_testing.session_room import DRIVE
 
 

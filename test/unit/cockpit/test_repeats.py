@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from cockpit_server.driver_session import RefusedError
+from cockpit_server.clients import RefusedError
 from cockpit_server.graph import Graph
 from cockpit_server.sources import forms
 from cockpit_server.sources.forms import VELOCITY, Forms

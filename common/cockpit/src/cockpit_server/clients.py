@@ -7,8 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any, Callable, ClassVar, Mapping, Sequence
 
 from cockpit_server.access import DRIVER
-from cockpit_server.budget import BURST_S, Budget
-from cockpit_server.driver_session import RefusedError
+from cockpit_server.limits import BURST_S, Budget
 from node_kit.throttle import Throttle
 
 # A page sends each change of a stick; fast gamepads have 125 in a second. [Hz]
@@ -21,6 +20,10 @@ SYSTEMS = (
     ("Mac OS", "Mac"), ("CrOS", "ChromeOS"), ("Linux", "Linux"),
 )  # fmt: skip
 LOOKS_ONLY = "this page was opened with the address for viewers: it may only look"
+
+
+class RefusedError(Exception):
+    """Something cannot be done; the text says why in one line."""
 
 
 @dataclass(eq=False)

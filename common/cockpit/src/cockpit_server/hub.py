@@ -7,14 +7,14 @@ import time
 from collections import deque
 from typing import Any, Callable, ClassVar, Sequence
 
-from cockpit_server import budget, schema
-from cockpit_server.budget import SHARE, Budget
-from cockpit_server.clients import LOOKS_ONLY, Client, Source
-from cockpit_server.driver_session import DriverSession, Input, RefusedError
-from cockpit_server.driving_status import NO_ROBOT, lost_text
+from cockpit_server import limits, schema
+from cockpit_server.clients import LOOKS_ONLY, Client, RefusedError, Source
+from cockpit_server.driving.driver_session import DriverSession, Input
+from cockpit_server.driving.words import NO_ROBOT, lost_text
 from cockpit_server.feeds import OnceLater
 from cockpit_server.graph_watch import GraphWatch
 from cockpit_server.guard import Guard
+from cockpit_server.limits import SHARE, Budget
 from gamepad.gamepads import F710
 from node_kit.throttle import Throttle
 
@@ -46,7 +46,7 @@ class Hub(Source):
         self._sources: tuple[Source, ...] = ()
         self.clients: dict[int, Client] = {}
         self._numbers, self._beats = itertools.count(1), 0
-        self._messages = Budget(budget.ALL_BURST_S)  # all pages share it, except the driver
+        self._messages = Budget(limits.ALL_BURST_S)  # all pages share it, except the driver
         self._requests: dict[str, Budget] = {}  # address -> of its HTTP requests
         self._due: deque[int] = deque()  # pages whose turn it is to be sent something
         self._may_beat = Throttle(1 / BEAT_S, burst=1.5)  # even, though the ticks are not
@@ -89,8 +89,8 @@ class Hub(Source):
         now = time.monotonic()
         own = client.budget.wait_s(now, self._rate)
         wait_s = max(own, self._messages.wait_s(now, SHARE))
-        client.budget.spend(budget.MESSAGE_S)
-        self._messages.spend(budget.MESSAGE_S)
+        client.budget.spend(limits.MESSAGE_S)
+        self._messages.spend(limits.MESSAGE_S)
         return wait_s
 
     def request_wait_s(self, address: str) -> float:
@@ -99,9 +99,9 @@ class Hub(Source):
         if address not in self._requests:
             debts = self._requests.items()
             self._requests = {one: debt for one, debt in debts if debt.wait_s(now, rate)}
-        own = self._requests.setdefault(address, Budget(budget.REQUESTS_BURST_S))
+        own = self._requests.setdefault(address, Budget(limits.REQUESTS_BURST_S))
         wait_s = own.wait_s(now, rate)
-        own.spend(budget.REQUEST_S)
+        own.spend(limits.REQUEST_S)
         return wait_s
 
     @property

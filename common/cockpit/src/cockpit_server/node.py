@@ -11,11 +11,12 @@ import rospy
 from tornado.ioloop import PeriodicCallback
 
 from cockpit_server.access import Access
-from cockpit_server.driving_status import DrivingStatus
+from cockpit_server.driving.joysticks import Joysticks
+from cockpit_server.driving.teleop import Teleop
+from cockpit_server.driving.words import DrivingStatus
 from cockpit_server.feeds import Feeds
 from cockpit_server.graph_watch import GraphWatch
 from cockpit_server.hub import TICK_S, Hub
-from cockpit_server.joysticks import Joysticks
 from cockpit_server.sources.bags import Bags
 from cockpit_server.sources.doctor import Doctor
 from cockpit_server.sources.forms import Forms
@@ -27,7 +28,6 @@ from cockpit_server.sources.repeats import Repeats
 from cockpit_server.sources.resets import Resets
 from cockpit_server.sources.robots import Pads, Robots
 from cockpit_server.sources.surroundings import Surroundings
-from cockpit_server.sources.teleop import Teleop
 from cockpit_server.sources.topics import Topics
 from cockpit_server.sources.turtles import Turtles
 from cockpit_server.web import server

@@ -6,10 +6,9 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any, ClassVar, Sequence
 
-from cockpit_server.clients import Client, Source
-from cockpit_server.driver_session import RefusedError
+from cockpit_server.clients import Client, RefusedError, Source
+from cockpit_server.driving.player import Player
 from cockpit_server.graph import JOY
-from cockpit_server.player import Player
 from cockpit_server.schema import number, switch, text
 from cockpit_server.sources.recording import Recording, Shelf, recordings
 from gamepad.bags import BagError

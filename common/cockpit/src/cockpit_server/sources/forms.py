@@ -14,8 +14,7 @@ import rosservice
 from genpy.message import fill_message_args
 from rosgraph.names import is_legal_name
 
-from cockpit_server.clients import Client, Source
-from cockpit_server.driver_session import RefusedError
+from cockpit_server.clients import Client, RefusedError, Source
 from cockpit_server.feeds import later
 from cockpit_server.fields import definition, form_fields
 from cockpit_server.graph import JOY

@@ -12,8 +12,7 @@ from typing import Any, ClassVar
 
 import rospy
 
-from cockpit_server.clients import Client, Source
-from cockpit_server.driver_session import RefusedError
+from cockpit_server.clients import Client, RefusedError, Source
 from cockpit_server.schema import switch
 
 # It ends at 150 MB, as Bag opens up to 200 MB, or after an hour.

@@ -8,9 +8,8 @@ from typing import Any, ClassVar
 import rospy
 from std_srvs.srv import Empty
 
-from cockpit_server.clients import Client, Source
-from cockpit_server.driver_session import RefusedError
-from cockpit_server.driving_status import DrivingStatus
+from cockpit_server.clients import Client, RefusedError, Source
+from cockpit_server.driving.words import DrivingStatus
 from cockpit_server.graph import Graph, topic_of
 from cockpit_server.graph_watch import GraphWatch
 from cockpit_server.schema import text

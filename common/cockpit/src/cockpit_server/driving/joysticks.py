@@ -5,7 +5,7 @@ from __future__ import annotations
 import rospy
 from sensor_msgs.msg import Joy
 
-from cockpit_server.driver_session import Axes, Buttons
+from cockpit_server.driving.driver_session import Axes, Buttons
 from cockpit_server.graph import topic_of
 from gamepad.liveness import Trembling
 from node_kit.rospy_patches.prompt_publisher import PromptPublisher
