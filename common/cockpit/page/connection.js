@@ -21,7 +21,6 @@ export class Link {
   #lastHeard = 0; // or when the connection was started
   #lostAt = 0;
   #state = "connecting";
-  #robots = {}; // the newest of each, as a message has only those that changed
 
   /** onState(state): "open", "lost" or, after a while, "gone", at each change. */
   constructor(onState) {
@@ -68,8 +67,6 @@ export class Link {
     this.heardAt = Date.now();
     this.#become("open"); // the connection is new, or was silent
     const message = JSON.parse(text);
-    const before = message.all ? {} : this.#robots;
-    if (message.kind === "robots") message.robots = this.#robots = { ...before, ...message.robots };
     for (const handler of this.#handlers.get(message.kind) ?? []) handler(message);
   }
 

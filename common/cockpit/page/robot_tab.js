@@ -93,7 +93,10 @@ export class RobotTab {
     this.floor = new Floor(byId("floor"), () => [...byId("robot").querySelectorAll(ON_FLOOR)]);
     this.picture = new GamepadPicture(byId("pad"));
     this.session = new DriverSession(link, page.notice, this);
-    link.on("hello", (hello) => this.#meet(hello));
+    link.on("hello", ({ id }) => {
+      say(byId("me"), `page ${id}`);
+      if (this.#look !== null) this.lookAt(this.#look);
+    });
     link.on("names", ({ names }) => this.#showNames(names));
     link.on("robots", ({ robots }) => this.#showRobots(robots));
     link.on("map", (map) => {
@@ -130,12 +133,6 @@ export class RobotTab {
     byId("follow").onclick = () => floor.setFollow(!floor.follow);
     floor.onFollow = (on) => byId("follow").setAttribute("aria-pressed", on);
     byId("look").onchange = () => this.#ask(byId("look").value);
-  }
-
-  #meet({ id, robots }) {
-    say(byId("me"), `page ${id}`);
-    this.#showNames(robots);
-    if (this.#look !== null) this.lookAt(this.#look);
   }
 
   #showNames(names) {

@@ -5,6 +5,7 @@ from types import SimpleNamespace
 
 from cockpit_server.clients import Client
 from cockpit_server.driving.driver_session import DriverSession, Input
+from cockpit_server.driving.who_drives import Driving
 from tutorial_testing.nodes import serialised
 
 ANNA, BOB = 1, 2
@@ -55,6 +56,16 @@ class Room:
         self.say(DRIVE)
         assert self.sent[-1] == ("ada", *DRIVE)
         self.sent.clear()
+
+
+class Free:
+    """In the place of Driving: a page that drives, by its number, or None."""
+
+    def __init__(self, driver=None):
+        self.driver = driver
+
+    def must_be_free(self, client):
+        Driving.must_be_free(SimpleNamespace(session=self), client)
 
 
 def page(role="driver", number=7, **watch):

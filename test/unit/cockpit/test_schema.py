@@ -6,12 +6,11 @@ import pytest
 
 import cockpit_server.node  # noqa: F401  which imports every source
 from cockpit_server.clients import Source
-from cockpit_server.hub import Hub
 from cockpit_server.schema import Schema, check_lengths
 from tutorial_testing.socket_page import GOOD
 
 SOURCES = [one for one in Source.__subclasses__() if one.__module__.startswith("cockpit_server.")]
-SCHEMA = Schema([Hub, *SOURCES])
+SCHEMA = Schema(SOURCES)
 
 
 LONG = "x" * 41

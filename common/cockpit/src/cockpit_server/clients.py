@@ -4,21 +4,25 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass, field
+from types import SimpleNamespace
 from typing import Any, Callable, ClassVar, Mapping, Sequence
 
 from cockpit_server.access import DRIVER
-from cockpit_server.limits import BURST_S, Budget
+from cockpit_server.limits import (
+    LONGEST_FLOOD,
+    MESSAGES_BURST,
+    MESSAGES_RATE,
+    REFUSALS_BURST,
+    REFUSALS_RATE,
+)
 from node_kit.throttle import Throttle
 
-# A page sends each change of a stick; fast gamepads have 125 in a second. [Hz]
-MESSAGES_RATE, MESSAGES_BURST = 250.0, 250.0
-REFUSALS_RATE, REFUSALS_BURST = 2.0, 10.0
-LONGEST_FLOOD = 5000  # messages too many, after which the connection is closed
 BROWSERS = (("Firefox", "Firefox"), ("Edg", "Edge"), ("Chrom", "Chromium"), ("Safari", "Safari"))
 SYSTEMS = (
     ("Android", "Android"), ("iPhone", "iPhone"), ("iPad", "iPad"), ("Windows", "Windows"),
     ("Mac OS", "Mac"), ("CrOS", "ChromeOS"), ("Linux", "Linux"),
 )  # fmt: skip
+Soon = Callable[[Callable[[], object]], None]  # runs an action in the thread of the pages
 LOOKS_ONLY = "this page was opened with the address for viewers: it may only look"
 
 
@@ -33,16 +37,13 @@ class Client:
     number: int
     role: str
     name: str
-    write: Callable[[str], Any]  # sends a text
+    write: Callable[[str], None]  # sends a text, or drops it once the page is closed
     is_behind: Callable[[], bool]  # whether the last text has not gone out yet
     is_cut: Callable[[], bool]  # whether the network to it seems to be down
-    close: Callable[[], Any]
-    address: str = ""  # IP address of its machine
-    spoke_at: float = 0.0  # when it was opened or sent a message last [s]
-    watch: Any = None  # what it wants to see, by the names in the sources' watches
+    close: Callable[[], None]
+    watch: SimpleNamespace = field(default_factory=SimpleNamespace)  # what it wants to see: Source
     seen: dict[Any, Any] = field(default_factory=dict)  # about what: the newest version sent
     flood: int = 0
-    budget: Budget = field(default_factory=lambda: Budget(BURST_S))
     may_send: Throttle = field(default_factory=lambda: Throttle(MESSAGES_RATE, MESSAGES_BURST))
     may_hear_no: Throttle = field(default_factory=lambda: Throttle(REFUSALS_RATE, REFUSALS_BURST))
 

@@ -1,27 +1,43 @@
-"""What pages may cost: seconds of the one thread that serves them all (pure)."""
+"""What pages may cost: their number, what they send, and seconds of the one thread (pure)."""
 
 from typing import Optional
 
-SHARE = 0.3  # [part of that thread] all pages together, except the one that drives
-BURST_S = 0.05  # that one page may use at once, as for opening
-ALL_BURST_S = 0.01  # that the messages of all may use at once, while the driver waits
-REQUEST_S = 0.002  # answering an HTTP request; measured: 1 to 2 ms
-REQUESTS_BURST_S = 0.1  # that one address may use at once: a page loads 25 files
+MOST_PAGES = 64  # a class, each with a page and a phone
+MOST_CONNECTIONS = 256  # each takes a file descriptor, of which a process may have 1024
+LONGEST_IDLE_S = 20.0  # a connection on which nothing is asked
+PING_S = 1.0  # a page that does not answer three of them is closed
+# Reads between two messages of a page: a frame takes up to four. Browsers send ours in one piece.
+MOST_READS = 400
+LONGEST_MESSAGE = 8192  # bytes; the longest that a page sends is a watch with MOST_FIELDS of schema
+LONGEST_HEADER = 16384  # bytes
+LONGEST_BODY = 1024  # bytes; nothing is uploaded
+# What waits in the kernel for a page that does not read [bytes]; the kernel doubles it.
+SEND_BUFFER = 65536
+# A page sends each change of a stick; fast gamepads have 125 in a second. [Hz]
+MESSAGES_RATE, MESSAGES_BURST = 250.0, 250.0
+REFUSALS_RATE, REFUSALS_BURST = 2.0, 10.0
+LONGEST_FLOOD = 5000  # messages too many, after which the connection is closed
+
+SHARE = 0.3  # [part of the thread] all messages of pages that do not drive, and all HTTP requests
+GIVE_S = 0.003  # [of each 0.01 s] what is sent to pages, one after the other
 MESSAGE_S = 0.0002  # receiving a message, whatever it asks for
+MESSAGES_BURST_S = 0.01  # that messages may use at once, while the driver waits
+REQUEST_S = 0.002  # answering an HTTP request; measured: 1 to 2 ms
+REQUESTS_BURST_S = 0.1  # that requests may use at once: a page loads 25 files
 
 
 class Budget:
-    """Refills at a rate, up to burst_s. A cost is known afterwards: there may be debt."""
+    """Refills at SHARE, up to burst_s. A cost is known afterwards: there may be debt."""
 
     def __init__(self, burst_s: float) -> None:
         self._burst_s = self._left_s = burst_s
         self._at: Optional[float] = None
 
-    def wait_s(self, now: float, rate: float) -> float:
-        """Return how long to wait [s] until there is something left. rate: [s/s]."""
-        gained = 0.0 if self._at is None else max(0.0, now - self._at) * rate
+    def wait_s(self, now: float) -> float:
+        """Return how long to wait [s] until there is something left."""
+        gained = 0.0 if self._at is None else max(0.0, now - self._at) * SHARE
         self._left_s, self._at = min(self._burst_s, self._left_s + gained), now
-        return max(0.0, -self._left_s / rate)
+        return max(0.0, -self._left_s / SHARE)
 
     def spend(self, seconds: float) -> None:
         self._left_s -= seconds

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import asyncio
+import socket
 import sys
 import threading
-from typing import Any, Callable
+from typing import Callable
 
 import rospy
 from tornado.ioloop import PeriodicCallback
 
 from cockpit_server.access import Access
+from cockpit_server.clients import Client
 from cockpit_server.driving.joysticks import Joysticks
 from cockpit_server.driving.teleop import Teleop
-from cockpit_server.driving.words import DrivingStatus
+from cockpit_server.driving.who_drives import Driving
 from cockpit_server.feeds import Feeds
 from cockpit_server.graph_watch import GraphWatch
 from cockpit_server.hub import TICK_S, Hub
@@ -26,7 +28,7 @@ from cockpit_server.sources.plots import Plots
 from cockpit_server.sources.recorder import Recorder
 from cockpit_server.sources.repeats import Repeats
 from cockpit_server.sources.resets import Resets
-from cockpit_server.sources.robots import Pads, Robots
+from cockpit_server.sources.robots import Robots
 from cockpit_server.sources.surroundings import Surroundings
 from cockpit_server.sources.topics import Topics
 from cockpit_server.sources.turtles import Turtles
@@ -51,22 +53,24 @@ class Cockpit:
     Calls: services of type std_srvs/Empty that end in /reset; what a driver writes into a form
     """
 
-    def __init__(self, sockets: list[Any], access: Access) -> None:
+    def __init__(self, sockets: list[socket.socket], access: Access) -> None:
         self._sockets = sockets
         name = rospy.get_name()
         graphs = self._graphs = GraphWatch(name)
         log = Log()
         feeds = Feeds(log.warn)
-        pads = Pads(feeds, graphs, name)
-        hub = self._hub = Hub(self._soon, graphs, Joysticks(), pads, log.warn)
-        bags, robots, teleop = Bags(hub), Robots(feeds, graphs), Teleop(feeds)
-        drives, forms = DrivingStatus(hub, graphs, teleop, robots), Forms(hub, graphs)
+        pages: dict[int, Client] = {}
+        robots, teleop = Robots(feeds, graphs), Teleop(feeds)
+        joysticks = Joysticks(feeds, graphs, name)
+        driving = self._driving = Driving(pages, graphs, joysticks, teleop, robots.moves)
+        forms = Forms(driving, self._soon, graphs)
         sources = (
-            robots, pads, teleop, drives, Resets(hub, graphs, drives),
-            GraphView(graphs), Topics(feeds, graphs), forms, Repeats(forms), Plots(feeds, graphs),
-            Logs(feeds), Doctor(), bags, Recorder(), Surroundings(feeds, graphs), Turtles(graphs),
+            robots, joysticks, teleop, driving, Resets(driving, graphs), GraphView(graphs),
+            Topics(feeds, graphs), forms, Repeats(forms), Plots(feeds, graphs), Logs(feeds),
+            Doctor(), Bags(driving, self._soon), Recorder(), Surroundings(feeds, graphs),
+            Turtles(graphs),
         )  # fmt: skip
-        hub.add(sources, player=bags)
+        self._hub = Hub(pages, driving, sources, log.warn)
         self._server = server(self._hub, access)
         self.has_lost_master = False
         self._has_ended = threading.Event()
@@ -89,7 +93,7 @@ class Cockpit:
         self.has_lost_master = True
         rospy.signal_shutdown("the master has gone")
 
-    def _soon(self, action: Callable[[], Any]) -> None:
+    def _soon(self, action: Callable[[], object]) -> None:
         self._loop.call_soon_threadsafe(action)
 
     def _end(self) -> None:
@@ -100,5 +104,5 @@ class Cockpit:
         self._soon(self._ended.set)
 
     def _rest(self) -> None:
-        self._hub.session.end()
+        self._driving.session.end()
         self._has_ended.set()

@@ -8,7 +8,7 @@ from typing import Any, Sequence
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 
 from cockpit_server.clients import Client, Source
-from cockpit_server.feeds import Feeds, read
+from cockpit_server.feeds import Feeds, Raw, read
 from cockpit_server.graph import robot_of
 from node_kit.arming import DRIVING
 
@@ -64,6 +64,6 @@ class Teleop(Source):
             if is_shown and client.take_if_new(f"teleop {robot}", state):
                 client.send("teleop", robot=robot, **state)
 
-    def _hear(self, message: Any, _topic: str) -> None:
+    def _hear(self, message: Raw, _topic: str) -> None:
         for robot, state in said(message.data):
             self._heard[robot], self._states[robot] = time.monotonic(), state

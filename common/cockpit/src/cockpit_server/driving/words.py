@@ -1,8 +1,7 @@
 """The words for what drives a robot, why it stands, and what to do; all of them here (pure)."""
 
-from typing import Any, Dict, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, Dict, NamedTuple, Optional, Tuple
 
-from cockpit_server.clients import Client, Source
 from cockpit_server.graph import topic_of
 from gamepad.gamepads import F710
 from node_kit.arming import DRIVING
@@ -120,60 +119,3 @@ def held(about: About) -> Optional[str]:
 
 def lost_text(why: str, keeps_session: bool) -> str:
     return f"Stopped: {why}." if keeps_session else f"This page no longer drives: {why}."
-
-
-class DrivingStatus(Source):
-    """Sends each page what drives the robot that it shows, and the drivers of all robots."""
-
-    def __init__(self, hub: Any, graph_watch: Any, teleop: Any, robots: Any) -> None:
-        self._hub, self._graphs, self._teleop, self._robots = hub, graph_watch, teleop, robots
-        self._abouts: Dict[str, About] = {}
-        self._drivers: Dict[str, str] = {}
-        self._driven = None  # from a page, the last time
-
-    def collect(self, clients: Sequence[Client], now: float) -> None:
-        session, driven = self._hub.session, self._hub.driven
-        if self._driven not in (None, driven):
-            self._teleop.outdate(self._driven)  # Its driver has left since.
-        self._driven = driven
-        self._abouts = {robot: self._about(robot, now) for robot in self._graphs.graph.robots()}
-        for robot, about in self._abouts.items():
-            if about.is_driven_by_node:
-                session.moves_on(robot)
-        self._drivers = {robot: driver(about) for robot, about in self._abouts.items()}
-
-    def _about(self, robot: str, now: float) -> About:
-        session = self._hub.session
-        page = self._hub.clients.get(session.driver) if robot == self._hub.driven else None
-        return About(
-            driver=session.driver if page else None,
-            name=page.name if page else "",
-            plays=bool(page) and session.plays,
-            armed=bool(page) and session.armed,
-            why=session.why if robot == session.stopped else "",
-            said=self._teleop.newest(robot),
-            senders=self._graphs.joysticks(robot),
-            moves=self._robots.moves(robot, now),
-            is_heard=bool(self._graphs.joystick_listeners(robot)),
-        )
-
-    def node_that_drives(self, robot: str) -> str:
-        """Return the name of the node, other than a page, that drives a robot, or ""."""
-        about = self._abouts.get(robot, About())
-        return driver(about) if about.is_driven_by_node else ""
-
-    def send_to(self, client: Client, now: float) -> None:
-        robot = client.watch.look
-        about = self._abouts.get(robot, About())
-        refusal = self._hub.refusal(client, robot or "", now)
-        words = {
-            "robot": robot,
-            "who": who(about, robot or "", client.number),
-            "ready": ready(about, robot or "", client.number, refusal),
-            "how": how_to(about, client.number, not refusal),
-            "refusal": sentence(refusal),
-            "again": again(about),
-            "drivers": self._drivers,
-        }
-        if client.take_if_new("drives", words):
-            client.send("drives", **words)

@@ -8,7 +8,7 @@ import threading
 import time
 from contextlib import suppress
 from subprocess import DEVNULL, Popen
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import rospy
 
@@ -26,7 +26,7 @@ class Recorder(Source):
 
     def __init__(self) -> None:
         self._name = ""  # It names the file while something is recorded.
-        self._process: Any = None
+        self._process: Popen[bytes] | None = None
         rospy.on_shutdown(self._stop)
 
     def send_to(self, client: Client, now: float) -> None:

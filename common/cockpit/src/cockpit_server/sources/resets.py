@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import threading
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import rospy
 from std_srvs.srv import Empty
 
 from cockpit_server.clients import Client, RefusedError, Source
-from cockpit_server.driving.words import DrivingStatus
+from cockpit_server.driving.who_drives import Driving
 from cockpit_server.graph import Graph, topic_of
 from cockpit_server.graph_watch import GraphWatch
 from cockpit_server.schema import text
@@ -33,17 +33,12 @@ class Resets(Source):
 
     messages: ClassVar = {"reset": {"robot": text}}
 
-    def __init__(self, hub: Any, graph_watch: GraphWatch, drives: DrivingStatus) -> None:
-        self._hub, self._graphs, self._drives = hub, graph_watch, drives
+    def __init__(self, driving: Driving, graph_watch: GraphWatch) -> None:
+        self._driving, self._graphs = driving, graph_watch
         self._asked: set[str] = set()  # names of services that have not answered yet
 
     def on_reset(self, client: Client, _now: float, robot: str) -> None:
-        client.must_drive()
-        if robot == self._hub.driven and client.number != self._hub.session.driver:
-            raise RefusedError("another page drives this robot: only that page may reset it")
-        node = self._drives.node_that_drives(robot)
-        if node:
-            raise RefusedError(f"{node} drives this robot: stop it before you reset the robot")
+        self._driving.must_rest(client, robot)
         name = reset_service(self._graphs.graph, robot)
         if name in self._asked:
             raise RefusedError(f"{name} was called and has not answered yet")

@@ -14,7 +14,7 @@ from sensor_msgs.msg import LaserScan
 from tf2_msgs.msg import TFMessage
 
 from cockpit_server.clients import Client, Source, encoded
-from cockpit_server.feeds import read
+from cockpit_server.feeds import Feeds, Raw, read
 from cockpit_server.graph import ODOMETRY, topic_of
 from cockpit_server.graph_watch import GraphWatch
 from cockpit_server.motion import is_somewhere, motion
@@ -33,7 +33,7 @@ BUMPERS, BUMPER_BYTES = 3, 2  # bytes of an event: which bumper, and whether it 
 class Surroundings(Source):
     """The map for pages that show robots, and of the robot they look at what its laser sees."""
 
-    def __init__(self, feeds: Any, graph_watch: GraphWatch) -> None:
+    def __init__(self, feeds: Feeds, graph_watch: GraphWatch) -> None:
         self._feeds, self._graphs = feeds, graph_watch
         self._map: dict[str, Any] = {}
         self._version, self._text = 0, ""
@@ -88,13 +88,13 @@ class Surroundings(Source):
             found.update(x=round(x, DIGITS), y=round(y, DIGITS), yaw=round(yaw, 4))
         return found
 
-    def _hear_map(self, message: Any, _topic: str) -> None:
+    def _hear_map(self, message: Raw, _topic: str) -> None:
         shown = map_shown(message.data)
         if shown and shown != self._map:
             self._map = shown
             self._version += 1
 
-    def _hear_frames(self, message: Any, _topic: str) -> None:
+    def _hear_frames(self, message: Raw, _topic: str) -> None:
         for one in (read(TFMessage, message.data, LONGEST_FRAMES) or TFMessage()).transforms:
             place, frame = one.transform.translation, one.child_frame_id
             with self._lock:
@@ -104,10 +104,10 @@ class Surroundings(Source):
                 if len(self._mounts) > MOST_FRAMES:
                     del self._mounts[next(iter(self._mounts))]
 
-    def _keep(self, message: Any, topic: str) -> None:
+    def _keep(self, message: Raw, topic: str) -> None:
         self._newest[topic] = (time.monotonic(), message.data)
 
-    def _hear_bumper(self, message: Any, topic: str) -> None:
+    def _hear_bumper(self, message: Raw, topic: str) -> None:
         if len(message.data) == BUMPER_BYTES and message.data[0] < BUMPERS:
             pressed = self._pressed.setdefault(topic, set())
             (pressed.add if message.data[1] else pressed.discard)(message.data[0])
