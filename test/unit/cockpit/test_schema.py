@@ -76,7 +76,6 @@ WHOLE, UP_TO = "must be a whole number from 0", "must be a number from"
         ("release why", ["", "x" * 200], ["x" * 201, None, "a\nb"],
          "must be a text of at most 200 characters"),
         ("watch topic", [None, "/", "/" + "x" * 199], ["", "odom"], "must begin with /"),
-        ("watch node", [None, "/sim"], ["sim/"], "must begin with /"),
         ("watch fields", [("/a/x",) * 20], [["/a/x"] * 21], "must be a list of at most 20"),
         ("watch log", [True], [1], "must be true or false"),
         ("drive mode", ["D", "X"], ["d", "", "DX"], "must be D, X"),

@@ -7,14 +7,8 @@ from dataclasses import dataclass, field
 from types import SimpleNamespace
 from typing import Any, Callable, ClassVar, Mapping, Sequence
 
+from cockpit_server import limits
 from cockpit_server.access import DRIVER
-from cockpit_server.limits import (
-    LONGEST_FLOOD,
-    MESSAGES_BURST,
-    MESSAGES_RATE,
-    REFUSALS_BURST,
-    REFUSALS_RATE,
-)
 from node_kit.throttle import Throttle
 
 BROWSERS = (("Firefox", "Firefox"), ("Edg", "Edge"), ("Chrom", "Chromium"), ("Safari", "Safari"))
@@ -44,8 +38,8 @@ class Client:
     watch: SimpleNamespace = field(default_factory=SimpleNamespace)  # what it wants to see: Source
     seen: dict[Any, Any] = field(default_factory=dict)  # about what: the newest version sent
     flood: int = 0
-    may_send: Throttle = field(default_factory=lambda: Throttle(MESSAGES_RATE, MESSAGES_BURST))
-    may_hear_no: Throttle = field(default_factory=lambda: Throttle(REFUSALS_RATE, REFUSALS_BURST))
+    may_send: Throttle = field(default_factory=limits.messages)
+    may_hear_no: Throttle = field(default_factory=limits.refusals)
 
     @property
     def drives(self) -> bool:
@@ -75,7 +69,7 @@ class Client:
         if self.may_send.ready(now):
             return True
         self.flood += 1
-        if self.flood > LONGEST_FLOOD:
+        if self.flood > limits.LONGEST_FLOOD:
             self.close()
         return False
 

@@ -7,18 +7,10 @@ import time
 from collections import deque
 from typing import Any, Callable, Sequence
 
+from cockpit_server import limits
 from cockpit_server.clients import Client, RefusedError, Source
 from cockpit_server.driving.who_drives import Driving
 from cockpit_server.guard import Guard
-from cockpit_server.limits import (
-    GIVE_S,
-    MESSAGE_S,
-    MESSAGES_BURST_S,
-    MOST_PAGES,
-    REQUEST_S,
-    REQUESTS_BURST_S,
-    Budget,
-)
 from cockpit_server.schema import WATCH, Schema
 from gamepad.gamepads import F710
 from node_kit.throttle import Throttle
@@ -42,8 +34,8 @@ class Hub:
         for one in sources:
             self._handlers.update({kind: getattr(one, f"on_{kind}") for kind in one.messages})
         self._numbers = itertools.count(1)
-        self._messages = Budget(MESSAGES_BURST_S)  # of all pages, except the driver's
-        self._requests = Budget(REQUESTS_BURST_S)  # HTTP
+        self._messages = limits.Budget(limits.MESSAGES_BURST_S, limits.MESSAGE_S)
+        self._requests = limits.Budget(limits.REQUESTS_BURST_S, limits.REQUEST_S)  # HTTP
         self._due: deque[int] = deque()  # pages whose turn it is to be sent something
         self._may_beat = Throttle(1 / BEAT_S, burst=1.5)  # even, though the ticks are not
 
@@ -52,7 +44,7 @@ class Hub:
 
     def make_room(self, drives: bool) -> bool:
         """Return whether one more page may be opened; the oldest viewer makes room for a driver."""
-        if len(self.pages) < MOST_PAGES:
+        if len(self.pages) < limits.MOST_PAGES:
             return True
         viewer = next((page for page in self.pages.values() if not page.drives), None)
         if viewer is None or not drives:
@@ -74,11 +66,11 @@ class Hub:
 
     def wait_s(self, client: Client) -> float:
         """Return how long [s] the next message of a page waits, for what others have cost."""
-        return 0.0 if self._driving.is_driver(client) else _wait_s(self._messages, MESSAGE_S)
+        return 0.0 if self._driving.is_driver(client) else self._messages.wait_s(time.monotonic())
 
     def request_wait_s(self) -> float:
         """Return how long [s] an HTTP request waits."""
-        return _wait_s(self._requests, REQUEST_S)
+        return self._requests.wait_s(time.monotonic())
 
     def hear(self, client: Client, data: Any) -> None:
         if client.number not in self.pages:
@@ -119,14 +111,8 @@ class Hub:
 
     def _give(self, now: float) -> None:
         """Send what pages lack, one page after the other, for a while."""
-        end_s = time.thread_time() + GIVE_S
+        end_s = time.thread_time() + limits.GIVE_S
         while self._due and time.thread_time() < end_s:
             client = self.pages.get(self._due.popleft())
             if client and not client.is_behind():  # else it gets the newest once it has read
                 self._each("send_to", client, now)
-
-
-def _wait_s(budget: Budget, cost_s: float) -> float:
-    wait_s = budget.wait_s(time.monotonic())
-    budget.spend(cost_s)
-    return wait_s

@@ -2,6 +2,8 @@
 
 from typing import Optional
 
+from node_kit.throttle import Throttle
+
 MOST_PAGES = 64  # a class, each with a page and a phone
 MOST_CONNECTIONS = 256  # each takes a file descriptor, of which a process may have 1024
 LONGEST_IDLE_S = 20.0  # a connection on which nothing is asked
@@ -13,9 +15,6 @@ LONGEST_HEADER = 16384  # bytes
 LONGEST_BODY = 1024  # bytes; nothing is uploaded
 # What waits in the kernel for a page that does not read [bytes]; the kernel doubles it.
 SEND_BUFFER = 65536
-# A page sends each change of a stick; fast gamepads have 125 in a second. [Hz]
-MESSAGES_RATE, MESSAGES_BURST = 250.0, 250.0
-REFUSALS_RATE, REFUSALS_BURST = 2.0, 10.0
 LONGEST_FLOOD = 5000  # messages too many, after which the connection is closed
 
 SHARE = 0.3  # [part of the thread] all messages of pages that do not drive, and all HTTP requests
@@ -26,18 +25,30 @@ REQUEST_S = 0.002  # answering an HTTP request; measured: 1 to 2 ms
 REQUESTS_BURST_S = 0.1  # that requests may use at once: a page loads 25 files
 
 
+def messages() -> Throttle:
+    """Limit those of a page: it sends each change of a stick; fast gamepads have 125 in 1 s."""
+    return Throttle(250.0, burst=250.0)
+
+
+def refusals() -> Throttle:
+    """Limit what a page is told that it may not."""
+    return Throttle(2.0, burst=10.0)
+
+
 class Budget:
     """Refills at SHARE, up to burst_s. A cost is known afterwards: there may be debt."""
 
-    def __init__(self, burst_s: float) -> None:
+    def __init__(self, burst_s: float, each_s: float) -> None:
         self._burst_s = self._left_s = burst_s
+        self._each_s = each_s
         self._at: Optional[float] = None
 
     def wait_s(self, now: float) -> float:
-        """Return how long to wait [s] until there is something left."""
+        """Return how long [s] one more has to wait; it costs each_s."""
         gained = 0.0 if self._at is None else max(0.0, now - self._at) * SHARE
-        self._left_s, self._at = min(self._burst_s, self._left_s + gained), now
-        return max(0.0, -self._left_s / SHARE)
+        left_s, self._at = min(self._burst_s, self._left_s + gained), now
+        self._left_s = left_s - self._each_s
+        return max(0.0, -left_s / SHARE)
 
     def spend(self, seconds: float) -> None:
         self._left_s -= seconds

@@ -50,7 +50,7 @@ class Cockpit:
         /map (nav_msgs/OccupancyGrid), /tf_static (tf2_msgs/TFMessage),
         /diagnostics (diagnostic_msgs/DiagnosticArray), /rosout (rosgraph_msgs/Log)
     Publishes: joy (sensor_msgs/Joy) of a robot that is driven; what a driver writes into a form
-    Calls: services of type std_srvs/Empty that end in /reset; what a driver writes into a form
+    Calls: services that end in /reset; what a driver writes into a form
     """
 
     def __init__(self, sockets: list[socket.socket], access: Access) -> None:
@@ -65,7 +65,7 @@ class Cockpit:
         driving = self._driving = Driving(pages, graphs, joysticks, teleop, robots.moves)
         forms = Forms(driving, self._soon, graphs)
         sources = (
-            robots, joysticks, teleop, driving, Resets(driving, graphs), GraphView(graphs),
+            robots, joysticks, teleop, driving, Resets(driving, forms, graphs), GraphView(graphs),
             Topics(feeds, graphs), forms, Repeats(forms), Plots(feeds, graphs), Logs(feeds),
             Doctor(), Bags(driving, self._soon), Recorder(), Surroundings(feeds, graphs),
             Turtles(graphs),

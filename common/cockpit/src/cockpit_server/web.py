@@ -14,20 +14,10 @@ from tornado.iostream import StreamClosedError
 from tornado.web import Application, RequestHandler, StaticFileHandler
 from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
+from cockpit_server import limits
 from cockpit_server.access import DRIVER, Access, without_token
 from cockpit_server.clients import Client, name_of
 from cockpit_server.hub import Hub
-from cockpit_server.limits import (
-    LONGEST_BODY,
-    LONGEST_HEADER,
-    LONGEST_IDLE_S,
-    LONGEST_MESSAGE,
-    MOST_CONNECTIONS,
-    MOST_PAGES,
-    MOST_READS,
-    PING_S,
-    SEND_BUFFER,
-)
 from node_kit.rospy_patches.newest_only import CUT_AFTER_RESENDS, resends
 
 CHARTS = Path("/usr/share/javascript/dygraphs")
@@ -135,7 +125,7 @@ class _Socket(_Guarded, WebSocketHandler):
         elif role is None:
             self.refuse(403, NO_TOKEN)
         elif not self.hub.make_room(role == DRIVER):
-            self.refuse(503, f"{MOST_PAGES} pages are open: close one, or try again later")
+            self.refuse(503, f"{limits.MOST_PAGES} pages are open: close one, or try again later")
         else:
             await super().get()
 
@@ -149,7 +139,7 @@ class _Socket(_Guarded, WebSocketHandler):
     def open(self, *_: Any, **__: Any) -> None:
         self.set_nodelay(True)
         self.stream = self.ws_connection.stream
-        self.stream.socket.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, SEND_BUFFER)
+        self.stream.socket.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, limits.SEND_BUFFER)
         self.settings["pages"].add(self.stream)
         self.bound_reads()
         name = name_of(self.request.headers.get("User-Agent", ""), self.address)
@@ -168,7 +158,7 @@ class _Socket(_Guarded, WebSocketHandler):
 
         def counted(*how: Any, **more: Any) -> Awaitable[bytes]:
             self.reads += 1
-            if self.reads > MOST_READS:
+            if self.reads > limits.MOST_READS:
                 self.stream.close()
             return read_bytes(*how, **more)
 
@@ -218,7 +208,7 @@ class _Server(HTTPServer):
 
     def handle_stream(self, stream: Any, address: tuple[str, int]) -> None:
         self._streams = [*(one for one in self._streams if not one.closed()), stream]
-        if len(self._streams) > MOST_CONNECTIONS:
+        if len(self._streams) > limits.MOST_CONNECTIONS:
             next(one for one in self._streams if one not in self._pages).close()
         if not stream.closed():
             super().handle_stream(stream, address)
@@ -242,18 +232,18 @@ def server(hub: Hub, access: Access) -> HTTPServer:
         hub=hub,
         page=page,
         pages=set(),  # streams that are a page's
-        websocket_max_message_size=LONGEST_MESSAGE,
-        websocket_ping_interval=PING_S,
-        websocket_ping_timeout=3 * PING_S,
+        websocket_max_message_size=limits.LONGEST_MESSAGE,
+        websocket_ping_interval=limits.PING_S,
+        websocket_ping_timeout=3 * limits.PING_S,
         log_function=lambda handler: None,
     )
     return _Server(
         application,
-        idle_connection_timeout=LONGEST_IDLE_S,
-        body_timeout=LONGEST_IDLE_S,
-        max_header_size=LONGEST_HEADER,
-        max_body_size=LONGEST_BODY,
-        max_buffer_size=4 * LONGEST_HEADER,
+        idle_connection_timeout=limits.LONGEST_IDLE_S,
+        body_timeout=limits.LONGEST_IDLE_S,
+        max_header_size=limits.LONGEST_HEADER,
+        max_body_size=limits.LONGEST_BODY,
+        max_buffer_size=4 * limits.LONGEST_HEADER,
     )
 
 

@@ -165,7 +165,7 @@ class Forms(Source):
         self._ask_master(client, lambda: set_parameter(parameter, values["value"]))
 
     def _ask_master(self, client: Client, ask: Callable[[], dict[str, Any]]) -> None:
-        self._ask(client, f"the master, for page {client.number},", ask)
+        self.ask(client, f"the master, for page {client.number},", ask)
 
     def _begin(self, key: Key, kind: Any) -> None:
         """Publish a first message once the subscribers are connected."""
@@ -188,9 +188,10 @@ class Forms(Source):
         self._driving.must_be_free(client)
         if service not in self._graphs.graph.services:
             raise RefusedError(f"there is no service {service}")
-        self._ask(client, service, ask)
+        self.ask(client, service, ask)
 
-    def _ask(self, client: Client, asked: str, ask: Callable[[], dict[str, Any]]) -> None:
+    def ask(self, client: Client, asked: str, ask: Callable[[], dict[str, Any]]) -> None:
+        """Send a client what a service or the master answers. Raises RefusedError."""
         if asked in self._asked:
             raise RefusedError(f"{asked} was called and has not answered yet")
         self._asked.add(asked)
