@@ -5,7 +5,7 @@ import { Driver } from "./driver.js";
 
 const NOTHING = {
   session: { driver: null, yours: false, robot: "" },
-  drives: { drivers: {}, who: "", ready: "", how: "", again: "", refusal: "" },
+  drives: { robots: {}, who: "", ready: "", how: "", again: "", refusal: "" },
 };
 const STALE_S = 1; // an older speed is not shown
 const CUT = "This page no longer drives: its connection was lost. Press Drive from this page to go on.";
@@ -44,9 +44,9 @@ export class DriverSession {
     return this.#now.session.yours;
   }
 
-  /** Robot -> the name of what drives it, or "". */
-  get drivers() {
-    return this.#now.drives.drivers;
+  /** Robot -> {driver: the name of what drives it, or ""; state, why: of joy2twist's report}. */
+  get robots() {
+    return this.#now.drives.robots;
   }
 
   /** v, w, age: of the chosen robot [m/s, rad/s, s]; without them: unknown. */

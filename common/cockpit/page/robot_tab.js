@@ -79,7 +79,6 @@ export class RobotTab {
   static panel = PANEL;
   static watches = { robots: true, look: null, turtles: false };
 
-  #teleop = new Map(); // robot -> what its joy2twist reports
   #names = []; // of the robots
   #look = null; // the name of the chosen robot, once there is one
   asked = null; // the robot that a person has chosen, or the address
@@ -108,7 +107,7 @@ export class RobotTab {
     link.on("scan", (scan) => this.floor.showScan(scan));
     link.on("turtles", ({ pictures }) => this.#showTurtles(pictures));
     link.on("pad", (pad) => this.#showPad(pad));
-    link.on("teleop", (teleop) => this.#showTeleop(teleop));
+    link.on("drives", () => this.#showTeleop()); // after the session has taken it
     this.#listen();
   }
 
@@ -173,7 +172,7 @@ export class RobotTab {
     this.floor.look = name;
     this.picture.show();
     say(byId("pad-age"), "no message yet");
-    this.#showTeleop(this.#teleop.get(name) ?? { robot: name });
+    this.#showTeleop();
     this.watch({ look: name });
     this.session.show();
   }
@@ -213,8 +212,8 @@ export class RobotTab {
   #showClass(robots) {
     for (const [name, line] of this.#rows) {
       const { x, y, age } = robots[name] ?? {};
-      const why = this.#teleop.get(name)?.why;
-      const texts = [`${number(x)}, ${number(y)}`, this.session.drivers[name] || "–", why ?? "–"];
+      const { driver, why } = this.session.robots[name] ?? {};
+      const texts = [`${number(x)}, ${number(y)}`, driver || "–", why || "–"];
       texts.forEach((text, i) => say(line.cells[i + 1], text));
       line.classList.toggle("stale", !(age < STALE_S));
       line.classList.toggle("chosen", name === this.look);
@@ -248,10 +247,9 @@ export class RobotTab {
     byId("pad").classList.toggle("stale", age > STALE_S);
   }
 
-  #showTeleop({ robot, state, why }) {
-    if (state) this.#teleop.set(robot, { robot, state, why });
-    if (robot !== this.look) return;
-    byId("teleop").dataset.state = state ?? "unknown";
-    say(byId("teleop"), why || state || "No report from joy2twist yet.");
+  #showTeleop() {
+    const { state = "unknown", why } = this.session.robots[this.look] ?? {};
+    byId("teleop").dataset.state = state;
+    say(byId("teleop"), why || "No report from joy2twist yet.");
   }
 }

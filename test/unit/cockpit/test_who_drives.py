@@ -1,5 +1,6 @@
 """The driver and the pages around: who may drive, who stops it, and what pages are sent of it."""
 
+import time
 from types import SimpleNamespace
 
 import pytest
@@ -8,8 +9,9 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from cockpit_server.access import DRIVER, VIEWER
 from cockpit_server.clients import LOOKS_ONLY, RefusedError
 from cockpit_server.driving.player import Player
-from cockpit_server.driving.teleop import DEADMAN, Teleop
+from cockpit_server.driving.teleop import DEADMAN, SILENT, Teleop
 from cockpit_server.driving.who_drives import CONNECT_S, Driving
+from cockpit_server.driving.words import Report
 from cockpit_server.graph import JOY, Graph
 from tutorial_testing.session_room import ANNA, BOB, DRIVE, REST, Topics, look, page
 
@@ -22,7 +24,7 @@ class Made(Driving):
     def __init__(self, role=DRIVER):
         self.now, self.n = 100.0, 0
         self.published, self.outdated, self.senders = [], [], ()
-        self.report, self.rival, self.is_heard = {"state": "armed", "deadman": "4"}, "", True
+        self.report, self.rival, self.is_heard = Report("armed", "", "4"), "", True
         self.anna, self.bob = page(role, ANNA, look="ada"), page(DRIVER, BOB, look="ada")
         graphs = SimpleNamespace(
             graph=Graph(subscribers={"/ada/joy": {"/joy2twist"}}, types={"/ada/joy": JOY}),
@@ -32,7 +34,7 @@ class Made(Driving):
             send=lambda *message: self.published.append(message), advertise=lambda _: None,
             rival=lambda *_: self.rival, is_heard=lambda _: self.is_heard,
         )  # fmt: skip
-        teleop = SimpleNamespace(newest=lambda _: self.report, outdate=self.outdated.append)
+        teleop = SimpleNamespace(newest=lambda *_: self.report, outdate=self.outdated.append)
         pages = {ANNA: self.anna[0], BOB: self.bob[0]}
         super().__init__(pages, graphs, joysticks, teleop, lambda *_: False)
 
@@ -148,7 +150,7 @@ def test_a_recording_is_published_until_its_end_or_until_its_page_is_cut(is_cut,
 
 def test_robot_is_not_reset_while_another_drives_it():
     made = Made()
-    made.report, made.senders = {"state": "driving"}, ("/rosbag_play",)
+    made.report, made.senders = Report("driving"), ("/rosbag_play",)
     made.session.why, made.session.stopped = "hidden", "ada"
     look(made, made.anna)
     assert made.session.stopped is None  # it stands no longer
@@ -166,7 +168,7 @@ def test_robot_is_not_reset_while_another_drives_it():
 
 
 def test_reports_of_joy2twist_are_read_by_robot_and_outdated_once_its_driver_has_left():
-    topics, one = Topics(), page(robots=True)
+    topics = Topics()
     teleop = Teleop(topics)
     status = [
         DiagnosticStatus(1, "myjoystick2twist: joystick", "driving", "", []),
@@ -176,10 +178,12 @@ def test_reports_of_joy2twist_are_read_by_robot_and_outdated_once_its_driver_has
     ]  # fmt: skip
     for message in (DiagnosticArray(status=status), b"bytes that are none: joystick"):
         topics.hear("/diagnostics", message)
-    told = {"kind": "teleop", "level": 1}
-    driving = {**told, "robot": "", "state": "driving", "why": "driving", "deadman": None}
-    stopped = {"robot": "robot_1", "state": "stopped", "why": "stopped: not armed", "deadman": "4"}
-    assert look(teleop, one) == [[driving, {**told, **stopped}]]
-    teleop.outdate("")
-    assert look(teleop, one)[0][0]["state"] == "unknown"
-    assert {words["state"] for words in look(teleop, one, now=float("inf"))[0]} == {"silent"}
+    now = time.monotonic()
+    assert teleop.newest("", now) == Report("driving", "driving")
+    assert teleop.newest("robot_1", now) == Report("stopped", "stopped: not armed", "4")
+    assert teleop.newest("robot_2", now) is None
+    for robot in ("", "robot_1"):
+        teleop.outdate(robot)
+    states = [teleop.newest(robot, now).state for robot in ("", "robot_1")]
+    assert states == ["unknown", "stopped"]
+    assert teleop.newest("", now + 5.0) == SILENT

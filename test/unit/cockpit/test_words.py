@@ -4,11 +4,10 @@ import pytest
 
 from cockpit_server.clients import LOOKS_ONLY
 from cockpit_server.driving import words
-from cockpit_server.driving.words import About, sentence
+from cockpit_server.driving.words import About, Report, sentence
 from tutorial_testing.session_room import ANNA, BOB
 
-MOVING, ARMED, FREE = ({"state": s, "deadman": d} for s, d in
-                       (("driving", "4"), ("armed", "4"), ("armed", "none")))  # fmt: skip
+MOVING, ARMED, FREE = Report("driving"), Report("armed", "", "4"), Report("armed", "", "none")
 PLAYS = ("/rosbag_play",)
 SEAT = About(driver=ANNA, name="Firefox", armed=True, said=ARMED)
 
@@ -48,7 +47,7 @@ READY = {  # -> why it stands and what to do now; how it is driven, without "Esc
         "Stopped: hidden. Release LB and the stick, then hold LB again.", BY_LB),
     "no button": (SEAT._replace(said=FREE),
         "Move the stick: this robot needs no button held.", FREELY),
-    "a button without a name": (SEAT._replace(said={"state": "armed", "deadman": "77"}),
+    "a button without a name": (SEAT._replace(said=Report("armed", "", "77")),
         "Hold button 77, then move the stick.", BY_77),
     "plays": (SEAT._replace(plays=True), "", ""),
     "looks on": (About(), "", BY_LB),

@@ -65,7 +65,7 @@ class Cockpit:
         driving = self._driving = Driving(pages, graphs, joysticks, teleop, robots.moves)
         forms = Forms(driving, self._soon, graphs)
         sources = (
-            robots, joysticks, teleop, driving, Resets(driving, forms, graphs), GraphView(graphs),
+            robots, joysticks, driving, Resets(driving, forms, graphs), GraphView(graphs),
             Topics(feeds, graphs), forms, Repeats(forms), Plots(feeds, graphs), Logs(feeds),
             Doctor(), Bags(driving, self._soon), Recorder(), Surroundings(feeds, graphs),
             Turtles(graphs),

@@ -43,7 +43,7 @@ class Driving(Source):
         self._beats = 0
         self._changes = 0  # who drives, and losses
         self._abouts: dict[str, About] = {}
-        self._drivers: dict[str, str] = {}
+        self._robots: dict[str, dict[str, str]] = {}  # what drives each, and joy2twist's report
         self._driven: str | None = None  # the last time
 
     @property
@@ -188,7 +188,7 @@ class Driving(Source):
         for robot, about in self._abouts.items():
             if about.is_driven_by_node:
                 self.session.moves_on(robot)
-        self._drivers = {robot: words.driver(about) for robot, about in self._abouts.items()}
+        self._robots = {robot: words.in_a_table(about) for robot, about in self._abouts.items()}
 
     def _about(self, robot: str, now: float) -> About:
         session = self.session
@@ -199,7 +199,7 @@ class Driving(Source):
             plays=bool(page) and session.plays,
             armed=bool(page) and session.armed,
             why=session.why if robot == session.stopped else "",
-            said=self._teleop.newest(robot),
+            said=self._teleop.newest(robot, now),
             senders=self._graphs.joysticks(robot),
             moves=self._moves(robot, now),
             is_heard=bool(self._graphs.joystick_listeners(robot)),
@@ -213,17 +213,16 @@ class Driving(Source):
                 "session", driver=session.driver, robot=session.robot, plays=session.plays,
                 yours=self.is_driver(client), armed=session.armed,
             )  # fmt: skip
-        robot = client.watch.look
-        its, about = robot or "", self._abouts.get(robot, About())
-        refusal = self.refusal(client, its, now)
+        robot = client.watch.look or ""
+        about = self._abouts.get(robot, About())
+        refusal = self.refusal(client, robot, now)
         said = {
-            "robot": robot,
-            "who": words.who(about, its, client.number),
-            "ready": words.ready(about, its, client.number, refusal),
+            "who": words.who(about, robot, client.number),
+            "ready": words.ready(about, robot, client.number, refusal),
             "how": words.how_to(about, client.number, not refusal),
             "refusal": words.sentence(refusal),
             "again": words.again(about),
-            "drivers": self._drivers,
+            "robots": self._robots,
         }
         if client.take_if_new("drives", said):
             client.send("drives", **said)

@@ -1,12 +1,20 @@
 """The words for what drives a robot, why it stands, and what to do; all of them here (pure)."""
 
-from typing import Any, Dict, NamedTuple, Optional, Tuple
+from typing import Dict, NamedTuple, Optional, Tuple
 
 from cockpit_server.graph import topic_of
 from gamepad.gamepads import F710
 from node_kit.arming import DRIVING
 
 NO_ROBOT = "no robot is running yet: start one, for example with ./tutorial demo"
+
+
+class Report(NamedTuple):
+    """What joy2twist reports."""
+
+    state: str
+    why: str = ""  # the whole line
+    deadman: Optional[str] = None  # number of that button, "none", or None if not reported
 
 
 class About(NamedTuple):
@@ -17,7 +25,7 @@ class About(NamedTuple):
     plays: bool = False  # whether that page plays a recording
     armed: bool = False  # whether all was seen released
     why: str = ""  # the last stop by a loss of the driver
-    said: Optional[Dict[str, Any]] = None  # what joy2twist reports: see teleop.report_of()
+    said: Optional[Report] = None
     senders: Tuple[str, ...] = ()  # other nodes that publish its joystick's topic
     moves: bool = False  # whether its odometry says so
     is_heard: bool = True  # whether a node subscribes to its joystick's topic
@@ -26,7 +34,7 @@ class About(NamedTuple):
     def is_driven_by_node(self) -> bool:
         if self.driver is not None:
             return False
-        return self.said["state"] == DRIVING if self.said else self.moves and bool(self.senders)
+        return self.said.state == DRIVING if self.said else self.moves and bool(self.senders)
 
 
 def driver(about: About) -> str:
@@ -34,6 +42,12 @@ def driver(about: About) -> str:
     if about.driver is not None:
         return about.name
     return (", ".join(about.senders) or "a joystick") if about.is_driven_by_node else ""
+
+
+def in_a_table(about: About) -> Dict[str, str]:
+    """Return the row of a robot: what drives it, and joy2twist's state and line."""
+    report = about.said or Report("unknown")
+    return {"driver": driver(about), "state": report.state, "why": report.why}
 
 
 def who(about: About, robot: str, page: int) -> str:
@@ -108,7 +122,7 @@ def how_to(about: About, page: int, may_drive: bool) -> str:
 
 def held(about: About) -> Optional[str]:
     """Return the name of the dead-man button, None if joy2twist needs none."""
-    number = (about.said or {}).get("deadman")
+    number = about.said.deadman if about.said else None
     if number is None:
         return "LB"  # as the suite's presets have it
     names = F710["D"].buttons
