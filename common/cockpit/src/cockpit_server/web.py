@@ -99,10 +99,8 @@ class _Page(_Guarded):
 
 
 class _Nothing(_Guarded):
-    async def prepare(self) -> None:
-        await super().prepare()
-        if not self._finished:
-            self.refuse(404, "nothing here")
+    def get(self) -> None:
+        self.refuse(404, "nothing here")
 
 
 class _Files(_Guarded, StaticFileHandler):

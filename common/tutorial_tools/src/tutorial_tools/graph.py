@@ -15,7 +15,7 @@ from urllib.parse import urlsplit
 
 import rosgraph
 
-from node_kit.ros_api import address
+from tutorial_tools.cockpit_page import address
 
 ENDINGS = (".png", ".svg", ".pdf", ".dot")
 TIMEOUT_S = 5.0  # for each answer of the master; on one network it takes milliseconds
