@@ -26,7 +26,6 @@ export class Driver {
     this.mode = "D";
     this.names = null; // {D, X: names of the buttons of that mode}
     this.periodMs = 50;
-    this.onLost = (_why) => {};
     const changed = () => this.#report();
     const lost = (why) => this.release(why);
     this.keys = new Keys(() => this.isDriving, changed);
@@ -63,9 +62,7 @@ export class Driver {
   /** The operator was lost: report it, and hold nothing any more. */
   release(why) {
     this.#letGo();
-    if (!this.isDriving) return;
-    this.link.send("release", { why });
-    this.onLost(why);
+    if (this.isDriving) this.link.send("release", { why });
   }
 
   /**

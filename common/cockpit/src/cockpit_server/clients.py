@@ -7,9 +7,7 @@ from dataclasses import dataclass, field
 from types import SimpleNamespace
 from typing import Any, Callable, ClassVar, Mapping, Sequence
 
-from cockpit_server import limits
 from cockpit_server.access import DRIVER
-from node_kit.throttle import Throttle
 
 BROWSERS = (("Firefox", "Firefox"), ("Edg", "Edge"), ("Chrom", "Chromium"), ("Safari", "Safari"))
 SYSTEMS = (
@@ -37,9 +35,6 @@ class Client:
     close: Callable[[], None]
     watch: SimpleNamespace = field(default_factory=SimpleNamespace)  # what it wants to see: Source
     seen: dict[Any, Any] = field(default_factory=dict)  # about what: the newest version sent
-    flood: int = 0
-    may_send: Throttle = field(default_factory=limits.messages)
-    may_hear_no: Throttle = field(default_factory=limits.refusals)
 
     @property
     def drives(self) -> bool:
@@ -52,9 +47,9 @@ class Client:
     def send(self, kind: str, **fields: Any) -> None:
         self.write(encoded(kind, **fields))
 
-    def refuse(self, what: str, why: str, now: float) -> None:
-        """Report what was not done and why, at a bounded rate."""
-        if self.may_hear_no.ready(now):
+    def refuse(self, what: str, why: str) -> None:
+        """Report what was not done and why, unless that would wait behind other messages."""
+        if not self.is_behind():
             self.send("refused", what=what, why=why)
 
     def take_if_new(self, about: Any, version: Any) -> bool:
@@ -63,15 +58,6 @@ class Client:
             return False
         self.seen[about] = version
         return True
-
-    def allows(self, now: float) -> bool:
-        """Return whether one more message may be read; close the connection after a flood."""
-        if self.may_send.ready(now):
-            return True
-        self.flood += 1
-        if self.flood > limits.LONGEST_FLOOD:
-            self.close()
-        return False
 
 
 class Source:

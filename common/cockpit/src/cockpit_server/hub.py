@@ -75,21 +75,14 @@ class Hub:
     def hear(self, client: Client, data: Any) -> None:
         if client.number not in self.pages:
             return  # it waited, and is gone
-        began_s = time.thread_time()
-        self._hear(client, data, time.monotonic())
-        if not self._driving.is_driver(client):
-            self._messages.spend(time.thread_time() - began_s)
-
-    def _hear(self, client: Client, data: Any, now: float) -> None:
-        if not client.allows(now):
-            client.refuse("messages", "too many messages in a second: some were dropped", now)
-            return
-        kind = "message"
+        began_s, kind = time.thread_time(), "message"
         try:
             kind, fields = self._schema.check(data)
-            self._handlers[kind](client, now, **fields)
+            self._handlers[kind](client, time.monotonic(), **fields)
         except (ValueError, RefusedError) as error:
-            client.refuse(kind, str(error), now)
+            client.refuse(kind, str(error))
+        if not self._driving.is_driver(client):
+            self._messages.spend(time.thread_time() - began_s)
 
     def _on_watch(self, client: Client, _now: float, **fields: Any) -> None:
         # What the page was sent it keeps, whichever tab it shows; a new connection is a new client.

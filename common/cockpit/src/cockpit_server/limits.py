@@ -2,8 +2,6 @@
 
 from typing import Optional
 
-from node_kit.throttle import Throttle
-
 MOST_PAGES = 64  # a class, each with a page and a phone
 MOST_CONNECTIONS = 256  # each takes a file descriptor, of which a process may have 1024
 LONGEST_IDLE_S = 20.0  # a connection on which nothing is asked
@@ -15,7 +13,6 @@ LONGEST_HEADER = 16384  # bytes
 LONGEST_BODY = 1024  # bytes; nothing is uploaded
 # What waits in the kernel for a page that does not read [bytes]; the kernel doubles it.
 SEND_BUFFER = 65536
-LONGEST_FLOOD = 5000  # messages too many, after which the connection is closed
 
 SHARE = 0.3  # [part of the thread] all messages of pages that do not drive, and all HTTP requests
 GIVE_S = 0.003  # [of each 0.01 s] what is sent to pages, one after the other
@@ -23,16 +20,6 @@ MESSAGE_S = 0.0002  # receiving a message, whatever it asks for
 MESSAGES_BURST_S = 0.01  # that messages may use at once, while the driver waits
 REQUEST_S = 0.002  # answering an HTTP request; measured: 1 to 2 ms
 REQUESTS_BURST_S = 0.1  # that requests may use at once: a page loads 25 files
-
-
-def messages() -> Throttle:
-    """Limit those of a page: it sends each change of a stick; fast gamepads have 125 in 1 s."""
-    return Throttle(250.0, burst=250.0)
-
-
-def refusals() -> Throttle:
-    """Limit what a page is told that it may not."""
-    return Throttle(2.0, burst=10.0)
 
 
 class Budget:

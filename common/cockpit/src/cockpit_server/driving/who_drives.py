@@ -177,8 +177,10 @@ class Driving(Source):
         self._changes += 1
         if number in self._pages:
             keeps = number == self.session.driver
-            again, text = keeps and not self.session.plays, words.lost_text(why, keeps)
-            self._pages[number].send("lost", why=why, text=text, again=again)
+            may_go_on = keeps and not self.session.plays
+            todo = words.again(self._abouts.get(self.session.robot, About())) if may_go_on else ""
+            text = f"{words.lost_text(why, keeps)} {todo}".strip()
+            self._pages[number].send("lost", text=text, keeps=may_go_on)
 
     def collect(self, clients: Sequence[Client], now: float) -> None:
         if self._driven not in (None, self.driven):
@@ -221,7 +223,6 @@ class Driving(Source):
             "ready": words.ready(about, robot, client.number, refusal),
             "how": words.how_to(about, client.number, not refusal),
             "refusal": words.sentence(refusal),
-            "again": words.again(about),
             "robots": self._robots,
         }
         if client.take_if_new("drives", said):

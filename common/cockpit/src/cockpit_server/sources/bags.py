@@ -101,12 +101,13 @@ class Bags(Source):
         self._soon(lambda: self._show(client, opened, why))
 
     def _show(self, client: Client, opened: Opened | None, why: str) -> None:
-        now = time.monotonic()
         self._reading.discard(client.number)
         if opened is None:
-            client.refuse("bag_open", why, now)
+            client.refuse("bag_open", why)
             return
-        self.on_bag_pause(client, now)  # what was started meanwhile is not what is shown
+        self.on_bag_pause(
+            client, time.monotonic()
+        )  # what was started meanwhile is not what is shown
         self._opened[client.number] = opened
         client.seen.pop("bag_at", None)
 
