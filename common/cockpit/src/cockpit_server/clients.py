@@ -9,11 +9,6 @@ from typing import Any, Callable, ClassVar, Mapping, Sequence
 
 from cockpit_server.access import DRIVER
 
-BROWSERS = (("Firefox", "Firefox"), ("Edg", "Edge"), ("Chrom", "Chromium"), ("Safari", "Safari"))
-SYSTEMS = (
-    ("Android", "Android"), ("iPhone", "iPhone"), ("iPad", "iPad"), ("Windows", "Windows"),
-    ("Mac OS", "Mac"), ("CrOS", "ChromeOS"), ("Linux", "Linux"),
-)  # fmt: skip
 Soon = Callable[[Callable[[], object]], None]  # runs an action in the thread of the pages
 LOOKS_ONLY = "this page was opened with the address for viewers: it may only look"
 
@@ -28,13 +23,17 @@ class Client:
 
     number: int
     role: str
-    name: str
+    address: str  # IP address of its machine
     write: Callable[[str], None]  # sends a text, or drops it once the page is closed
     is_behind: Callable[[], bool]  # whether the last text has not gone out yet
     is_cut: Callable[[], bool]  # whether the network to it seems to be down
     close: Callable[[], None]
     watch: SimpleNamespace = field(default_factory=SimpleNamespace)  # what it wants to see: Source
     seen: dict[Any, Any] = field(default_factory=dict)  # about what: the newest version sent
+
+    @property
+    def name(self) -> str:
+        return f"page {self.number} ({self.address})"
 
     @property
     def drives(self) -> bool:
@@ -80,10 +79,3 @@ class Source:
 def encoded(kind: str, **fields: Any) -> str:
     """Return a message as JSON; infinity is a ValueError."""
     return json.dumps({"kind": kind, **fields}, allow_nan=False, separators=(",", ":"))
-
-
-def name_of(user_agent: str, address: str) -> str:
-    """Return a name of a page for people, such as "Chromium on Linux, 192.168.1.5"."""
-    browser = next((name for mark, name in BROWSERS if mark in user_agent), "a program")
-    system = next((f" on {name}" for mark, name in SYSTEMS if mark in user_agent), "")
-    return f"{browser}{system}, {address}"

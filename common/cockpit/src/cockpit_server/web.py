@@ -16,7 +16,7 @@ from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
 from cockpit_server import limits
 from cockpit_server.access import DRIVER, Access, without_token
-from cockpit_server.clients import Client, name_of
+from cockpit_server.clients import Client
 from cockpit_server.hub import Hub
 from node_kit.rospy_patches.newest_only import CUT_AFTER_RESENDS, resends
 
@@ -140,10 +140,9 @@ class _Socket(_Guarded, WebSocketHandler):
         self.stream.socket.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, limits.SEND_BUFFER)
         self.settings["pages"].add(self.stream)
         self.bound_reads()
-        name = name_of(self.request.headers.get("User-Agent", ""), self.address)
         self.client = Client(
-            self.hub.number(), str(self.role), name, self.send, self.stream.writing, self.is_cut,
-            self.stream.close,
+            self.hub.number(), str(self.role), self.address, self.send, self.stream.writing,
+            self.is_cut, self.stream.close,
         )  # fmt: skip
         self.hub.join(self.client)
 

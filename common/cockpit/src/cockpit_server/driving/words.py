@@ -56,8 +56,8 @@ def who(about: About, robot: str, page: int) -> str:
     if about.driver is not None:
         i = about.driver == page
         if about.plays:
-            return f"{'You play' if i else f'{about.name} plays'} a recording to {its}."
-        return f"You drive {its}." if i else f"{about.name} drives {its}."
+            return sentence(f"{'you play' if i else f'{about.name} plays'} a recording to {its}")
+        return sentence(f"{'you drive' if i else f'{about.name} drives'} {its}")
     some = " and ".join(about.senders)
     if about.is_driven_by_node:
         return f"{some or 'A joystick'} drives {its}."
