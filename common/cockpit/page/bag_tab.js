@@ -64,7 +64,6 @@ export class BagTab {
       offer(byId("bag-name"), names.map((name) => [name]));
       if (names.length === 1 && !this.#bag) this.#ask();
     });
-    link.on("hello", ({ role }) => (byId("bag-record").disabled = role !== "driver"));
     link.on("recorder", ({ name }) => {
       this.#records = Boolean(name);
       say(byId("bag-record"), name ? "Stop recording" : "Record all topics");
@@ -76,7 +75,8 @@ export class BagTab {
       this.#refusal = refusal;
       this.#report(this.#at);
     });
-    link.on("hello", () => {
+    link.on("hello", ({ role }) => {
+      byId("bag-record").disabled = role !== "driver";
       this.#report({ playing: false });
       if (this.#bag) link.send("bag_open", { name: this.#bag.path }); // for the server this page is new
     });

@@ -6,7 +6,6 @@ import { GamepadPicture } from "./gamepad_picture.js";
 import { DriverSession } from "./driver_session.js";
 
 const STALE_S = 1; // older news is greyed
-const ON_FLOOR = ".toolbar button, #glass button, #stick";
 const ODOMETRY = [ // name, title, unit, digits
   ["x", "x", " m", 2], ["y", "y", " m", 2], ["yaw", "heading", "°", 1],
   ["v", "speed", " m/s", 2], ["w", "turning", " rad/s", 2], ["covered", "covered", " m", 2],
@@ -89,7 +88,7 @@ export class RobotTab {
   constructor(link, watch, page) {
     this.watch = watch;
     this.page = page;
-    this.floor = new Floor(byId("floor"), () => [...byId("robot").querySelectorAll(ON_FLOOR)]);
+    this.floor = new Floor(byId("floor"), document.querySelector(".toolbar"), byId("glass"));
     this.picture = new GamepadPicture(byId("pad"));
     this.session = new DriverSession(link, page.notice, this);
     link.on("hello", ({ id }) => {
