@@ -10,9 +10,9 @@ const hear = (kind, message) => handlers[kind].forEach((one) => one({kind, ...me
 const byId = (id) => document.getElementById(id);
 import('/page/%s').then((tabs) => { %s });"""
 
-ROBOT_TAB = """const pad = {D: {}, X: {}};
+ROBOT_TAB = """const buttons = {D: [], X: []};
 const hello = (names) => {
-  hear("hello", {id: 1, role: "driver", pad});
+  hear("hello", {id: 1, role: "driver", buttons});
   hear("names", {names});
 };
 const rowOf = (name) => document.querySelector(`#robots [data-robot=${name}]`);

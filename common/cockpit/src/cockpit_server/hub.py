@@ -56,9 +56,8 @@ class Hub:
     def join(self, client: Client) -> None:
         self.pages[client.number] = client
         client.watch = self._schema.watch()
-        pads = {m: {"axes": len(pad.axes), "buttons": pad.buttons} for m, pad in F710.items()}
-        beat_ms = round(1000 * BEAT_S)
-        client.send("hello", id=client.number, role=client.role, beat_ms=beat_ms, pad=pads)
+        buttons = {mode: pad.buttons for mode, pad in F710.items()}
+        client.send("hello", id=client.number, role=client.role, buttons=buttons)
 
     def leave(self, client: Client) -> None:
         self.pages.pop(client.number, None)

@@ -89,7 +89,6 @@ class Joysticks(Source):
         handlers = {topic_of(robot, "joy"): self._hear for robot in robots}
         self._feeds.set_subscriptions(self, handlers, every=False)
         self._newest = {topic: self._newest[topic] for topic in handlers if topic in self._newest}
-        self._rivals = {topic: self._rivals[topic] for topic in handlers if topic in self._rivals}
 
     def send_to(self, client: Client, now: float) -> None:
         robot = client.watch.look

@@ -18,7 +18,7 @@ LOOK_S = 2.0  # how often the folder is looked at for recordings, while a page s
 
 
 class Opened:
-    """What one page has opened. message: not sent yet."""
+    """What one page has opened. message: what it is sent of it."""
 
     def __init__(self, name: str, recording: Recording, message: str) -> None:
         self.name, self.recording, self.message = name, recording, message
@@ -66,9 +66,8 @@ class Bags(Source):
         opened = self._opened.get(client.number)
         if opened is None:
             return
-        if opened.message:
+        if client.take_if_new("bag", opened):
             client.write(opened.message)
-            opened.message = ""
         if opened.player:
             opened.position = opened.player.position(now)
         if not self._driving.plays(opened.player):

@@ -36,7 +36,7 @@ class Surroundings(Source):
     def __init__(self, feeds: Feeds, graph_watch: GraphWatch) -> None:
         self._feeds, self._graphs = feeds, graph_watch
         self._map: dict[str, Any] = {}
-        self._version, self._text = 0, ""
+        self._text = ""  # the places of all robots, as pages get them
         # topic -> (when it came [s], the newest LaserScan, or Odometry in the frame of the map)
         self._newest: dict[str, tuple[float, bytes]] = {}
         # frame -> x, y [m] on the robot, the newest last
@@ -59,15 +59,15 @@ class Surroundings(Source):
             **{topic_of(robot, SCAN): (LaserScan._type, self._keep) for robot in looks & robots},
         })  # fmt: skip
         events = {topic_of(robot, EVENT): (EVENT_TYPE, self._hear_bumper) for robot in robots}
-        if looks and "/map" not in newest and self._map:
-            self._map, self._version = {}, self._version + 1
+        if looks and "/map" not in newest:
+            self._map = {}
         self._feeds.set_subscriptions((self, "newest"), newest, every=False)
         self._feeds.set_subscriptions((self, "events"), there(events), every=True)
         around = {robot: self._around(robot) for robot in sorted(robots)} if self._map else {}
         self._text = encoded("around", robots=around)
 
     def send_to(self, client: Client, now: float) -> None:
-        if client.watch.robots and client.take_if_new("map", self._version):
+        if client.watch.robots and client.take_if_new("map", self._map):
             client.send("map", **self._map)
         if not client.watch.robots or not self._map:
             return
@@ -92,7 +92,6 @@ class Surroundings(Source):
         shown = map_shown(message.data)
         if shown and shown != self._map:
             self._map = shown
-            self._version += 1
 
     def _hear_frames(self, message: Raw, _topic: str) -> None:
         for one in (read(TFMessage, message.data, LONGEST_FRAMES) or TFMessage()).transforms:
