@@ -37,7 +37,7 @@ export class Floor {
   /** robots: {name: {x, y, yaw, age}} [m, rad]; one without a place is not drawn. */
   show(robots) {
     const placed = Object.entries(robots)
-      .map(([name, robot]) => [name, this.around.placed(name, robot)])
+      .map(([name, robot]) => [name, this.around.placed(robot)])
       .filter(([, { x, y, yaw }]) => [x, y, yaw].every(Number.isFinite));
     this.#robots = Object.fromEntries(placed);
     for (const [name, { x, y }] of placed) {

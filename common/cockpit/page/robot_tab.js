@@ -102,7 +102,6 @@ export class RobotTab {
       this.floor.showAll();
       if (this.#names.length < 2) this.floor.setFollow(true);
     });
-    link.on("around", ({ robots }) => this.floor.around.showRobots(robots));
     link.on("scan", (scan) => this.floor.showScan(scan));
     link.on("turtles", ({ pictures }) => this.#showTurtles(pictures));
     link.on("pad", (pad) => this.#showPad(pad));

@@ -31,7 +31,9 @@ PLACE = {"x", "y", "yaw"}
 )  # fmt: skip
 def test_impossible_place_is_left_out(wrong, left_out):
     state = Motion(1.0, -1e6, 0.5, 0.25, -0.5)._replace(**wrong)
-    assert set(shown(state, 1.0, 2.0, 3.0)) == {*PLACE, "v", "w", "covered", "age"} - left_out
+    seen = shown(state, 1.0, 2.0, state, 3.0)
+    assert set(seen["truth"]) == PLACE - left_out
+    assert set(seen) == {*PLACE, "v", "w", "covered", "age", "truth"} - left_out
 
 
 @pytest.mark.parametrize(
@@ -44,24 +46,46 @@ def test_way_grows_only_by_driving(x, yaw, way):
     assert covered(last, Motion(x, 0.0, yaw, 0.5, 0.0), 7.0) == pytest.approx(way)
 
 
-def test_page_gets_all_robots_also_while_they_stand():
-    topics, graphs = Topics(), SimpleNamespace(graph=graph("ada", "bob"))
-    robots, one = Robots(topics, graphs), page(robots=True)
+class Seen(Topics):
+    """A page that looks at robots."""
 
-    def place(robot, x):
+    def __init__(self, graph):
+        super().__init__()
+        self.graphs = SimpleNamespace(graph=graph)
+        self.robots, self.page = Robots(self, self.graphs), page(robots=True)
+        self.look()
+
+    def look(self):
+        """Return the robots that the page is sent."""
+        [newest] = [said for said in look(self.robots, self.page)[0] if said["kind"] == "robots"]
+        return newest["robots"]
+
+    def place(self, topic, x):
         odometry = Odometry()
         odometry.pose.pose.position.x = x
-        topics.hear(f"/{robot}/odom", odometry)
+        self.hear(topic, odometry)
 
-    def seen():
-        newest = next(said for said in look(robots, one)[0] if said["kind"] == "robots")
-        return {name: state["x"] for name, state in newest["robots"].items()}
 
-    assert seen() == {}
-    for robot in ("ada", "bob"):
-        place(robot, 1.0)
-    assert seen() == {"ada": 1.0, "bob": 1.0}
-    place("bob", 2.0)
-    assert [seen(), seen()] == [{"ada": 1.0, "bob": 2.0}] * 2  # that the server is there
-    graphs.graph = graph("bob")
-    assert seen() == {"bob": 2.0}
+def test_page_gets_all_robots_also_while_they_stand():
+    seen = Seen(graph("ada", "bob"))
+    assert seen.look() == {}
+    for robot, x in (("ada", 1.0), ("bob", 2.0)):
+        seen.place(f"/{robot}/odom", x)
+    for _ in range(2):  # which shows that the server is there
+        assert {name: state["x"] for name, state in seen.look().items()} == {"ada": 1.0, "bob": 2.0}
+    seen.graphs.graph = graph("bob")
+    assert list(seen.look()) == ["bob"]
+
+
+def test_a_robot_has_its_place_in_the_map_and_its_pressed_bumpers():
+    bumper = "/ada/mobile_base/events/bumper"
+    types = {"/ada/odom": ODOMETRY, "/ada/base_pose_ground_truth": ODOMETRY,
+             bumper: "kobuki_msgs/BumperEvent"}  # fmt: skip
+    seen = Seen(Graph(publishers={topic: {"/sim"} for topic in types}, types=types))
+    seen.place("/ada/base_pose_ground_truth", 1.0)
+    seen.place("/ada/odom", 2.0)
+    assert seen.look()["ada"]["truth"] == {"x": 1.0, "y": 0.0, "yaw": 0.0}
+    malformed = [(data, [1]) for data in (b"", b"\1", b"\3\1", b"\0\1\1")]
+    for data, pressed in [(b"\1\1", [1]), *malformed, (b"\0\1", [0, 1]), (b"\1\0", [0])]:
+        seen.hear(bumper, data)
+        assert seen.look()["ada"]["bumpers"] == pressed
