@@ -35,6 +35,7 @@ class Hub:
             self._handlers.update({kind: getattr(one, f"on_{kind}") for kind in one.messages})
         self._numbers = itertools.count(1)
         self._messages = limits.Budget(limits.MESSAGES_BURST_S, limits.MESSAGE_S)
+        self._sending = limits.Budget(limits.SENDING_BURST_S, 0.0)
         self._requests = limits.Budget(limits.REQUESTS_BURST_S, limits.REQUEST_S)  # HTTP
         self._due: deque[int] = deque()  # pages whose turn it is to be sent something
         self._may_beat = Throttle(1 / BEAT_S, burst=1.5)  # even, though the ticks are not
@@ -81,7 +82,7 @@ class Hub:
         except (ValueError, RefusedError) as error:
             client.refuse(kind, str(error))
         if not self._driving.is_driver(client):
-            self._messages.spend(time.thread_time() - began_s)
+            self._messages.spend(time.thread_time() - began_s - limits.MESSAGE_S)
 
     def _on_watch(self, client: Client, _now: float, **fields: Any) -> None:
         # What the page was sent it keeps, whichever tab it shows; a new connection is a new client.
@@ -102,9 +103,9 @@ class Hub:
             self._guard(type(source).__name__, getattr(source, method), *arguments)
 
     def _give(self, now: float) -> None:
-        """Send what pages lack, one page after the other, for a while."""
-        end_s = time.thread_time() + limits.GIVE_S
-        while self._due and time.thread_time() < end_s:
-            client = self.pages.get(self._due.popleft())
+        """Send what pages lack, one page after the other, as far as the budget goes."""
+        while self._due and not self._sending.wait_s(now):
+            client, began_s = self.pages.get(self._due.popleft()), time.thread_time()
             if client and not client.is_behind():  # else it gets the newest once it has read
                 self._each("send_to", client, now)
+            self._sending.spend(time.thread_time() - began_s)

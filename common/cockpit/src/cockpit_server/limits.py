@@ -14,10 +14,11 @@ LONGEST_BODY = 1024  # bytes; nothing is uploaded
 # What waits in the kernel for a page that does not read [bytes]; the kernel doubles it.
 SEND_BUFFER = 65536
 
-SHARE = 0.3  # [part of the thread] all messages of pages that do not drive, and all HTTP requests
-GIVE_S = 0.003  # [of each 0.01 s] what is sent to pages, one after the other
-MESSAGE_S = 0.0002  # receiving a message, whatever it asks for
-MESSAGES_BURST_S = 0.01  # that messages may use at once, while the driver waits
+# [part of the thread] each of: messages of pages that do not drive, what pages are sent, HTTP.
+SHARE = 0.15
+SENDING_BURST_S = 0.003  # that what is sent to pages, one after the other, may use at once
+MESSAGE_S = 0.001  # paid before a message is read: those that wait do not come all at once
+MESSAGES_BURST_S = 0.005  # that messages may use at once, while the driver waits
 REQUEST_S = 0.002  # answering an HTTP request; measured: 1 to 2 ms
 REQUESTS_BURST_S = 0.1  # that requests may use at once: a page loads 25 files
 
