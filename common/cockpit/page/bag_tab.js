@@ -41,7 +41,6 @@ export class BagTab {
   #bag = null; // as the server described it
   #at = { playing: false, topic: "" }; // as the server says
   #refusal = ""; // why this page may not publish now
-  #yours = false; // this page plays it
   #scrubbed = 0; // when the slider was last moved by hand
   #position = 0; // of the recording [s], which a zoomed slider may not show
   #hidden = new Set(); // the names of hidden curves
@@ -80,7 +79,6 @@ export class BagTab {
       this.#report({ playing: false });
       if (this.#bag) link.send("bag_open", { name: this.#bag.path }); // for the server this page is new
     });
-    link.on("session", ({ yours, plays }) => (this.#yours = yours && plays));
     this.#listen();
   }
 
@@ -102,7 +100,7 @@ export class BagTab {
       this.link.send("bag_seek", { position: Number(position.value) });
     };
     // A change while it plays counts at once.
-    for (const id of ["bag-rate", "bag-loop", "bag-topic"]) byId(id).onchange = () => this.#yours && this.#play();
+    for (const id of ["bag-rate", "bag-loop", "bag-topic"]) byId(id).onchange = () => this.#at.playing && this.#play();
     byId("bag-zoom").onclick = () => this.chart.wholeRange();
   }
 

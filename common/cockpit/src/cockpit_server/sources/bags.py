@@ -22,7 +22,7 @@ class Opened:
 
     def __init__(self, name: str, recording: Recording, message: str) -> None:
         self.name, self.recording, self.message = name, recording, message
-        self.position, self.rate, self.loop, self.topic = 0.0, 1.0, False, ""
+        self.position, self.topic = 0.0, ""
         self.player: Player | None = None
 
 
@@ -72,10 +72,8 @@ class Bags(Source):
             opened.position = opened.player.position(now)
         if not self._driving.plays(opened.player):
             opened.player = None
-        at = {
-            "position": round(opened.position, 3), "playing": opened.player is not None,
-            "rate": opened.rate, "loop": opened.loop, "topic": opened.topic,
-        }  # fmt: skip
+        plays = opened.player is not None
+        at = {"position": round(opened.position, 3), "playing": plays, "topic": opened.topic}
         if client.watch.bag and client.take_if_new("bag_at", at):
             client.send("bag_at", **at)
 
@@ -123,7 +121,7 @@ class Bags(Source):
         player = Player(messages, duration, rate, loop)
         player.seek(opened.position, now)
         self._driving.play(client, robot, player, now)
-        opened.topic, opened.rate, opened.loop, opened.player = topic, rate, loop, player
+        opened.topic, opened.player = topic, player
 
     def on_bag_pause(self, client: Client, now: float) -> None:
         opened = self._opened.get(client.number)
