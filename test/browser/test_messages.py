@@ -10,8 +10,11 @@ const hear = (kind, message) => handlers[kind].forEach((one) => one({kind, ...me
 const byId = (id) => document.getElementById(id);
 import('/page/%s').then((tabs) => { %s });"""
 
-ROBOT_TAB = """const pad = {D: {}, X: {}};
-const hello = (robots) => hear("hello", {id: 1, role: "driver", robots, pad});
+ROBOT_TAB = """const buttons = {D: [], X: []};
+const hello = (names) => {
+  hear("hello", {id: 1, role: "driver", buttons});
+  hear("names", {names});
+};
 const rowOf = (name) => document.querySelector(`#robots [data-robot=${name}]`);
 const tab = new tabs.RobotTab(link, watch, {notice() {}, moved() {}});"""
 TWO = ["robot_1", "robot_2"]

@@ -41,7 +41,6 @@ export class BagTab {
   #bag = null; // as the server described it
   #at = { playing: false, topic: "" }; // as the server says
   #refusal = ""; // why this page may not publish now
-  #yours = false; // this page plays it
   #scrubbed = 0; // when the slider was last moved by hand
   #position = 0; // of the recording [s], which a zoomed slider may not show
   #hidden = new Set(); // the names of hidden curves
@@ -64,7 +63,6 @@ export class BagTab {
       offer(byId("bag-name"), names.map((name) => [name]));
       if (names.length === 1 && !this.#bag) this.#ask();
     });
-    link.on("hello", ({ role }) => (byId("bag-record").disabled = role !== "driver"));
     link.on("recorder", ({ name }) => {
       this.#records = Boolean(name);
       say(byId("bag-record"), name ? "Stop recording" : "Record all topics");
@@ -76,11 +74,11 @@ export class BagTab {
       this.#refusal = refusal;
       this.#report(this.#at);
     });
-    link.on("hello", () => {
+    link.on("hello", ({ role }) => {
+      byId("bag-record").disabled = role !== "driver";
       this.#report({ playing: false });
       if (this.#bag) link.send("bag_open", { name: this.#bag.path }); // for the server this page is new
     });
-    link.on("session", ({ yours, plays }) => (this.#yours = yours && plays));
     this.#listen();
   }
 
@@ -102,7 +100,7 @@ export class BagTab {
       this.link.send("bag_seek", { position: Number(position.value) });
     };
     // A change while it plays counts at once.
-    for (const id of ["bag-rate", "bag-loop", "bag-topic"]) byId(id).onchange = () => this.#yours && this.#play();
+    for (const id of ["bag-rate", "bag-loop", "bag-topic"]) byId(id).onchange = () => this.#at.playing && this.#play();
     byId("bag-zoom").onclick = () => this.chart.wholeRange();
   }
 

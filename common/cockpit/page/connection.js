@@ -14,24 +14,23 @@ const GIVE_UP_MS = {
 const HOPE_MS = 6000; // of attempts in vain; then a person has to act
 const FULL = 4096; // [byte] waiting to be sent: what is added now would come late
 
-export class Link {
+export class Link extends EventTarget {
   #socket = null;
-  #handlers = new Map();
   heardAt = 0; // when the newest message came [ms since 1970], also on a machine that slept since
   #lastHeard = 0; // or when the connection was started
   #lostAt = 0;
   #state = "connecting";
-  #robots = {}; // the newest of each, as a message has only those that changed
 
   /** onState(state): "open", "lost" or, after a while, "gone", at each change. */
   constructor(onState) {
+    super();
     this.onState = onState;
     setInterval(() => this.#watch(), 250);
   }
 
   /** Call handler(message) for each message of a kind. */
   on(kind, handler) {
-    this.#handlers.set(kind, [...(this.#handlers.get(kind) ?? []), handler]);
+    this.addEventListener(kind, (/** @type {any} */ event) => handler(event.detail));
   }
 
   connect() {
@@ -68,9 +67,7 @@ export class Link {
     this.heardAt = Date.now();
     this.#become("open"); // the connection is new, or was silent
     const message = JSON.parse(text);
-    const before = message.all ? {} : this.#robots;
-    if (message.kind === "robots") message.robots = this.#robots = { ...before, ...message.robots };
-    for (const handler of this.#handlers.get(message.kind) ?? []) handler(message);
+    this.dispatchEvent(new CustomEvent(message.kind, { detail: message }));
   }
 
   #watch() {

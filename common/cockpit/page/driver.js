@@ -10,6 +10,7 @@ import { Keys } from "./keys.js";
 import { Pad } from "./pad.js";
 import { isAtRest, positions } from "./f710.js";
 
+const PERIOD_MS = 50; // of inputs while nothing changes, as that of the server's beats
 const LOOK_MS = 10; // between two looks at gamepads; the browser reads them about every 16 ms
 const RIGHT = 2, RIGHT_HELD = 2; // of a mouse, as event.button and in event.buttons
 
@@ -25,16 +26,13 @@ export class Driver {
     this.link = link;
     this.mode = "D";
     this.names = null; // {D, X: names of the buttons of that mode}
-    this.periodMs = 50;
-    this.onLost = (_why) => {};
     const changed = () => this.#report();
     const lost = (why) => this.release(why);
     this.keys = new Keys(() => this.isDriving, changed);
     this.glass = new TouchStick(glass, changed, lost);
     this.pad = new Pad(lost);
-    link.on("hello", (hello) => {
-      this.names = { D: hello.pad.D.buttons, X: hello.pad.X.buttons };
-      this.periodMs = hello.beat_ms;
+    link.on("hello", ({ buttons }) => {
+      this.names = buttons;
       this.stop(); // a new connection drives nothing
     });
     link.on("beat", (beat) => (this.#beat = beat.n));
@@ -63,9 +61,7 @@ export class Driver {
   /** The operator was lost: report it, and hold nothing any more. */
   release(why) {
     this.#letGo();
-    if (!this.isDriving) return;
-    this.link.send("release", { why });
-    this.onLost(why);
+    if (this.isDriving) this.link.send("release", { why });
   }
 
   /**
@@ -126,7 +122,7 @@ export class Driver {
     const { axes, buttons } = positions(this.mode, this.names[this.mode], hands);
     const now = performance.now();
     const held = JSON.stringify([source, axes, buttons]);
-    if (held === this.#sent && now - this.#sentAt < this.periodMs - LOOK_MS / 2) return;
+    if (held === this.#sent && now - this.#sentAt < PERIOD_MS - LOOK_MS / 2) return;
     const message = { n: ++this.#n, t: now, beat: this.#beat, axes, buttons, pad: stamp, source };
     if (!this.link.send("input", message)) return;
     this.#sent = held;

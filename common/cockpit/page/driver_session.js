@@ -5,7 +5,7 @@ import { Driver } from "./driver.js";
 
 const NOTHING = {
   session: { driver: null, yours: false, robot: "" },
-  drives: { drivers: {}, who: "", ready: "", how: "", again: "", refusal: "" },
+  drives: { robots: {}, who: "", ready: "", how: "", refusal: "" },
 };
 const STALE_S = 1; // an older speed is not shown
 const CUT = "This page no longer drives: its connection was lost. Press Drive from this page to go on.";
@@ -21,11 +21,13 @@ export class DriverSession {
     this.notice = notice;
     this.tab = tab;
     this.driver = new Driver(link, byId("glass"));
-    this.driver.onLost = (why) => this.#advise(`Stopped: ${why}.`);
     link.on("hello", ({ role }) => this.#begin(role));
     link.on("session", (session) => this.#take(session));
     link.on("drives", (drives) => this.#hear({ drives }));
-    link.on("lost", ({ text, again }) => (again ? this.#advise(text) : notice(text)));
+    link.on("lost", ({ text, keeps }) => {
+      if (keeps) this.#advice = text;
+      notice(text);
+    });
     byId("take").onclick = () => link.send("drive", { robot: tab.look, mode: byId("mode").value });
     byId("stop").onclick = () => this.#stop();
     byId("reset").onclick = () => {
@@ -44,9 +46,9 @@ export class DriverSession {
     return this.#now.session.yours;
   }
 
-  /** Robot -> the name of what drives it, or "". */
-  get drivers() {
-    return this.#now.drives.drivers;
+  /** Robot -> {driver: the name of what drives it, or ""; state, why: of joy2twist's report}. */
+  get robots() {
+    return this.#now.drives.robots;
   }
 
   /** v, w, age: of the chosen robot [m/s, rad/s, s]; without them: unknown. */
@@ -114,11 +116,6 @@ export class DriverSession {
     if (session.yours) this.driver.mode = byId("mode").value;
     if (session.yours && session.armed) this.notice(""); // it may go on
     this.#hear({ session });
-  }
-
-  #advise(text) {
-    this.#advice = `${text} ${this.#now.drives.again}`;
-    this.notice(this.#advice);
   }
 
   /** Stop the robot: this page's hands let go at once, and leave the session; another driver is stopped. */

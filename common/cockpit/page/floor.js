@@ -1,6 +1,6 @@
 /** The floor from above: grid, map, trails, robots. x is to the right, y up, as on paper. */
 
-import { drawNames, overlap } from "./names.js";
+import { drawNames } from "./names.js";
 import { drawBumpers, Surroundings } from "./surroundings.js";
 
 const BODY_RADIUS_M = 0.177; // TurtleBot 2
@@ -11,8 +11,6 @@ const GRID_PX = 45; // least distance of two lines of the grid
 const PAN = { ArrowLeft: [40, 0], ArrowRight: [-40, 0], ArrowUp: [0, 40], ArrowDown: [0, -40] };
 const ZOOM = { "+": 1.25, "-": 0.8 };
 
-const area = ({ left, top, right, bottom }) => Math.max(0, right - left) * Math.max(0, bottom - top);
-
 export class Floor {
   #centre = [0, 0]; // [m] in the middle of the free part of the canvas
   #scale = SCALE.start;
@@ -22,10 +20,11 @@ export class Floor {
   #due = false;
   #free = { left: 0, top: 0, right: 0, bottom: 0 }; // the part of the canvas that nothing covers [pixel]
 
-  /** above(): the elements that cover the canvas. Robots and texts are drawn beside them. */
-  constructor(canvas, above) {
+  /** toolbar, glass: what covers the canvas from above, and maybe from below. Texts are between. */
+  constructor(canvas, toolbar, glass) {
     this.canvas = canvas;
-    this.above = above;
+    this.toolbar = toolbar;
+    this.glass = glass;
     this.follow = true;
     this.look = ""; // the robot that is followed
     this.onFollow = (_on) => {};
@@ -38,7 +37,7 @@ export class Floor {
   /** robots: {name: {x, y, yaw, age}} [m, rad]; one without a place is not drawn. */
   show(robots) {
     const placed = Object.entries(robots)
-      .map(([name, robot]) => [name, this.around.placed(name, robot)])
+      .map(([name, robot]) => [name, this.around.placed(robot)])
       .filter(([, { x, y, yaw }]) => [x, y, yaw].every(Number.isFinite));
     this.#robots = Object.fromEntries(placed);
     for (const [name, { x, y }] of placed) {
@@ -102,25 +101,12 @@ export class Floor {
     this.#drawSoon();
   }
 
-  /** The boxes of the elements above the canvas, in its pixels. */
-  #boxes() {
-    const corner = this.canvas.getBoundingClientRect();
-    const boxes = this.above().map((one) => one.getBoundingClientRect());
-    return boxes
-      .filter(({ width }) => width) // it is shown
-      .map(({ x, y, width, height }) => new DOMRect(x - corner.x, y - corner.y, width, height));
-  }
-
-  /** Of the four strips beside each box keep the largest. */
   #findFree() {
-    const { clientWidth: right, clientHeight: bottom } = this.canvas;
-    this.#free = { left: 0, top: 0, right, bottom };
-    for (const box of this.#boxes()) {
-      if (!overlap(box, this.#free)) continue;
-      const cuts = [{ left: box.right }, { right: box.left }, { top: box.bottom }, { bottom: box.top }];
-      const strips = cuts.map((cut) => ({ ...this.#free, ...cut }));
-      this.#free = strips.reduce((best, strip) => (area(strip) > area(best) ? strip : best));
-    }
+    const { clientWidth: right, clientHeight: height } = this.canvas;
+    const corner = this.canvas.getBoundingClientRect();
+    const top = this.toolbar.getBoundingClientRect().bottom - corner.top;
+    const edge = this.glass.hidden ? height : this.glass.getBoundingClientRect().top - corner.top;
+    this.#free = { left: 0, top, right, bottom: Math.min(height, edge) };
   }
 
   /** @returns {any} [x, y] [pixel] */
@@ -208,7 +194,7 @@ export class Floor {
     for (const [name, trail] of this.#trails) this.#drawTrail(paper, name, trail);
     const robots = Object.entries(this.#robots).map(([name, robot]) => this.#drawRobot(paper, name, robot));
     robots.sort((a, b) => Number(b.isChosen) - Number(a.isChosen)); // its name gets the best place
-    drawNames(paper, robots, this.#boxes(), { width, height });
+    drawNames(paper, robots, this.#free);
   }
 
   #drawGrid(paper, width, height) {
@@ -222,18 +208,16 @@ export class Floor {
       const first = Math.ceil(from / step);
       return Array.from({ length: Math.floor(to / step) - first + 1 }, (_, i) => (first + i) * step);
     };
-    const boxes = this.#boxes();
+    const { top: ceiling, bottom: ground } = this.#free;
     pen.font = "12px system-ui, sans-serif";
     pen.lineWidth = 1;
     const draw = (metres, ends, left, bottom) => {
       stroke(paper, ends, metres === 0 ? "--axis" : "--grid");
-      const text = `${metres} m`;
-      const box = new DOMRect(left, bottom - 12, pen.measureText(text).width, 12);
       pen.fillStyle = colour("--muted");
-      if (!boxes.some((one) => overlap(one, box))) pen.fillText(text, left, bottom);
+      if (bottom > ceiling + 12 && bottom < ground) pen.fillText(`${metres} m`, left, bottom);
     };
     for (const x of multiples(west, east)) {
-      draw(x, [[x, north], [x, south]], this.#toPixels([x, 0])[0] + 3, height - 6);
+      draw(x, [[x, north], [x, south]], this.#toPixels([x, 0])[0] + 3, ground - 6);
     }
     for (const y of multiples(south, north)) {
       draw(y, [[west, y], [east, y]], 4, this.#toPixels([0, y])[1] - 4);

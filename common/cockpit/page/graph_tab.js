@@ -33,7 +33,7 @@ const PANEL = `
 export class GraphTab {
   static title = "Graph";
   static panel = PANEL;
-  static watches = { graph: false, node: null };
+  static watches = { graph: false };
 
   #chosen = null; // "node /a" or "topic /b"
   #drawn = "";
@@ -53,26 +53,18 @@ export class GraphTab {
     byId("graph-search").oninput = () => this.#find(false);
     byId("graph-search").addEventListener("keydown", ({ key }) => key === "Enter" && this.#find(true));
     new ResizeObserver(() => this.#resize()).observe(this.picture);
-    link.on("node", (node) => this.#chosen === `node ${node.name}` && this.#showNode(node));
   }
 
   show(on) {
     if (on) this.#draw(this.#graph);
-    this.watch({ graph: on, node: on ? this.#node : null });
-  }
-
-  /** The chosen node, or null. */
-  get #node() {
-    return this.#chosen?.startsWith("node ") ? this.#chosen.slice(5) : null;
+    this.watch({ graph: on });
   }
 
   #choose(item) {
     this.#chosen = item;
     say(byId("graph-title"), item.replace(/^./, (letter) => letter.toUpperCase()));
-    this.details.replaceChildren(element("p", { className: "hint" }, "…"));
     this.#mark();
-    if (!this.#node) this.#showTopic(item.slice(6));
-    this.watch({ node: this.#node });
+    this.#showDetails();
   }
 
   #mark() {
@@ -151,6 +143,7 @@ export class GraphTab {
     this.picture.scrollTo(...scrolled);
     this.#mark();
     this.#search();
+    if (this.#chosen) this.#showDetails();
     if (focused) this.picture.querySelector(`[data-item="${CSS.escape(focused)}"]`)?.focus();
   }
 
@@ -180,39 +173,36 @@ export class GraphTab {
     return box;
   }
 
-  #fill(kind, name, entries) {
-    const list = entries.map(([title, key, value]) => element("div", {},
-      element("dt", {}, title), element("dd", { "data-value": key }, ...[value].flat())));
-    this.details.dataset.about = `${kind} ${name}`;
-    this.details.replaceChildren(element("dl", { className: "details" }, ...list));
-  }
-
-  /** Buttons that choose other nodes or topics, or a dash. */
-  #links(kind, names) {
-    if (!names?.length) return "–";
-    const choose = (name) => () => this.#choose(`${kind} ${name}`);
-    return [...names].sort(byName).map((name) => element("button", { className: "link", onclick: choose(name) }, name));
-  }
-
-  #showTopic(name) {
-    const { topics, edges } = this.#graph;
-    const item = `topic ${name}`;
-    const nodes = (near, far) => edges.filter((edge) => edge[near] === item).map((edge) => edge[far].replace("node ", ""));
-    this.#fill("topic", name, [
+  /** What is known of the chosen node or topic. */
+  #showDetails() {
+    const [kind, name] = this.#chosen.split(" ");
+    const { nodes, topics, edges } = this.#graph;
+    const next = (item) => edges.filter(({ from }) => from === item).map(({ to }) => to);
+    const last = (item) => edges.filter(({ to }) => to === item).map(({ from }) => from);
+    const { machine, services } = nodes.find((node) => node.name === name) ?? {};
+    const [before, after] = [last(this.#chosen), next(this.#chosen)];
+    const others = new Set([...before.flatMap(last), ...after.flatMap(next)]);
+    others.delete(this.#chosen);
+    const entries = kind === "topic" ? [
       ["Type", "type", topics.find((topic) => topic.name === name)?.type || "–"],
-      ["Publishers", "publishers", this.#links("node", nodes("to", "from"))],
-      ["Subscribers", "subscribers", this.#links("node", nodes("from", "to"))],
+      ["Publishers", "publishers", this.#links(before)],
+      ["Subscribers", "subscribers", this.#links(after)],
       ["Rate and messages", "messages", element("a", { href: `#topics${name}` }, "in the tab Topics")],
-    ]);
+    ] : [
+      ["Machine", "machine", machine || "–"],
+      ["Publishes", "publishes", this.#links(after)],
+      ["Subscribes to", "subscribes", this.#links(before)],
+      ["Connected to", "speaks_to", this.#links([...others])],
+      ["Services", "services", services?.join(", ") || "–"],
+    ];
+    this.details.replaceChildren(element("dl", { className: "details" }, ...entries.map(([title, key, value]) =>
+      element("div", {}, element("dt", {}, title), element("dd", { "data-value": key }, ...[value].flat())))));
   }
 
-  #showNode({ name, machine, pid, speaks_to: speaksTo, publishes, subscribes, services }) {
-    this.#fill("node", name, [
-      ["Machine", "machine", machine || "–"], ["Process", "pid", String(pid ?? "–")],
-      ["Publishes", "publishes", this.#links("topic", publishes)],
-      ["Subscribes to", "subscribes", this.#links("topic", subscribes)],
-      ["Connected to", "speaks_to", this.#links("node", speaksTo)],
-      ["Services", "services", services?.join(", ") || "–"],
-    ]);
+  /** Buttons that choose nodes or topics, or a dash. */
+  #links(items) {
+    const button = (item) => element(
+      "button", { className: "link", onclick: () => this.#choose(item) }, item.split(" ")[1]);
+    return items.length ? items.sort(byName).map(button) : "–";
   }
 }

@@ -9,18 +9,18 @@ export const overlap = (a, b) => a.left < b.right && b.left < a.right && a.top <
 const around = (x, y, w, h) => ({ left: x - w, right: x + w, top: y - h, bottom: y + h }); // half sizes
 
 /**
- * robots: [{name, x, y, radius, width}], width: of the name; taken: boxes that no name may overlap;
- * size: {width, height} of the picture. All in pixels.
+ * robots: [{name, x, y, radius, width}], width: of the name; free: {left, top, right, bottom} of the
+ * part of the picture that nothing covers. All in pixels.
  * Returns [{name, x, y, ring}]: the middle of each name. One that fits nowhere is at its robot's right.
  */
-export function placeNames(robots, taken, size) {
-  const boxes = [...taken, ...robots.map(({ x, y, radius }) => around(x, y, radius, radius))];
+export function placeNames(robots, free) {
+  const boxes = robots.map(({ x, y, radius }) => around(x, y, radius, radius));
   return robots.map(({ name, x, y, radius, width }) => {
     const boxOf = ({ ring, dx, dy }) => around(
       x + dx * (radius + GAP + width / 2 + ring * HEIGHT), y + dy * (radius + (ring + 0.5) * HEIGHT),
       width / 2 + 1, HEIGHT / 2);
-    const isFree = (box) => box.left >= 0 && box.right <= size.width && box.top >= 0
-      && box.bottom <= size.height && !boxes.some((other) => overlap(box, other));
+    const isFree = (box) => box.left >= free.left && box.right <= free.right && box.top >= free.top
+      && box.bottom <= free.bottom && !boxes.some((other) => overlap(box, other));
     const place = PLACES.find((one) => isFree(boxOf(one))) ?? PLACES[0];
     const box = boxOf(place);
     boxes.push(box);
@@ -28,15 +28,16 @@ export function placeNames(robots, taken, size) {
   });
 }
 
-/** paper: see Floor. robots: [{name, x, y, radius, isChosen}]. taken, size: see placeNames(). */
-export function drawNames({ pen, colour }, robots, taken, size) {
+/** paper: see Floor. robots: [{name, x, y, radius, isChosen}]. free: see placeNames(). */
+export function drawNames({ pen, colour }, robots, free) {
+  const { clientWidth: width, clientHeight: height } = pen.canvas;
   const font = ({ isChosen }) => `${isChosen ? "bold " : ""}13px system-ui, sans-serif`;
-  const seen = robots.filter(({ x, y }) => x >= 0 && x <= size.width && y >= 0 && y <= size.height);
+  const seen = robots.filter(({ x, y }) => x >= 0 && x <= width && y >= 0 && y <= height);
   const measured = seen.map((robot) => {
     pen.font = font(robot);
     return { ...robot, width: pen.measureText(robot.name).width };
   });
-  const places = placeNames(measured, taken, size);
+  const places = placeNames(measured, free);
   pen.save();
   Object.assign(pen, { textAlign: "center", textBaseline: "middle", lineJoin: "round" });
   Object.assign(pen, { strokeStyle: colour("--muted"), lineWidth: 1 });

@@ -6,7 +6,6 @@ import { GamepadPicture } from "./gamepad_picture.js";
 import { DriverSession } from "./driver_session.js";
 
 const STALE_S = 1; // older news is greyed
-const ON_FLOOR = ".toolbar button, #glass button, #stick";
 const ODOMETRY = [ // name, title, unit, digits
   ["x", "x", " m", 2], ["y", "y", " m", 2], ["yaw", "heading", "°", 1],
   ["v", "speed", " m/s", 2], ["w", "turning", " rad/s", 2], ["covered", "covered", " m", 2],
@@ -79,7 +78,6 @@ export class RobotTab {
   static panel = PANEL;
   static watches = { robots: true, look: null, turtles: false };
 
-  #teleop = new Map(); // robot -> what its joy2twist reports
   #names = []; // of the robots
   #look = null; // the name of the chosen robot, once there is one
   asked = null; // the robot that a person has chosen, or the address
@@ -90,10 +88,13 @@ export class RobotTab {
   constructor(link, watch, page) {
     this.watch = watch;
     this.page = page;
-    this.floor = new Floor(byId("floor"), () => [...byId("robot").querySelectorAll(ON_FLOOR)]);
+    this.floor = new Floor(byId("floor"), document.querySelector(".toolbar"), byId("glass"));
     this.picture = new GamepadPicture(byId("pad"));
     this.session = new DriverSession(link, page.notice, this);
-    link.on("hello", (hello) => this.#meet(hello));
+    link.on("hello", ({ id }) => {
+      say(byId("me"), `page ${id}`);
+      if (this.#look !== null) this.lookAt(this.#look);
+    });
     link.on("names", ({ names }) => this.#showNames(names));
     link.on("robots", ({ robots }) => this.#showRobots(robots));
     link.on("map", (map) => {
@@ -101,11 +102,10 @@ export class RobotTab {
       this.floor.showAll();
       if (this.#names.length < 2) this.floor.setFollow(true);
     });
-    link.on("around", ({ robots }) => this.floor.around.showRobots(robots));
     link.on("scan", (scan) => this.floor.showScan(scan));
     link.on("turtles", ({ pictures }) => this.#showTurtles(pictures));
     link.on("pad", (pad) => this.#showPad(pad));
-    link.on("teleop", (teleop) => this.#showTeleop(teleop));
+    link.on("drives", () => this.#showTeleop()); // after the session has taken it
     this.#listen();
   }
 
@@ -130,12 +130,6 @@ export class RobotTab {
     byId("follow").onclick = () => floor.setFollow(!floor.follow);
     floor.onFollow = (on) => byId("follow").setAttribute("aria-pressed", on);
     byId("look").onchange = () => this.#ask(byId("look").value);
-  }
-
-  #meet({ id, robots }) {
-    say(byId("me"), `page ${id}`);
-    this.#showNames(robots);
-    if (this.#look !== null) this.lookAt(this.#look);
   }
 
   #showNames(names) {
@@ -176,7 +170,7 @@ export class RobotTab {
     this.floor.look = name;
     this.picture.show();
     say(byId("pad-age"), "no message yet");
-    this.#showTeleop(this.#teleop.get(name) ?? { robot: name });
+    this.#showTeleop();
     this.watch({ look: name });
     this.session.show();
   }
@@ -216,8 +210,8 @@ export class RobotTab {
   #showClass(robots) {
     for (const [name, line] of this.#rows) {
       const { x, y, age } = robots[name] ?? {};
-      const why = this.#teleop.get(name)?.why;
-      const texts = [`${number(x)}, ${number(y)}`, this.session.drivers[name] || "–", why ?? "–"];
+      const { driver, why } = this.session.robots[name] ?? {};
+      const texts = [`${number(x)}, ${number(y)}`, driver || "–", why || "–"];
       texts.forEach((text, i) => say(line.cells[i + 1], text));
       line.classList.toggle("stale", !(age < STALE_S));
       line.classList.toggle("chosen", name === this.look);
@@ -251,10 +245,9 @@ export class RobotTab {
     byId("pad").classList.toggle("stale", age > STALE_S);
   }
 
-  #showTeleop({ robot, state, why }) {
-    if (state) this.#teleop.set(robot, { robot, state, why });
-    if (robot !== this.look) return;
-    byId("teleop").dataset.state = state ?? "unknown";
-    say(byId("teleop"), why || state || "No report from joy2twist yet.");
+  #showTeleop() {
+    const { state = "unknown", why } = this.session.robots[this.look] ?? {};
+    byId("teleop").dataset.state = state;
+    say(byId("teleop"), why || "No report from joy2twist yet.");
   }
 }

@@ -5,7 +5,6 @@ const KINDS = [[1, "--wall"], [2, "--void"]]; // of the map's cells; 0 is free
 export class Surroundings {
   #map = null; // {x, y, yaw, cell, rows, columns} [m, rad] and its bytes, one for each cell, the lowest row first
   #pictures = new Map(); // colours -> canvas, a pixel for each cell
-  #robots = {}; // name -> {x, y, yaw} in the map, and the numbers of the pressed bumpers
   #scan = { name: null, points: [] }; // [m], of that robot
   #covered = ""; // the corners of the newest map
 
@@ -25,11 +24,6 @@ export class Surroundings {
     return this.#covered !== before;
   }
 
-  showRobots(robots) {
-    this.#robots = robots;
-    this.onChange();
-  }
-
   /** place: of the robot now; without one nothing is drawn. */
   showScan({ robot: name, points }, place = { x: NaN }) {
     const [c, s] = [Math.cos(place.yaw), Math.sin(place.yaw)];
@@ -39,8 +33,8 @@ export class Surroundings {
   }
 
   /** A robot with its place in the map, if there is one, in place of that of its odometry. */
-  placed(name, robot) {
-    return this.#map ? { ...robot, ...this.#robots[name] } : robot;
+  placed(robot) {
+    return this.#map ? { ...robot, ...robot.truth } : robot;
   }
 
   /** The corners of the map [m], counterclockwise from its origin on; or none. */

@@ -14,7 +14,7 @@ from tornado.websocket import WebSocketClosedError, websocket_connect
 
 from tutorial_testing.socket_page import GOOD, request
 
-WATCH = {"kind": "watch", **GOOD["watch"], "graph": True, "node": "/fake_turtlebot",
+WATCH = {"kind": "watch", **GOOD["watch"], "graph": True,
          "fields": [f"/odom/pose/covariance[{i}]" for i in range(10)], "bag": True}  # fmt: skip
 # What costs most, each as often as all others together.
 WORST = [

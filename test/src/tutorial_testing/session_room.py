@@ -4,7 +4,8 @@ import json
 from types import SimpleNamespace
 
 from cockpit_server.clients import Client
-from cockpit_server.driver_session import DriverSession, Input
+from cockpit_server.driving.driver_session import DriverSession, Input
+from cockpit_server.driving.who_drives import Driving
 from tutorial_testing.nodes import serialised
 
 ANNA, BOB = 1, 2
@@ -57,13 +58,23 @@ class Room:
         self.sent.clear()
 
 
+class Free:
+    """In the place of Driving: a page that drives, by its number, or None."""
+
+    def __init__(self, driver=None):
+        self.driver = driver
+
+    def must_be_free(self, client):
+        Driving.must_be_free(SimpleNamespace(session=self), client)
+
+
 def page(role="driver", number=7, **watch):
     """(a Client that watches this, what it is sent as dicts)."""
     sent = []
     no = lambda: False  # noqa: E731  short
     close = lambda: sent.append("closed")  # noqa: E731
     hear = lambda text: sent.append(json.loads(text))  # noqa: E731
-    client = Client(number, role, "Firefox", hear, is_behind=no, is_cut=no, close=close)
+    client = Client(number, role, "10.0.0.1", hear, is_behind=no, is_cut=no, close=close)
     client.watch = SimpleNamespace(**{"robots": False, "look": None, "bag": False, **watch})
     return client, sent
 

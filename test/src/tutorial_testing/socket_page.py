@@ -18,7 +18,7 @@ DRIVE = ([0.0, 1.0, 0.0, 0.0, 0.0, 0.0], [0, 0, 0, 0, 1] + [0] * 7)
 # A message of each kind as the schema allows it, without its kind.
 GOOD = {
     "watch": {
-        "robots": True, "look": None, "graph": False, "topic": "/odom", "node": None,
+        "robots": True, "look": None, "graph": False, "topic": "/odom",
         "fields": ["/odom/pose/pose/position/x"], "field_list": False, "log": True, "bag": False,
     },
     "drive": {"robot": "", "mode": "D"},

@@ -10,8 +10,8 @@ import rosbag
 import rospy
 from sensor_msgs.msg import Joy
 
-from cockpit_server.driver_session import RefusedError
-from cockpit_server.player import Player
+from cockpit_server.clients import RefusedError
+from cockpit_server.driving.player import Player
 from cockpit_server.sources import bags, recording
 from cockpit_server.sources.recording import corners, read
 from gamepad.bags import BagError
@@ -19,31 +19,28 @@ from tutorial_testing.session_room import page as new_page
 
 
 class Page:
-    """A page and its recordings; the hub is this, too."""
+    """A page and its recordings, beside a robot to which it may play them."""
 
     def __init__(self):
-        self.done, self.played = queue.Queue(), []
-        self.soon = self.done.put
-        self.bags = bags.Bags(self)
+        self.done, self.player = queue.Queue(), None
+        driving = SimpleNamespace(
+            play=lambda _client, _robot, player, _now: setattr(self, "player", player),
+            plays=lambda player: bool(player) and player is self.player,
+            leave=lambda _client: setattr(self, "player", None),
+        )
+        self.bags = bags.Bags(driving, self.done.put)
         self.client, self.sent = new_page(bag=True)
-        self.clients = {self.client.number: self.client}
-        self.stand_up()
-
-    def sit_down(self, client, _robot, _now, plays):
-        self.session = SimpleNamespace(driver=client.number, plays=plays, play=self.hear)
-
-    def hear(self, axes, _buttons):
-        self.played.append(axes[0])
-
-    def stand_up(self, _client=None):
-        self.session = SimpleNamespace(driver=None, plays=False)
 
     def say(self, kind, now=0.0, **fields):
         getattr(self.bags, f"on_{kind}")(self.client, now, **fields)
 
     def play(self):
         self.say("bag_play", topic="/joy", rate=1.0, loop=False, robot="")
-        return self.session.plays
+        return self.player is not None
+
+    def seen(self, now):
+        self.bags.send_to(self.client, now)
+        return self.sent[-1]["position"], self.sent[-1]["playing"]
 
     def show(self):
         """Let what was opened come; return what the page is sent of it: "bag" or "refused"."""
@@ -78,14 +75,14 @@ def test_recording_plays_from_where_the_page_has_put_it_until_its_end(page):
     page.open("good.bag")
     page.say("bag_seek", position=1.0)
     assert page.play()
-    page.bags.play(0.5)
+    assert [axes[0] for axes, _ in page.player.due(0.5)] == [0.5]
+    assert page.seen(0.25) == (1.25, True)
     page.say("bag_pause", now=0.5)
-    assert page.session.driver is None
-    page.bags.send_to(page.client, 0.5)
-    assert (page.sent[-1]["position"], page.sent[-1]["playing"]) == (1.5, False)
+    assert page.player is None
+    assert page.seen(0.5) == (1.5, False)
     assert page.play()
-    page.bags.play(10.0)
-    assert page.played == [0.5, 0.25] and page.session.driver is None
+    page.player = None  # as at its end
+    assert page.seen(10.0) == (0.0, False)
 
 
 def test_recording_that_cannot_be_shown_is_refused_and_the_last_one_stays(page, monkeypatch):

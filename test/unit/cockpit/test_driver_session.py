@@ -2,7 +2,8 @@
 
 import pytest
 
-from cockpit_server.driver_session import Input, RefusedError, is_neutral, neutral_of
+from cockpit_server.clients import RefusedError
+from cockpit_server.driving.driver_session import Input, is_neutral, neutral_of
 from tutorial_testing.session_room import ANNA, BOB, DRIVE, REST, Room
 
 SILENT = "no input from the page for 0.2 s"

@@ -8,11 +8,10 @@ import pytest
 import rospy
 from roslib.message import get_message_class
 
-from cockpit_server.clients import LOOKS_ONLY
-from cockpit_server.driver_session import RefusedError
+from cockpit_server.clients import LOOKS_ONLY, RefusedError
 from cockpit_server.graph import Graph
 from cockpit_server.sources import forms
-from tutorial_testing.session_room import page
+from tutorial_testing.session_room import Free, page
 
 
 class InPlace:
@@ -67,12 +66,10 @@ def test_hostile_parameter_is_one_line_or_a_value(monkeypatch, written):
     marshalled = lambda _name, value: arrived.append(xmlrpc.client.dumps((value,)))  # noqa: E731
     monkeypatch.setattr(forms.rospy, "set_param", marshalled)
     monkeypatch.setattr(forms.rospy, "get_param", lambda *_: 1)
-    hub = SimpleNamespace(session=SimpleNamespace(driver=None))
-    hub.soon = lambda act: act()
     client, sent = page()
-    hub.clients = {client.number: client}
     monkeypatch.setattr(forms.threading, "Thread", InPlace)
-    forms.Forms(hub, SimpleNamespace(graph=Graph())).on_set(client, 0.0, "/x", {"value": written})
+    source = forms.Forms(Free(), lambda act: act(), SimpleNamespace(graph=Graph()))
+    source.on_set(client, 0.0, "/x", {"value": written})
     [said] = sent
     assert said["kind"] == ("form" if arrived else "refused")
     assert "\n" not in said.get("why", "") and len(said.get("why", "")) <= 200
@@ -90,8 +87,7 @@ def test_hostile_parameter_is_one_line_or_a_value(monkeypatch, written):
 )
 def test_who_may_publish_what(role, driver, topic, kind, why):
     graph = Graph(services={"/x/reset": {"/x"}}, types={"/x": "std_msgs/String"})
-    hub = SimpleNamespace(session=SimpleNamespace(driver=driver))
-    source, (client, _) = forms.Forms(hub, SimpleNamespace(graph=graph)), page(role)
+    source, (client, _) = forms.Forms(Free(driver), None, SimpleNamespace(graph=graph)), page(role)
     with pytest.raises(RefusedError, match=f"^{why}"):
         source.on_publish(client, 0.0, topic=topic, type=kind, values={})
     if kind == "std_msgs/String":

@@ -5,7 +5,7 @@ import threading
 import pytest
 
 from cockpit_server import graph_watch
-from cockpit_server.driver_session import RefusedError
+from cockpit_server.clients import RefusedError
 from cockpit_server.graph import JOY, ODOMETRY, Graph
 from cockpit_server.sources.resets import reset_service
 from node_kit.ros_api import Answer

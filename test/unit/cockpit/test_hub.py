@@ -7,31 +7,22 @@ import pytest
 
 from cockpit_server import hub as hub_module
 from cockpit_server.access import DRIVER, VIEWER
-from cockpit_server.clients import LOOKS_ONLY, Source
-from cockpit_server.graph import JOY, Graph
-from cockpit_server.hub import CONNECT_S, Hub
-from tutorial_testing.session_room import DRIVE, REST, page
-
-ROBOT = {"robot": "", "mode": "D"}
+from cockpit_server.clients import Source
+from cockpit_server.hub import Hub
+from cockpit_server.limits import MOST_PAGES
+from tutorial_testing.session_room import page
 
 
 class Made(Hub):
-    """A hub of these sources that knows the robot "", and what goes in and out of it."""
+    """A hub of these sources, beside a driver that is a number."""
 
-    def __init__(self, *sources, player=None):
-        self.told, self.published, self.heard_by, self.rival = [], [], {"/joy2twist"}, None
-        self.graphs = SimpleNamespace(
-            graph=Graph(subscribers={"/joy": {"/joy2twist"}}, types={"/joy": JOY}),
-            joystick_listeners=lambda _: {"/joy2twist"},
-        )
-        joysticks = SimpleNamespace(
-            send=lambda *message: self.published.append(message),
-            keep=lambda _: None,
-            listeners=lambda _: self.heard_by,
-        )
-        pads = SimpleNamespace(driven=None, rival=lambda *_: self.rival)
-        super().__init__(None, self.graphs, joysticks, pads, self.told.append)
-        self.add(sources, player or SimpleNamespace(play=lambda now: None))
+    def __init__(self, *sources, tick=lambda now: None):
+        self.told, self.driver, self.closed = [], None, []
+        driving = SimpleNamespace(
+            tick=tick, beat=lambda now: None, gone=lambda client: None,
+            is_driver=lambda client: client.number == self.driver,
+        )  # fmt: skip
+        super().__init__({}, driving, sources, self.told.append)
 
     def opened(self, role=DRIVER):
         """(a page that has joined, what it is sent)."""
@@ -39,27 +30,13 @@ class Made(Hub):
         self.join(client)
         return client, sent
 
-    def say(self, client, kind, **fields):
-        self.hear(client, json.dumps({"kind": kind, **fields}))
 
-    def hold(self, client, sent, position):
-        """Let the driver's page answer the next beat with this position."""
-        self.tick()
-        beat = [one for one in sent if one["kind"] == "beat"][-1]["n"]
-        axes, buttons = position
-        self.say(client, "input", n=beat, t=1e3 * hub_module.time.monotonic(), beat=beat, pad=None,
-                 axes=axes, buttons=buttons, source="keys")  # fmt: skip
+def broken(*_):
+    raise KeyError("broken")
 
 
 class Broken(Source):
-    def collect(self, clients, now):
-        raise KeyError("collect")
-
-    def send_to(self, client, now):
-        raise OSError("send_to")
-
-    def play(self, now):
-        raise ZeroDivisionError("play")
+    collect = send_to = broken
 
 
 class Well(Source):
@@ -74,119 +51,64 @@ def kinds(sent):
 @pytest.fixture
 def clock(monkeypatch):
     """The time now, and how long the thread has worked [s]."""
-    clock = SimpleNamespace(now=100.0, worked=0.0, time=lambda: 0.0)
+    clock = SimpleNamespace(now=100.0, worked=0.0)
     clock.monotonic, clock.thread_time = (lambda: clock.now), (lambda: clock.worked)
     monkeypatch.setattr(hub_module, "time", clock)
     return clock
 
 
 def test_failure_does_not_hold_up_other_sources_and_pages(clock):
-    hub = Made(Broken(), Well(), player=Broken())
+    hub = Made(Broken(), Well(), tick=broken)
     (unwritable, _), *others = [hub.opened() for _ in range(3)]
     unwritable.write = None
     for _ in range(2):
         clock.now += 0.1
         hub.tick()
-    assert [kinds(sent) for _, sent in others] == [["hello", "session", "well", "well"]] * 2
-    assert len(hub.told) == 4  # each once: the player, the source, and two for that page
+    assert [kinds(sent) for _, sent in others] == [["hello", "well", "well"]] * 2
+    assert len(hub.told) == 3  # each once: driving, the source, and one for that page
 
 
-def test_page_waits_for_what_its_messages_cost_unless_it_drives(clock, monkeypatch):
-    hub = Made(Well())
-    (guest, to_guest), (other, to_other), (driver, _) = [hub.opened() for _ in range(3)]
-    hub.say(driver, "drive", **ROBOT)
-    with monkeypatch.context() as slow:
-        slow.setattr(clock, "thread_time", iter(range(9)).__next__)  # each message takes a second
-        for one in (guest, driver):
-            hub.hear(one, "no message")
+def test_page_waits_for_what_messages_cost_unless_it_drives(clock, monkeypatch):
+    hub = Made()
+    (guest, _), (driver, _) = hub.opened(), hub.opened()
+    hub.driver = driver.number
+    monkeypatch.setattr(clock, "thread_time", iter(range(9)).__next__)  # each takes a second
+    hub.hear(driver, "no message")
+    assert hub.wait_s(guest) == 0.0
+    hub.hear(guest, "no message")
     assert (hub.wait_s(guest) > 1.0, hub.wait_s(driver)) == (True, 0.0)
-    assert other.budget.wait_s(clock.now, 1.0) == 0.0
-    hub.tick()
-    assert "well" not in kinds(to_guest)  # it gets the newest once that is paid
-    assert "well" in kinds(to_other)
 
 
-def test_many_requests_delay_only_their_own_address():
-    hub = Made()
-    waits = [hub.request_wait_s("10.0.0.1") for _ in range(1000)]
-    assert waits[25] == 0.0  # a page loads as many files
-    assert waits[-1] > 10.0
-    assert hub.request_wait_s("10.0.0.2") == 0.0
-
-
-@pytest.mark.parametrize(
-    ("heard_by", "after_s", "drives"),
-    [((), CONNECT_S, False), (("/joy2twist",), 0.0, True), ((), CONNECT_S + 0.1, True)],
-)
-def test_page_drives_once_all_subscribers_are_connected_or_after_a_while(
-    clock, heard_by, after_s, drives
-):
-    hub = Made()
-    hub.heard_by = set(heard_by)
-    driver, sent = hub.opened()
-    hub.say(driver, "drive", **ROBOT)
-    clock.now += after_s
-    hub.hold(driver, sent, REST)
-    assert hub.session.armed == drives
-
-
-@pytest.fixture
-def driven(clock):
-    """A hub, and a page that drives, with what it is sent."""
-    hub = Made()
-    driver, sent = hub.opened()
-    hub.say(driver, "drive", **ROBOT)
-    for position in (REST, DRIVE):
+def test_a_page_that_is_behind_gets_the_newest_once_it_has_read(clock):
+    hub = Made(Well())
+    client, sent = hub.opened()
+    for is_behind in (True, False):
+        client.is_behind = lambda is_behind=is_behind: is_behind
         clock.now += 0.1
-        hub.hold(driver, sent, position)
-    assert hub.published.pop() == ("", *DRIVE)
-    hub.published.clear()
-    return hub, driver, sent
+        hub.tick()
+        assert ("well" in kinds(sent)) != is_behind
 
 
-def test_stop_of_another_page_stops_the_driver_and_a_viewers_does_nothing(driven):
-    hub, driver, to_driver = driven
-    viewer, to_viewer = hub.opened(VIEWER)
-    hub.say(viewer, "stop")
-    assert LOOKS_ONLY in to_viewer[-1]["why"] and hub.session.armed
-    hub.say(hub.opened()[0], "stop")
-    assert (hub.published, hub.session.driver) == ([("", *REST)], driver.number)
-    assert not hub.session.armed  # its hands must let go first
-    assert "pressed Stop" in to_driver[-1]["text"]
-    hub.say(driver, "stop")
-    assert hub.session.driver is None
-
-
-def test_another_joystick_frees_the_session(driven, clock):
-    hub, _, to_driver = driven
-    hub.rival = "/player"
-    clock.now += 0.1
-    hub.tick()
-    assert (hub.published, hub.session.driver) == ([("", *REST)], None)
-    [lost] = [one for one in to_driver if one["kind"] == "lost"]
-    assert "/player also drives this robot" in lost["why"]
-
-
-@pytest.mark.parametrize(
-    ("role", "robot", "rival", "driver", "refusal"),
-    [
-        (DRIVER, "", None, None, ""),
-        (DRIVER, "ada", None, None, "there is no robot 'ada'"),
-        (VIEWER, "", None, None, LOOKS_ONLY),
-        (DRIVER, "", "/player", None, "/player publishes the joystick topic of this robot"),
-        (DRIVER, "", None, 1, "another page drives"),
-        (DRIVER, "", "/player", 2, ""),  # the own session
-    ],
-)
-def test_page_is_told_beforehand_what_drive_would_be_refused_for(
-    role, robot, rival, driver, refusal
-):
+def test_many_requests_wait():
     hub = Made()
-    _, (client, sent) = hub.opened(), hub.opened(role)
-    if driver is not None:
-        hub.session.take(driver, "", 0.0)
-    hub.rival = rival
-    said = hub.refusal(client, robot, 0.0)
-    assert said.startswith(refusal) and bool(said) == bool(refusal)
-    hub.say(client, "drive", **{**ROBOT, "robot": robot})
-    assert [one["why"] for one in sent if one["kind"] == "refused"] == [said] * bool(refusal)
+    waits = [hub.request_wait_s() for _ in range(1000)]
+    assert waits[25] == 0.0  # a page loads as many files
+    assert waits[-1] > 5.0
+
+
+def test_only_a_viewer_makes_room_and_only_for_a_driver():
+    hub = Made()
+    pages = [hub.opened(VIEWER if n % 2 else DRIVER) for n in range(MOST_PAGES)]
+    assert not hub.make_room(drives=False)
+    for _, sent in pages[1::2]:
+        assert hub.make_room(drives=True)
+        assert sent[-1] == "closed"
+        hub.opened()
+    assert not hub.make_room(drives=True)
+
+
+def test_a_malformed_message_is_refused():
+    hub = Made()
+    client, sent = hub.opened()
+    hub.hear(client, json.dumps({"kind": "watch", "none": 1}))
+    assert sent[-1]["why"] == "watch has no field 'none'"

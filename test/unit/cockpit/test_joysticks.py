@@ -1,24 +1,60 @@
-"""What is published for the driven robot."""
+"""What is published for the driven robot, and what is known of others' joysticks."""
 
+from math import inf
 from types import SimpleNamespace
 
+import pytest
 import rospy
+from sensor_msgs.msg import Joy
 
-from cockpit_server import joysticks
-from tutorial_testing.session_room import DRIVE
+from cockpit_server.driving import joysticks
+from cockpit_server.driving.joysticks import LONGEST_JOY, Joysticks, shown
+from cockpit_server.graph import JOY, Graph
+from tutorial_testing.session_room import DRIVE, Topics, look, page, serialised
+
+GRAPH = Graph(subscribers={"/ada/joy": {"/joy2twist"}}, types={"/ada/joy": JOY})
 
 
-def test_a_hand_that_is_still_trembles_and_only_the_driven_robot_has_a_publisher(monkeypatch):
+@pytest.fixture
+def ours(monkeypatch):
+    """(Joysticks of the robot ada, their Topics); messages come from the node /other."""
+    monkeypatch.setattr(joysticks, "sender_of", lambda message: "/other")
+    monkeypatch.setattr(joysticks, "OnceLater", lambda action: action)
+    topics = Topics()
+    return Joysticks(topics, SimpleNamespace(graph=GRAPH), "/cockpit"), topics
+
+
+def test_a_hand_that_is_still_trembles_and_only_the_driven_robot_has_a_publisher(ours, monkeypatch):
     sent, ended = [], []
     publisher = SimpleNamespace(
         publish=lambda joy: sent.append(tuple(joy.axes)), end=lambda: ended.append(len(sent))
     )
     monkeypatch.setattr(joysticks, "PromptPublisher", lambda *_: publisher)
     monkeypatch.setattr(joysticks.rospy.Time, "now", rospy.Time)
-    ours = joysticks.Joysticks()
-    ours.keep("ada")
+    ours, _ = ours
+    ours.advertise("ada")
     for _ in range(8):
         ours.send("ada", *DRIVE)
-    ours.keep(None)
+    ours.advertise(None)
     ours.send("ada", *DRIVE)
     assert (len(sent), len(set(sent)), ended) == (8, 2, [8])
+
+
+def test_joystick_is_shown_finite_and_up_to_a_length():
+    joy = Joy(axes=[0.123456, inf], buttons=[1, 0])
+    assert shown(serialised(joy)) == {"axes": [0.1235, 0.0], "buttons": [1, 0]}
+    assert shown(b"none") is None
+    assert shown(serialised(Joy(buttons=[0] * LONGEST_JOY))) is None
+
+
+def test_other_joystick_is_a_rival_whatever_is_in_its_message(ours, monkeypatch):
+    ours, topics = ours
+    one = page(look="ada")
+    look(ours, one)
+    topics.hear("/ada/joy", Joy())
+    assert [len(look(ours, one)[0]) for _ in range(2)] == [1, 0]  # each is sent once
+    monkeypatch.setattr(joysticks, "shown", lambda data: [].pop())
+    with pytest.raises(IndexError):
+        topics.hear("/ada/joy", b"")
+    assert ours.rival("ada", 0.0) == "/other"
+    assert ours.rival("ada", inf) == ""

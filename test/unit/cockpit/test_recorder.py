@@ -2,8 +2,7 @@
 
 import pytest
 
-from cockpit_server.clients import LOOKS_ONLY
-from cockpit_server.driver_session import RefusedError
+from cockpit_server.clients import LOOKS_ONLY, RefusedError
 from cockpit_server.sources import recorder
 from tutorial_testing.session_room import page
 from tutorial_testing.waiting import wait_for

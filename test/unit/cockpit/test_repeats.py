@@ -4,12 +4,12 @@ from types import SimpleNamespace
 
 import pytest
 
-from cockpit_server.driver_session import RefusedError
+from cockpit_server.clients import RefusedError
 from cockpit_server.graph import Graph
 from cockpit_server.sources import forms
 from cockpit_server.sources.forms import VELOCITY, Forms
 from cockpit_server.sources.repeats import Repeats
-from tutorial_testing.session_room import page
+from tutorial_testing.session_room import Free, page
 
 PERIOD_S = 0.1
 VALUES = {"linear/x": "1"}
@@ -19,9 +19,8 @@ class Desk:
     """A page that repeats a velocity since 100 s, and what it has published: speeds."""
 
     def __init__(self):
-        self.session = SimpleNamespace(driver=None)
-        hub, graphs = SimpleNamespace(session=self.session), SimpleNamespace(graph=Graph())
-        desk = Forms(hub, graphs)
+        self.driving = Free()
+        desk = Forms(self.driving, None, SimpleNamespace(graph=Graph()))
         self.speeds = []
         self._key = ("/cmd_vel", VELOCITY)
         publisher = SimpleNamespace(publish=lambda twist: self.speeds.append(twist.linear.x))
@@ -64,7 +63,7 @@ def test_a_loss_publishes_one_zero_and_nothing_before_a_person_begins_again(desk
 
 
 def test_another_page_that_drives_ends_it(desk):
-    desk.session.driver = 3
+    desk.driving.driver = 3
     with pytest.raises(RefusedError, match="another page drives"):
         desk.again()
     assert desk.speeds == [0.0]

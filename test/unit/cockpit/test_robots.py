@@ -1,17 +1,15 @@
-"""What pages are sent of robots and of their joysticks."""
+"""What pages are sent of robots."""
 
 from math import inf, nan
 from types import SimpleNamespace
 
 import pytest
 from nav_msgs.msg import Odometry
-from sensor_msgs.msg import Joy
 
 from cockpit_server.graph import JOY, ODOMETRY, Graph, topic_of
 from cockpit_server.motion import Motion, covered
-from cockpit_server.sources import robots as robots_module
-from cockpit_server.sources.robots import LONGEST_JOY, Pads, Robots, joy_shown, shown
-from tutorial_testing.session_room import Topics, look, page, serialised
+from cockpit_server.sources.robots import Robots, shown
+from tutorial_testing.session_room import Topics, look, page
 
 
 def graph(*robots):
@@ -21,10 +19,6 @@ def graph(*robots):
         subscribers={"/robot_9/joy": {"/joy2twist"}},
         types={"/robot_9/joy": JOY, **{topic_of(robot, "odom"): ODOMETRY for robot in robots}},
     )
-
-
-def of(kind, sent):
-    return next((message for message in sent if message["kind"] == kind), None)
 
 
 PLACE = {"x", "y", "yaw"}
@@ -37,7 +31,9 @@ PLACE = {"x", "y", "yaw"}
 )  # fmt: skip
 def test_impossible_place_is_left_out(wrong, left_out):
     state = Motion(1.0, -1e6, 0.5, 0.25, -0.5)._replace(**wrong)
-    assert set(shown(state, 1.0, 2.0, 3.0)) == {*PLACE, "v", "w", "covered", "age"} - left_out
+    seen = shown(state, 1.0, 2.0, state, 3.0)
+    assert set(seen["truth"]) == PLACE - left_out
+    assert set(seen) == {*PLACE, "v", "w", "covered", "age", "truth"} - left_out
 
 
 @pytest.mark.parametrize(
@@ -50,56 +46,46 @@ def test_way_grows_only_by_driving(x, yaw, way):
     assert covered(last, Motion(x, 0.0, yaw, 0.5, 0.0), 7.0) == pytest.approx(way)
 
 
-def test_page_gets_only_the_robots_that_changed_since_it_was_sent_some():
-    topics, graphs = Topics(), SimpleNamespace(graph=graph("ada", "bob"))
-    robots, one, late = Robots(topics, graphs), page(robots=True), page(robots=True)
+class Seen(Topics):
+    """A page that looks at robots."""
 
-    def place(robot, x):
+    def __init__(self, graph):
+        super().__init__()
+        self.graphs = SimpleNamespace(graph=graph)
+        self.robots, self.page = Robots(self, self.graphs), page(robots=True)
+        self.look()
+
+    def look(self):
+        """Return the robots that the page is sent."""
+        [newest] = [said for said in look(self.robots, self.page)[0] if said["kind"] == "robots"]
+        return newest["robots"]
+
+    def place(self, topic, x):
         odometry = Odometry()
         odometry.pose.pose.position.x = x
-        topics.hear(f"/{robot}/odom", odometry)
-
-    def seen(*pages):
-        newest = of("robots", look(robots, *pages)[0])
-        return newest["all"], {name: state["x"] for name, state in newest["robots"].items()}
-
-    assert seen(one) == (True, {})
-    for robot in ("ada", "bob"):
-        place(robot, 1.0)
-    assert seen(one) == (True, {"ada": 1.0, "bob": 1.0})
-    place("ada", 1.0)
-    assert seen(one) == (False, {})  # it stands; the message still says that the server is there
-    place("bob", 2.0)
-    robots.collect([one[0]], 0.0)  # the page is behind
-    assert seen(one) == (False, {"bob": 2.0})
-    assert seen(late) == (True, {"ada": 1.0, "bob": 2.0})
-    graphs.graph = graph("bob")
-    assert seen(one) == (True, {"bob": 2.0})  # so ada is gone
+        self.hear(topic, odometry)
 
 
-def test_joystick_is_shown_finite_and_up_to_a_length():
-    joy = Joy(axes=[0.123456, inf], buttons=[1, 0])
-    assert joy_shown(serialised(joy)) == {"axes": [0.1235, 0.0], "buttons": [1, 0]}
-    assert joy_shown(b"none") is None
-    assert joy_shown(serialised(Joy(buttons=[0] * LONGEST_JOY))) is None
+def test_page_gets_all_robots_also_while_they_stand():
+    seen = Seen(graph("ada", "bob"))
+    assert seen.look() == {}
+    for robot, x in (("ada", 1.0), ("bob", 2.0)):
+        seen.place(f"/{robot}/odom", x)
+    for _ in range(2):  # which shows that the server is there
+        assert {name: state["x"] for name, state in seen.look().items()} == {"ada": 1.0, "bob": 2.0}
+    seen.graphs.graph = graph("bob")
+    assert list(seen.look()) == ["bob"]
 
 
-@pytest.fixture
-def pads(monkeypatch):
-    """(Pads of the robot robot_1, its Topics); messages come from the node /other."""
-    monkeypatch.setattr(robots_module, "sender_of", lambda message: "/other")
-    topics = Topics()
-    return Pads(topics, SimpleNamespace(graph=graph("robot_1")), "/cockpit"), topics
-
-
-def test_other_joystick_is_a_rival_whatever_is_in_its_message(pads, monkeypatch):
-    pads, topics = pads
-    one = page(look="robot_1")
-    look(pads, one)
-    topics.hear("/robot_1/joy", Joy())
-    assert [len(look(pads, one)[0]) for _ in range(2)] == [1, 0]  # each is sent once
-    monkeypatch.setattr(robots_module, "joy_shown", lambda data: [].pop())
-    with pytest.raises(IndexError):
-        topics.hear("/robot_1/joy", b"")
-    assert pads.rival("robot_1", 0.0) == "/other"
-    assert pads.rival("robot_1", inf) is None
+def test_a_robot_has_its_place_in_the_map_and_its_pressed_bumpers():
+    bumper = "/ada/mobile_base/events/bumper"
+    types = {"/ada/odom": ODOMETRY, "/ada/base_pose_ground_truth": ODOMETRY,
+             bumper: "kobuki_msgs/BumperEvent"}  # fmt: skip
+    seen = Seen(Graph(publishers={topic: {"/sim"} for topic in types}, types=types))
+    seen.place("/ada/base_pose_ground_truth", 1.0)
+    seen.place("/ada/odom", 2.0)
+    assert seen.look()["ada"]["truth"] == {"x": 1.0, "y": 0.0, "yaw": 0.0}
+    malformed = [(data, [1]) for data in (b"", b"\1", b"\3\1", b"\0\1\1")]
+    for data, pressed in [(b"\1\1", [1]), *malformed, (b"\0\1", [0, 1]), (b"\1\0", [0])]:
+        seen.hear(bumper, data)
+        assert seen.look()["ada"]["bumpers"] == pressed

@@ -1,4 +1,4 @@
-"""The map, the scan and the bumpers, as pages get them."""
+"""The map and the scan, as pages get them."""
 
 import base64
 from math import cos, inf, nan, pi
@@ -6,7 +6,7 @@ from types import SimpleNamespace
 
 import pytest
 from geometry_msgs.msg import TransformStamped
-from nav_msgs.msg import OccupancyGrid, Odometry
+from nav_msgs.msg import OccupancyGrid
 from sensor_msgs.msg import LaserScan
 from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
@@ -23,9 +23,7 @@ from tutorial_testing.session_room import Topics, look, page, serialised
 
 TYPES = {
     "/map": "nav_msgs/OccupancyGrid", "/tf_static": "tf2_msgs/TFMessage",
-    "/ada/odom": ODOMETRY, "/ada/base_pose_ground_truth": ODOMETRY,
-    "/ada/scan": "sensor_msgs/LaserScan",
-    "/ada/mobile_base/events/bumper": "kobuki_msgs/BumperEvent",
+    "/ada/odom": ODOMETRY, "/ada/scan": "sensor_msgs/LaserScan",
 }  # fmt: skip
 
 
@@ -59,28 +57,18 @@ class Seen(Topics):
         return {message["kind"]: message for message in look(self.source, self.page)[0]}
 
 
-def test_a_page_gets_the_map_the_place_in_it_and_the_scan_when_they_change():
+def test_a_page_gets_the_map_and_the_scan_when_they_change():
     seen = Seen()
     assert seen.look() == {}  # no map, as on an empty plane
-    truth, mount = Odometry(), TransformStamped()
-    truth.pose.pose.position.x = truth.pose.pose.orientation.w = 1.0
+    mount = TransformStamped()
     mount.child_frame_id, mount.transform.translation.x = "ada/camera", -0.1
     seen.hear("/map", grid(1, 3, [0, 100, -1]))
-    seen.hear("/ada/base_pose_ground_truth", truth)
     seen.hear("/tf_static", TFMessage([mount]))
     seen.hear("/ada/scan", scan([inf, 2.0, nan]))
-    seen.hear("/ada/mobile_base/events/bumper", b"\1\1")
     got = seen.look()
     assert base64.b64decode(got["map"]["cells"]) == b"\0\1\2"
-    place = {"x": 1.0, "y": 0.0, "yaw": 0.0, "bumpers": [1]}
-    assert got["around"]["robots"] == {"ada": place}
     assert (got["scan"]["robot"], got["scan"]["points"]) == ("ada", [[1.9, 0.0]])
     assert seen.look() == {}
-    for event in (b"", b"\1", b"\3\1", b"\0\1\1"):  # malformed
-        seen.hear("/ada/mobile_base/events/bumper", event)
-    assert seen.look() == {}
-    seen.hear("/ada/mobile_base/events/bumper", b"\1\0")
-    assert list(seen.look()) == ["around"]
     seen.graphs.graph = Graph()
     assert seen.look()["map"] == {"kind": "map"}  # it goes with its last publisher
 

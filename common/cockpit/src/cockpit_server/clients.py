@@ -4,23 +4,17 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass, field
+from types import SimpleNamespace
 from typing import Any, Callable, ClassVar, Mapping, Sequence
 
 from cockpit_server.access import DRIVER
-from cockpit_server.budget import BURST_S, Budget
-from cockpit_server.driver_session import RefusedError
-from node_kit.throttle import Throttle
 
-# A page sends each change of a stick; fast gamepads have 125 in a second. [Hz]
-MESSAGES_RATE, MESSAGES_BURST = 250.0, 250.0
-REFUSALS_RATE, REFUSALS_BURST = 2.0, 10.0
-LONGEST_FLOOD = 5000  # messages too many, after which the connection is closed
-BROWSERS = (("Firefox", "Firefox"), ("Edg", "Edge"), ("Chrom", "Chromium"), ("Safari", "Safari"))
-SYSTEMS = (
-    ("Android", "Android"), ("iPhone", "iPhone"), ("iPad", "iPad"), ("Windows", "Windows"),
-    ("Mac OS", "Mac"), ("CrOS", "ChromeOS"), ("Linux", "Linux"),
-)  # fmt: skip
+Soon = Callable[[Callable[[], object]], None]  # runs an action in the thread of the pages
 LOOKS_ONLY = "this page was opened with the address for viewers: it may only look"
+
+
+class RefusedError(Exception):
+    """Something cannot be done; the text says why in one line."""
 
 
 @dataclass(eq=False)
@@ -29,19 +23,17 @@ class Client:
 
     number: int
     role: str
-    name: str
-    write: Callable[[str], Any]  # sends a text
+    address: str  # IP address of its machine
+    write: Callable[[str], None]  # sends a text, or drops it once the page is closed
     is_behind: Callable[[], bool]  # whether the last text has not gone out yet
     is_cut: Callable[[], bool]  # whether the network to it seems to be down
-    close: Callable[[], Any]
-    address: str = ""  # IP address of its machine
-    spoke_at: float = 0.0  # when it was opened or sent a message last [s]
-    watch: Any = None  # what it wants to see, by the names in the sources' watches
+    close: Callable[[], None]
+    watch: SimpleNamespace = field(default_factory=SimpleNamespace)  # what it wants to see: Source
     seen: dict[Any, Any] = field(default_factory=dict)  # about what: the newest version sent
-    flood: int = 0
-    budget: Budget = field(default_factory=lambda: Budget(BURST_S))
-    may_send: Throttle = field(default_factory=lambda: Throttle(MESSAGES_RATE, MESSAGES_BURST))
-    may_hear_no: Throttle = field(default_factory=lambda: Throttle(REFUSALS_RATE, REFUSALS_BURST))
+
+    @property
+    def name(self) -> str:
+        return f"page {self.number} ({self.address})"
 
     @property
     def drives(self) -> bool:
@@ -54,9 +46,9 @@ class Client:
     def send(self, kind: str, **fields: Any) -> None:
         self.write(encoded(kind, **fields))
 
-    def refuse(self, what: str, why: str, now: float) -> None:
-        """Report what was not done and why, at a bounded rate."""
-        if self.may_hear_no.ready(now):
+    def refuse(self, what: str, why: str) -> None:
+        """Report what was not done and why, unless that would wait behind other messages."""
+        if not self.is_behind():
             self.send("refused", what=what, why=why)
 
     def take_if_new(self, about: Any, version: Any) -> bool:
@@ -65,15 +57,6 @@ class Client:
             return False
         self.seen[about] = version
         return True
-
-    def allows(self, now: float) -> bool:
-        """Return whether one more message may be read; close the connection after a flood."""
-        if self.may_send.ready(now):
-            return True
-        self.flood += 1
-        if self.flood > LONGEST_FLOOD:
-            self.close()
-        return False
 
 
 class Source:
@@ -96,10 +79,3 @@ class Source:
 def encoded(kind: str, **fields: Any) -> str:
     """Return a message as JSON; infinity is a ValueError."""
     return json.dumps({"kind": kind, **fields}, allow_nan=False, separators=(",", ":"))
-
-
-def name_of(user_agent: str, address: str) -> str:
-    """Return a name of a page for people, such as "Chromium on Linux, 192.168.1.5"."""
-    browser = next((name for mark, name in BROWSERS if mark in user_agent), "a program")
-    system = next((f" on {name}" for mark, name in SYSTEMS if mark in user_agent), "")
-    return f"{browser}{system}, {address}"

@@ -19,7 +19,6 @@ from genpy import DeserializationError
 from cockpit_server.guard import Guard
 
 PERIOD_S = 0.05  # how often a topic is read of which only the newest message is wanted
-Hear = Callable[[Any, str], None]  # gets a message, and its topic
 # One thread for all questions to the master that may wait: they are asked one after the other.
 _worker = ThreadPoolExecutor(1, thread_name_prefix="to_the_master")
 
@@ -72,6 +71,9 @@ class Raw(rospy.AnyMsg):
         return self
 
 
+Hear = Callable[[Raw, str], None]  # gets a message, and its topic
+
+
 class Feeds:
     """The topics that are wanted now. Used by one thread, except for the messages."""
 
@@ -113,11 +115,11 @@ class Feeds:
         hear, queue_size = (self._hear, None) if every else (self._hear_now_and_then, 1)
         self._subscribers[topic, every] = rospy.Subscriber(topic, Raw, hear, topic, queue_size)
 
-    def _hear(self, message: Any, topic: str) -> None:
+    def _hear(self, message: Raw, topic: str) -> None:
         for hear in self._listeners.get(topic, ()):
             hear(message, topic)
 
-    def _hear_now_and_then(self, message: Any, topic: str) -> None:
+    def _hear_now_and_then(self, message: Raw, topic: str) -> None:
         # While this sleeps, rospy does not read: the kernel keeps what comes, and of that rospy
         # gives the newest. Thirty robots at 50 Hz would keep a processor busy otherwise.
         self._hear(message, topic)

@@ -44,12 +44,16 @@ class Graph:
         """Return nodes, topics and edges as pages get them."""
         nodes, topics = sorted(self.nodes), sorted({*self.publishers, *self.subscribers})
         return {
-            "nodes": [{"name": name, "machine": self.machines.get(name, "")} for name in nodes],
+            "nodes": [self._node(name) for name in nodes],
             "topics": [{"name": name, "type": self.types.get(name, "")} for name in topics],
             "services": sorted(self.services),
             "parameters": self.parameters,
             "edges": [edge for topic in topics for edge in self._edges(topic)],
         }
+
+    def _node(self, name: str) -> dict[str, Any]:
+        services = sorted(service for service, nodes in self.services.items() if name in nodes)
+        return {"name": name, "machine": self.machines.get(name, ""), "services": services}
 
     def _edges(self, topic: str) -> Iterator[dict[str, str]]:
         this = f"topic {topic}"
@@ -57,25 +61,6 @@ class Graph:
             yield {"from": f"node {node}", "to": this}
         for node in sorted(self.subscribers.get(topic, ())):
             yield {"from": this, "to": f"node {node}"}
-
-    def about_node(self, name: str) -> dict[str, Any]:
-        """Return what a node does, as pages get it."""
-        publishes = users_of(self.publishers, name)
-        subscribes = users_of(self.subscribers, name)
-        others = {n for topic in publishes for n in self.subscribers.get(topic, ())}
-        others |= {n for topic in subscribes for n in self.publishers.get(topic, ())}
-        return {
-            "name": name,
-            "machine": self.machines.get(name, ""),
-            "speaks_to": sorted(others - {name}),
-            "publishes": publishes,
-            "subscribes": subscribes,
-            "services": users_of(self.services, name),
-        }
-
-
-def users_of(column: Column, node: str) -> list[str]:
-    return sorted(name for name, nodes in column.items() if node in nodes)
 
 
 def topic_of(robot: str, name: str) -> str:

@@ -16,12 +16,12 @@ PERIOD_S = 1.0
 
 
 class GraphWatch:
-    """The newest Graph, without this node except as a joystick; version grows with each change."""
+    """The newest Graph, without this node except as a joystick; another one after each change."""
 
     def __init__(self, own_name: str) -> None:
         self._own_name = own_name
         self._uri = rosgraph.get_master_uri()
-        self.graph, self.version = Graph(), 0
+        self.graph = Graph()
         self._is_lost = False
         self._pid: int | None = None  # the master's, once known
         self.look()
@@ -70,7 +70,6 @@ class GraphWatch:
         graph.machines.update({n: known.get(n) or self._machine(n) for n in graph.nodes})
         if graph != self.graph:
             self.graph = graph
-            self.version += 1
 
     def _machine(self, node: str) -> str:
         answer, uri = call(self._uri, "lookupNode", node, caller=self._own_name)

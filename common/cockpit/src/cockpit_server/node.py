@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 import asyncio
+import socket
 import sys
 import threading
-from typing import Any, Callable
+from typing import Callable
 
 import rospy
 from tornado.ioloop import PeriodicCallback
 
 from cockpit_server.access import Access
-from cockpit_server.driving_status import DrivingStatus
+from cockpit_server.clients import Client
+from cockpit_server.driving.joysticks import Joysticks
+from cockpit_server.driving.teleop import Teleop
+from cockpit_server.driving.who_drives import Driving
 from cockpit_server.feeds import Feeds
 from cockpit_server.graph_watch import GraphWatch
 from cockpit_server.hub import TICK_S, Hub
-from cockpit_server.joysticks import Joysticks
 from cockpit_server.sources.bags import Bags
 from cockpit_server.sources.doctor import Doctor
 from cockpit_server.sources.forms import Forms
@@ -25,9 +28,8 @@ from cockpit_server.sources.plots import Plots
 from cockpit_server.sources.recorder import Recorder
 from cockpit_server.sources.repeats import Repeats
 from cockpit_server.sources.resets import Resets
-from cockpit_server.sources.robots import Pads, Robots
+from cockpit_server.sources.robots import Robots
 from cockpit_server.sources.surroundings import Surroundings
-from cockpit_server.sources.teleop import Teleop
 from cockpit_server.sources.topics import Topics
 from cockpit_server.sources.turtles import Turtles
 from cockpit_server.web import server
@@ -48,25 +50,27 @@ class Cockpit:
         /map (nav_msgs/OccupancyGrid), /tf_static (tf2_msgs/TFMessage),
         /diagnostics (diagnostic_msgs/DiagnosticArray), /rosout (rosgraph_msgs/Log)
     Publishes: joy (sensor_msgs/Joy) of a robot that is driven; what a driver writes into a form
-    Calls: services of type std_srvs/Empty that end in /reset; what a driver writes into a form
+    Calls: services that end in /reset; what a driver writes into a form
     """
 
-    def __init__(self, sockets: list[Any], access: Access) -> None:
+    def __init__(self, sockets: list[socket.socket], access: Access) -> None:
         self._sockets = sockets
         name = rospy.get_name()
         graphs = self._graphs = GraphWatch(name)
         log = Log()
         feeds = Feeds(log.warn)
-        pads = Pads(feeds, graphs, name)
-        hub = self._hub = Hub(self._soon, graphs, Joysticks(), pads, log.warn)
-        bags, robots, teleop = Bags(hub), Robots(feeds, graphs), Teleop(feeds)
-        drives, forms = DrivingStatus(hub, graphs, teleop, robots), Forms(hub, graphs)
+        pages: dict[int, Client] = {}
+        robots, teleop = Robots(feeds, graphs), Teleop(feeds)
+        joysticks = Joysticks(feeds, graphs, name)
+        driving = self._driving = Driving(pages, graphs, joysticks, teleop, robots.moves)
+        forms = Forms(driving, self._soon, graphs)
         sources = (
-            robots, pads, teleop, drives, Resets(hub, graphs, drives),
-            GraphView(graphs), Topics(feeds, graphs), forms, Repeats(forms), Plots(feeds, graphs),
-            Logs(feeds), Doctor(), bags, Recorder(), Surroundings(feeds, graphs), Turtles(graphs),
+            robots, joysticks, driving, Resets(driving, forms, graphs), GraphView(graphs),
+            Topics(feeds, graphs), forms, Repeats(forms), Plots(feeds, graphs), Logs(feeds),
+            Doctor(), Bags(driving, self._soon), Recorder(), Surroundings(feeds, graphs),
+            Turtles(graphs),
         )  # fmt: skip
-        hub.add(sources, player=bags)
+        self._hub = Hub(pages, driving, sources, log.warn)
         self._server = server(self._hub, access)
         self.has_lost_master = False
         self._has_ended = threading.Event()
@@ -89,7 +93,7 @@ class Cockpit:
         self.has_lost_master = True
         rospy.signal_shutdown("the master has gone")
 
-    def _soon(self, action: Callable[[], Any]) -> None:
+    def _soon(self, action: Callable[[], object]) -> None:
         self._loop.call_soon_threadsafe(action)
 
     def _end(self) -> None:
@@ -100,5 +104,5 @@ class Cockpit:
         self._soon(self._ended.set)
 
     def _rest(self) -> None:
-        self._hub.session.end()
+        self._driving.session.end()
         self._has_ended.set()

@@ -19,8 +19,9 @@ import rospy
 
 from cockpit_server.access import Access, gateways
 from node_kit.arguments import Parser
-from node_kit.ros_api import PARAMETER, Answer, accepts, address, call, way_out
+from node_kit.ros_api import Answer, call, way_out
 from node_kit.start import run
+from tutorial_tools.cockpit_page import PARAMETER, address
 
 NODE_NAME = "cockpit"
 DEFAULT_PORT = 8080
@@ -110,18 +111,14 @@ def main() -> int:
     def spin(_parameters: Any) -> None:
         print_address(options.port, access)
         uri, page = rosgraph.get_master_uri(), f"http://127.0.0.1:{options.port}/"
-        before = call(uri, "getParam", PARAMETER)[1]
         rospy.set_param(PARAMETER, page)
         cockpit = Cockpit(sockets, access)
         try:
             cockpit.run()
         finally:
-            # Another cockpit, under a name of its own, may have put its own there, then or before.
+            # Another cockpit, under a name of its own, may have put its own there.
             if call(uri, "getParam", PARAMETER) == (Answer.WELL, page):
-                if before != page and accepts(str(before)):
-                    call(uri, "setParam", PARAMETER, before)
-                else:
-                    call(uri, "deleteParam", PARAMETER)
+                call(uri, "deleteParam", PARAMETER)
         if cockpit.has_lost_master:
             restart(access)
 

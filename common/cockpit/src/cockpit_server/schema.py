@@ -9,10 +9,10 @@ import json
 from types import SimpleNamespace
 from typing import Any, Callable, Mapping, Sequence
 
+from cockpit_server.limits import LONGEST_MESSAGE
 from gamepad.gamepads import F710
 from node_kit.parameters import is_number, is_whole
 
-LONGEST_MESSAGE = 8192  # bytes; the longest that a page sends is a watch with MOST_FIELDS
 LONGEST_TEXT = 200
 MOST_FIELDS = 20
 LARGEST = 2**53 - 1  # up to here JavaScript's numbers are whole

@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 import logging
 import socket
-import time
 from pathlib import Path
 from typing import Any, Awaitable
 
@@ -15,24 +14,13 @@ from tornado.iostream import StreamClosedError
 from tornado.web import Application, RequestHandler, StaticFileHandler
 from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
-from cockpit_server.access import Access, without_token
-from cockpit_server.admission import connection_to_close, page_to_close
-from cockpit_server.clients import Client, name_of
+from cockpit_server import limits
+from cockpit_server.access import DRIVER, Access, without_token
+from cockpit_server.clients import Client
 from cockpit_server.hub import Hub
-from cockpit_server.schema import LONGEST_MESSAGE
 from node_kit.rospy_patches.newest_only import CUT_AFTER_RESENDS, resends
 
 CHARTS = Path("/usr/share/javascript/dygraphs")
-MOST_CLIENTS = 64  # a class, each with a page and a phone
-MOST_CONNECTIONS = 256  # each takes a file descriptor, of which a process may have 1024
-LONGEST_IDLE_S = 20.0  # a connection on which nothing is asked
-PING_S = 1.0  # a page that does not answer three of them is closed
-MOST_PINGS = 100  # unanswered, per page
-MOST_FRAGMENTS = 64  # per message: browsers send ours in one piece
-LONGEST_HEADER = 16384  # bytes
-LONGEST_BODY = 1024  # bytes; nothing is uploaded
-# What waits in the kernel for a page that does not read [bytes]; the kernel doubles it.
-SEND_BUFFER = 65536
 HEADERS = {
     "X-Content-Type-Options": "nosniff",
     "X-Frame-Options": "DENY",
@@ -56,29 +44,39 @@ POLICY = (
 
 
 class _Guarded(RequestHandler):
-    """Answers requests that come from this page and name this machine; slows busy addresses."""
+    """Answers requests that come from this page and name this machine; slows a flood of them."""
 
     def set_default_headers(self) -> None:
         for name, value in HEADERS.items():
             self.set_header(name, value)
 
     async def prepare(self) -> None:
-        host, access = self.request.host, self.settings["access"]
-        await asyncio.sleep(self.settings["hub"].request_wait_s(self.address))
-        if not access.may_come(self.address):
+        host = self.request.host
+        await asyncio.sleep(self.hub.request_wait_s())
+        if not self.access.may_come(self.address):
             self.refuse(403, NOT_PUBLISHED.format(address=self.address))
-        elif not access.may_request(host, self.request.headers.get("Origin")):
+        elif not self.access.may_request(host, self.request.headers.get("Origin")):
             self.refuse(403, "not an address of the cockpit: open the one that it printed")
         else:
             self.set_header("Content-Security-Policy", POLICY.format(host=host))
+
+    @property
+    def hub(self) -> Hub:
+        hub: Hub = self.settings["hub"]
+        return hub
+
+    @property
+    def access(self) -> Access:
+        access: Access = self.settings["access"]
+        return access
 
     @property
     def address(self) -> str:
         return str(self.request.remote_ip)
 
     @property
-    def role(self) -> Any:
-        return self.settings["access"].role(self.get_query_argument("token", None))
+    def role(self) -> str | None:
+        return self.access.role(self.get_query_argument("token", None))
 
     def refuse(self, status: int, why: str) -> None:
         self.set_status(status)
@@ -101,10 +99,8 @@ class _Page(_Guarded):
 
 
 class _Nothing(_Guarded):
-    async def prepare(self) -> None:
-        await super().prepare()
-        if not self._finished:
-            self.refuse(404, "nothing here")
+    def get(self) -> None:
+        self.refuse(404, "nothing here")
 
 
 class _Files(_Guarded, StaticFileHandler):
@@ -115,33 +111,21 @@ class _Files(_Guarded, StaticFileHandler):
 class _Socket(_Guarded, WebSocketHandler):
     """The connection between a page and the Hub."""
 
-    client: Any = None
+    client: Client
     stream: Any
     ws_connection: Any
-    pings = fragments = 0
+    reads = 0  # since a message or a pong came
 
     async def get(self, *_: Any, **__: Any) -> None:
-        origin = self.request.headers.get("Origin")
-        if not self.settings["access"].may_connect(self.request.host, origin):
+        role, origin = self.role, self.request.headers.get("Origin")
+        if not self.access.may_connect(self.request.host, origin):
             self.refuse(403, "only this cockpit's own page may connect")
-        elif self.role is None:
+        elif role is None:
             self.refuse(403, NO_TOKEN)
-        elif not self.has_room(self.settings["hub"]):
-            self.refuse(503, f"{MOST_CLIENTS} pages are open: close one, or try again later")
+        elif not self.hub.make_room(role == DRIVER):
+            self.refuse(503, f"{limits.MOST_PAGES} pages are open: close one, or try again later")
         else:
             await super().get()
-
-    def has_room(self, hub: Hub) -> bool:
-        """Return whether one more page may be opened, for which a viewer may be closed."""
-        pages = list(hub.clients.values())
-        if len(pages) < MOST_CLIENTS:
-            return True
-        page = page_to_close(pages, self.role, self.address, time.monotonic())
-        if page is None:
-            return False
-        hub.leave(page)
-        page.close()
-        return True
 
     def get_compression_options(self) -> dict[str, int]:
         # RFC 7692: a class that drives takes a quarter; little memory for each page.
@@ -153,29 +137,29 @@ class _Socket(_Guarded, WebSocketHandler):
     def open(self, *_: Any, **__: Any) -> None:
         self.set_nodelay(True)
         self.stream = self.ws_connection.stream
-        self.stream.socket.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, SEND_BUFFER)
+        self.stream.socket.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, limits.SEND_BUFFER)
         self.settings["pages"].add(self.stream)
-        self.limit_fragments(self.ws_connection)
-        hub = self.settings["hub"]
-        name = name_of(self.request.headers.get("User-Agent", ""), self.address)
+        self.bound_reads()
         self.client = Client(
-            hub.number(), self.role, name, self.send, self.stream.writing, self.is_cut,
-            self.stream.close, self.address,
+            self.hub.number(), str(self.role), self.address, self.send, self.stream.writing,
+            self.is_cut, self.stream.close,
         )  # fmt: skip
-        hub.join(self.client)
+        self.hub.join(self.client)
 
-    def limit_fragments(self, connection: Any) -> None:
-        """Close a page whose message never ends: tornado reports only whole ones."""
-        receive = connection._receive_frame
+    def bound_reads(self) -> None:
+        """Close a page that sends pings, or a message in pieces, without end.
 
-        async def receive_frame() -> None:
-            await receive()
-            is_whole = getattr(connection, "_fragmented_message_buffer", None) is None
-            self.fragments = 0 if is_whole else self.fragments + 1
-            if self.fragments > MOST_FRAGMENTS:
+        Tornado reports neither pieces nor the answers to pings, which would pile up unread.
+        """
+        read_bytes = self.stream.read_bytes
+
+        def counted(*how: Any, **more: Any) -> Awaitable[bytes]:
+            self.reads += 1
+            if self.reads > limits.MOST_READS:
                 self.stream.close()
+            return read_bytes(*how, **more)
 
-        connection._receive_frame = receive_frame
+        self.stream.read_bytes = counted
 
     def send(self, text: str) -> None:
         try:
@@ -187,55 +171,44 @@ class _Socket(_Guarded, WebSocketHandler):
         return not self.stream.closed() and resends(self.stream.socket) >= CUT_AFTER_RESENDS
 
     def on_message(self, message: Any) -> Awaitable[None] | None:
-        hub = self.settings["hub"]
-        wait_s = hub.wait_s(self.client)
-        if not wait_s:
-            return hub.hear(self.client, message)
-        return self.hear_later(wait_s, message)
+        self.reads = 0
+        wait_s = self.hub.wait_s(self.client)
+        if wait_s:
+            return self.hear_later(wait_s, message)
+        self.hub.hear(self.client, message)
+        return None
 
     async def hear_later(self, wait_s: float, message: Any) -> None:
         # Meanwhile tornado reads nothing more of this page: TCP holds the sender up.
         await asyncio.sleep(wait_s)
-        self.settings["hub"].hear(self.client, message)
+        self.hub.hear(self.client, message)
 
     def on_pong(self, data: bytes) -> Awaitable[None] | None:  # type: ignore[override]
         # Most of many pongs were not asked for; each costs as much as a message.
-        wait_s = self.settings["hub"].wait_s(self.client)
+        self.reads = 0
+        wait_s = self.hub.wait_s(self.client)
         return asyncio.sleep(wait_s) if wait_s else None
-
-    def on_ping(self, data: bytes) -> None:
-        # Tornado has answered already. A page's script can send no ping, and a program that sends
-        # many may leave the answers unread: they would pile up here.
-        self.pings += 1
-        if self.pings > MOST_PINGS:
-            self.stream.close()
 
     def on_close(self) -> None:
         self.settings["pages"].discard(self.stream)
-        if self.client:
-            self.settings["hub"].leave(self.client)
+        if hasattr(self, "client"):
+            self.hub.leave(self.client)
 
 
 class _Server(HTTPServer):
-    """Bounds the connections; closes one that is not used for a new one."""
+    """Bounds the connections: the oldest one without a page makes room for a new one."""
 
     def initialize(self, application: Application, **more: Any) -> None:  # type: ignore[override]
         super().initialize(application, **more)
         self._pages = application.settings["pages"]
-        self._streams: dict[Any, str] = {}  # stream -> its address, the oldest first
+        self._streams: list[Any] = []  # the oldest first
 
     def handle_stream(self, stream: Any, address: tuple[str, int]) -> None:
-        self._streams = {one: its for one, its in self._streams.items() if not one.closed()}
-        if len(self._streams) >= MOST_CONNECTIONS:
-            unused = [pair for pair in self._streams.items() if pair[0] not in self._pages]
-            oldest = connection_to_close(unused)
-            if oldest is None:
-                stream.close()
-                return
-            oldest.close()
-            del self._streams[oldest]
-        self._streams[stream] = address[0]
-        super().handle_stream(stream, address)
+        self._streams = [*(one for one in self._streams if not one.closed()), stream]
+        if len(self._streams) > limits.MOST_CONNECTIONS:
+            next(one for one in self._streams if one not in self._pages).close()
+        if not stream.closed():
+            super().handle_stream(stream, address)
 
 
 def server(hub: Hub, access: Access) -> HTTPServer:
@@ -256,18 +229,18 @@ def server(hub: Hub, access: Access) -> HTTPServer:
         hub=hub,
         page=page,
         pages=set(),  # streams that are a page's
-        websocket_max_message_size=LONGEST_MESSAGE,
-        websocket_ping_interval=PING_S,
-        websocket_ping_timeout=3 * PING_S,
+        websocket_max_message_size=limits.LONGEST_MESSAGE,
+        websocket_ping_interval=limits.PING_S,
+        websocket_ping_timeout=3 * limits.PING_S,
         log_function=lambda handler: None,
     )
     return _Server(
         application,
-        idle_connection_timeout=LONGEST_IDLE_S,
-        body_timeout=LONGEST_IDLE_S,
-        max_header_size=LONGEST_HEADER,
-        max_body_size=LONGEST_BODY,
-        max_buffer_size=4 * LONGEST_HEADER,
+        idle_connection_timeout=limits.LONGEST_IDLE_S,
+        body_timeout=limits.LONGEST_IDLE_S,
+        max_header_size=limits.LONGEST_HEADER,
+        max_body_size=limits.LONGEST_BODY,
+        max_buffer_size=4 * limits.LONGEST_HEADER,
     )
 
 

@@ -1,6 +1,6 @@
 """Questions to a master or a node that end in time, unlike rospy's own: which node is where.
 
-Also: which node holds a name, where the cockpit's page is, and this machine's own address.
+Also: which node holds a name, and this machine's own address.
 """
 
 from __future__ import annotations
@@ -16,7 +16,6 @@ from urllib.parse import urlsplit
 TIMEOUT_S = 2.0  # for each question; on one network an answer takes milliseconds
 MASTER_S = 10.0  # a master without processor time still knows who has a name
 PATIENCE_S = 3.0  # a node that hangs or waits for a busy processor still holds its name
-PARAMETER = "/cockpit_address"  # http://HOST:PORT/, as long as the cockpit of a master runs
 
 
 class Answer(Enum):
@@ -124,11 +123,3 @@ def way_out(address: str) -> str:
             return str(probe.getsockname()[0])
     except OSError:
         return ""
-
-
-def address(master_uri: str) -> str | None:
-    """Return the address of the page that shows this master's robots, or None without a page."""
-    answer, found = call(master_uri, "getParam", PARAMETER)
-    if answer is not Answer.WELL or not isinstance(found, str):
-        return None
-    return found if accepts(found) else None

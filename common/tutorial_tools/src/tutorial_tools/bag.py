@@ -13,7 +13,7 @@ from typing import Dict, List, NoReturn, Sequence, Tuple
 import rosgraph
 
 from gamepad.bags import BagError, opened
-from node_kit.ros_api import address
+from tutorial_tools.cockpit_page import address
 
 WIDTH, ROW, LEFT = 900, 90, 130  # [pixel] of the picture, of one curve, for the names
 COLOURS = ("#1f77b4", "#d62728", "#2ca02c", "#9467bd", "#8c564b", "#e377c2")

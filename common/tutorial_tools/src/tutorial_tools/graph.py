@@ -14,7 +14,8 @@ from urllib.parse import urlsplit
 
 import rosgraph
 
-from node_kit.ros_api import Answer, address, call
+from node_kit.ros_api import Answer, call
+from tutorial_tools.cockpit_page import address
 
 ENDINGS = (".png", ".svg", ".pdf", ".dot")
 # Every node is connected to /rosout, which would hide the rest.

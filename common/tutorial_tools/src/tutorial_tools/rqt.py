@@ -13,7 +13,7 @@ from pathlib import Path
 import rosgraph
 
 from node_kit.arguments import Parser
-from node_kit.ros_api import address
+from tutorial_tools.cockpit_page import address
 from tutorial_tools.windows import TABS, place
 
 PORTS = range(8080, 8100)  # of a cockpit that is started here: the first that is free

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import time
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any, ClassVar, Sequence
+from typing import ClassVar, Sequence
 
-from cockpit_server.clients import Client, Source
-from cockpit_server.driver_session import RefusedError
+from cockpit_server.clients import Client, RefusedError, Soon, Source
+from cockpit_server.driving.player import Player
+from cockpit_server.driving.who_drives import Driving
 from cockpit_server.graph import JOY
-from cockpit_server.player import Player
 from cockpit_server.schema import number, switch, text
 from cockpit_server.sources.recording import Recording, Shelf, recordings
 from gamepad.bags import BagError
@@ -18,11 +18,12 @@ LOOK_S = 2.0  # how often the folder is looked at for recordings, while a page s
 
 
 class Opened:
-    """What one page has opened. message: not sent yet."""
+    """What one page has opened. message: what it is sent of it."""
 
     def __init__(self, name: str, recording: Recording, message: str) -> None:
         self.name, self.recording, self.message = name, recording, message
-        self.position, self.rate, self.loop, self.topic = 0.0, 1.0, False, ""
+        self.position, self.topic = 0.0, ""
+        self.player: Player | None = None
 
 
 class Bags(Source):
@@ -38,16 +39,14 @@ class Bags(Source):
         "bag_seek": {"position": number(0, 1e6)},
     }
 
-    def __init__(self, hub: Any) -> None:
-        self._hub = hub
+    def __init__(self, driving: Driving, soon: Soon) -> None:
+        self._driving, self._soon = driving, soon
         self._reader = ThreadPoolExecutor(1, thread_name_prefix="recordings")
         self._shelf = Shelf()
         self._reading: set[int] = set()  # numbers of the clients that wait for one
         self._names: dict[bool, list[str]] = {}  # for pages that may drive, and for others
         self._next_look = 0.0  # [s]
         self._opened: dict[int, Opened] = {}  # by client's number
-        self._player: Player | None = None
-        self._owner = 0  # number of the client that plays
 
     def collect(self, clients: Sequence[Client], now: float) -> None:
         numbers = {client.number for client in clients}
@@ -65,19 +64,17 @@ class Bags(Source):
         if client.watch.bag and names and client.take_if_new("bags", names):
             client.send("bags", names=names)
         opened = self._opened.get(client.number)
-        if opened and opened.message:
-            client.write(opened.message)
-            opened.message = ""
-        if not client.watch.bag or opened is None:
+        if opened is None:
             return
-        player = self._playing(client.number)
-        if player:
-            opened.position = player.position(now)
-        at = {
-            "position": round(opened.position, 3), "playing": player is not None,
-            "rate": opened.rate, "loop": opened.loop, "topic": opened.topic,
-        }  # fmt: skip
-        if client.take_if_new("bag_at", at):
+        if client.take_if_new("bag", opened):
+            client.write(opened.message)
+        if opened.player:
+            opened.position = opened.player.position(now)
+        if not self._driving.plays(opened.player):
+            opened.player = None
+        plays = opened.player is not None
+        at = {"position": round(opened.position, 3), "playing": plays, "topic": opened.topic}
+        if client.watch.bag and client.take_if_new("bag_at", at):
             client.send("bag_at", **at)
 
     def on_bag_open(self, client: Client, now: float, name: str) -> None:
@@ -98,15 +95,16 @@ class Bags(Source):
             why = str(error)
         except Exception as error:  # whatever is in the file, the page gets the reason
             why = f"{name}: {type(error).__name__}: {error}"
-        self._hub.soon(lambda: self._show(client, opened, why))
+        self._soon(lambda: self._show(client, opened, why))
 
     def _show(self, client: Client, opened: Opened | None, why: str) -> None:
-        now = time.monotonic()
         self._reading.discard(client.number)
         if opened is None:
-            client.refuse("bag_open", why, now)
+            client.refuse("bag_open", why)
             return
-        self.on_bag_pause(client, now)  # what was started meanwhile is not what is shown
+        self.on_bag_pause(
+            client, time.monotonic()
+        )  # what was started meanwhile is not what is shown
         self._opened[client.number] = opened
         client.seen.pop("bag_at", None)
 
@@ -119,47 +117,27 @@ class Bags(Source):
             raise RefusedError(f"the recording has no topic {topic!r}")
         if kind != JOY:
             raise RefusedError(f"{topic} is of type {kind}: only {JOY} may be published from here")
-        self._hub.sit_down(client, robot, now, plays=True)
-        opened.topic, opened.rate, opened.loop = topic, rate, loop
         messages, duration = opened.recording.joys[topic], opened.recording.duration
-        self._player = Player(messages, duration, rate, loop)
-        self._player.seek(opened.position, now)
-        self._owner = client.number
+        player = Player(messages, duration, rate, loop)
+        player.seek(opened.position, now)
+        self._driving.play(client, robot, player, now)
+        opened.topic, opened.player = topic, player
 
     def on_bag_pause(self, client: Client, now: float) -> None:
-        player = self._playing(client.number)
-        if player:
-            self._opened[client.number].position = player.position(now)
-            self._hub.stand_up(client)
+        opened = self._opened.get(client.number)
+        if opened and opened.player and self._driving.plays(opened.player):
+            opened.position = opened.player.position(now)
+            opened.player = None
+            self._driving.leave(client)
 
     def on_bag_seek(self, client: Client, now: float, position: float) -> None:
         opened = self._must_be_open(client)
         opened.position = min(position, opened.recording.duration)
-        player = self._playing(client.number)
-        if player:
-            player.seek(opened.position, now)
+        if opened.player:
+            opened.player.seek(opened.position, now)
 
     def _must_be_open(self, client: Client) -> Opened:
         opened = self._opened.get(client.number)
         if opened is None:
             raise RefusedError("open a recording first")
         return opened
-
-    def _playing(self, number: int) -> Player | None:
-        """Return what a client plays, if anything."""
-        session = self._hub.session
-        return self._player if number == self._owner == session.driver and session.plays else None
-
-    def play(self, now: float) -> None:
-        """Publish the messages that are due."""
-        player = self._player = self._playing(self._owner)
-        if player is None:
-            return
-        client = self._hub.clients[self._owner]
-        for axes, buttons in player.due(now):
-            self._hub.session.play(axes, buttons)
-        if player.is_over(now):
-            self._opened[self._owner].position = 0.0
-            self._hub.stand_up(client)
-        elif client.is_cut():
-            self._hub.lose("the network to the page that plays is down")

@@ -15,7 +15,7 @@ import rospkg
 from cockpit_server.clients import Client, Source
 from cockpit_server.sources.logs import without_folders
 
-LONGEST_RUN_S = 60.0
+COMMAND = "nice", "timeout", "60"  # s
 FRESH_S = 10.0  # a viewer gets lines of this age, without a new run
 
 
@@ -63,12 +63,9 @@ class Doctor(Source):
     def _listen(self) -> None:
         script = Path(rospkg.RosPack().get_path("tutorial_tools")) / "scripts" / "doctor.py"
         with subprocess.Popen(
-            ["nice", sys.executable, str(script)], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT, text=True, errors="replace",
+            [*COMMAND, sys.executable, str(script)], stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace",
         ) as program:  # fmt: skip
-            too_late = threading.Timer(LONGEST_RUN_S, program.kill)
-            too_late.start()
             for line in program.stdout or ():
                 self._lines = [*self._lines, shown(line)]
                 self._version += 1
-            too_late.cancel()

@@ -14,8 +14,8 @@ import rosservice
 from genpy.message import fill_message_args
 from rosgraph.names import is_legal_name
 
-from cockpit_server.clients import Client, Source
-from cockpit_server.driver_session import RefusedError
+from cockpit_server.clients import Client, RefusedError, Soon, Source
+from cockpit_server.driving.who_drives import Driving
 from cockpit_server.feeds import later
 from cockpit_server.fields import definition, form_fields
 from cockpit_server.graph import JOY
@@ -96,8 +96,8 @@ class Forms(Source):
         "set": {"parameter": full_name, "values": TEXTS},
     }
 
-    def __init__(self, hub: Any, graph_watch: GraphWatch) -> None:
-        self._hub, self._graphs = hub, graph_watch
+    def __init__(self, driving: Driving, soon: Soon, graph_watch: GraphWatch) -> None:
+        self._driving, self._soon, self._graphs = driving, soon, graph_watch
         self._asked: set[str] = set()  # services that have not answered yet
         self._publishers: dict[Key, Any] = {}  # Publisher, or None until it is connected
         self._first: dict[Key, Any] = {}  # the message that a new one then publishes
@@ -126,7 +126,7 @@ class Forms(Source):
     def on_publish(
         self, client: Client, now: float, *, topic: str, type: str, values: Mapping[str, str]
     ) -> None:
-        self._must_be_free(client)
+        self._driving.must_be_free(client)
         kind, known = class_of(type), self._graphs.graph.types.get(topic, type)
         if kind is None or known != type or not is_legal_name(topic):
             raise RefusedError(f"{topic}: no topic of the type {type}")
@@ -159,18 +159,13 @@ class Forms(Source):
     def on_set(
         self, client: Client, _now: float, parameter: str, values: Mapping[str, str]
     ) -> None:
-        self._must_be_free(client)
+        self._driving.must_be_free(client)
         if "value" not in values:
             raise RefusedError('write a value, such as 0.5, [1, 2], a text, or "" for an empty one')
         self._ask_master(client, lambda: set_parameter(parameter, values["value"]))
 
     def _ask_master(self, client: Client, ask: Callable[[], dict[str, Any]]) -> None:
-        self._ask(client, f"the master, for page {client.number},", ask)
-
-    def _must_be_free(self, client: Client) -> None:
-        client.must_drive()
-        if self._hub.session.driver not in (None, client.number):
-            raise RefusedError("another page drives: until it ends, only that page may do this")
+        self.ask(client, f"the master, for page {client.number},", ask)
 
     def _begin(self, key: Key, kind: Any) -> None:
         """Publish a first message once the subscribers are connected."""
@@ -190,20 +185,21 @@ class Forms(Source):
             self._publishers[key] = publisher
 
     def _call(self, client: Client, service: str, ask: Callable[[], dict[str, Any]]) -> None:
-        self._must_be_free(client)
+        self._driving.must_be_free(client)
         if service not in self._graphs.graph.services:
             raise RefusedError(f"there is no service {service}")
-        self._ask(client, service, ask)
+        self.ask(client, service, ask)
 
-    def _ask(self, client: Client, asked: str, ask: Callable[[], dict[str, Any]]) -> None:
+    def ask(self, client: Client, asked: str, ask: Callable[[], dict[str, Any]]) -> None:
+        """Send a client what a service or the master answers. Raises RefusedError."""
         if asked in self._asked:
             raise RefusedError(f"{asked} was called and has not answered yet")
         self._asked.add(asked)
         # A thread of its own: a service may take its time.
-        arguments = (client.number, asked, ask)
+        arguments = (client, asked, ask)
         threading.Thread(target=self._answer, args=arguments, daemon=True).start()
 
-    def _answer(self, number: int, asked: str, ask: Callable[[], dict[str, Any]]) -> None:
+    def _answer(self, client: Client, asked: str, ask: Callable[[], dict[str, Any]]) -> None:
         try:
             answer = ask()
         except Exception as error:  # whatever the service, its package or the master brings about
@@ -211,11 +207,7 @@ class Forms(Source):
             answer = {"kind": "refused", "what": "call", "why": why}
         finally:
             self._asked.discard(asked)
-        self._hub.soon(lambda: self._send(number, **answer))
-
-    def _send(self, number: int, kind: str, **answer: Any) -> None:
-        if number in self._hub.clients:
-            self._hub.clients[number].send(kind, **answer)
+        self._soon(lambda: client.send(**answer))
 
 
 def describe_service(name: str) -> dict[str, Any]:

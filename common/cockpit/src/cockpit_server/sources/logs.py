@@ -12,7 +12,7 @@ from typing import Any, ClassVar
 from rosgraph_msgs.msg import Log
 
 from cockpit_server.clients import Client, Source
-from cockpit_server.feeds import Feeds, read
+from cockpit_server.feeds import Feeds, Raw, read
 from cockpit_server.schema import switch
 
 KEPT = 1000  # lines, as many as a page keeps
@@ -67,6 +67,6 @@ class Logs(Source):
             entries = [entry for entry in (shown(data) for _, data in lines) if entry]
             client.send("log", entries=entries)
 
-    def _hear(self, message: Any, _topic: str) -> None:
+    def _hear(self, message: Raw, _topic: str) -> None:
         if all(data != message.data for _, data in list(self._lines)):  # latched, heard again
             self._lines.append((next(self._numbers), message.data))

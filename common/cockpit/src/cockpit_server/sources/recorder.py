@@ -8,12 +8,11 @@ import threading
 import time
 from contextlib import suppress
 from subprocess import DEVNULL, Popen
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import rospy
 
-from cockpit_server.clients import Client, Source
-from cockpit_server.driver_session import RefusedError
+from cockpit_server.clients import Client, RefusedError, Source
 from cockpit_server.schema import switch
 
 # It ends at 150 MB, as Bag opens up to 200 MB, or after an hour.
@@ -27,7 +26,7 @@ class Recorder(Source):
 
     def __init__(self) -> None:
         self._name = ""  # It names the file while something is recorded.
-        self._process: Any = None
+        self._process: Popen[bytes] | None = None
         rospy.on_shutdown(self._stop)
 
     def send_to(self, client: Client, now: float) -> None:

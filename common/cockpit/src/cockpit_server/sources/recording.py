@@ -9,8 +9,8 @@ from typing import Any, List, NamedTuple, Sequence
 import rospkg
 
 from cockpit_server.clients import encoded
+from cockpit_server.driving.player import Message
 from cockpit_server.graph import JOY
-from cockpit_server.player import Message
 from gamepad.bags import BagError, opened
 
 Point = List[float]  # time [s], value

@@ -9,8 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any, ClassVar, Sequence
 
-from cockpit_server.clients import Client, Source
-from cockpit_server.driver_session import LATE_S, SILENCE_S, Delay, RefusedError
+from cockpit_server.clients import Client, RefusedError, Source
+from cockpit_server.driving.driver_session import LATE_S, SILENCE_S, Delay
 from cockpit_server.schema import MILLISECONDS, number
 from cockpit_server.sources.forms import Forms
 

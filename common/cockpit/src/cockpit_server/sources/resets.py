@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-import threading
-from typing import Any, ClassVar
+from typing import ClassVar
 
-import rospy
-from std_srvs.srv import Empty
-
-from cockpit_server.clients import Client, Source
-from cockpit_server.driver_session import RefusedError
-from cockpit_server.driving_status import DrivingStatus
+from cockpit_server.clients import Client, RefusedError, Source
+from cockpit_server.driving.who_drives import Driving
 from cockpit_server.graph import Graph, topic_of
 from cockpit_server.graph_watch import GraphWatch
 from cockpit_server.schema import text
+from cockpit_server.sources.forms import Forms, call
 
 
 def reset_service(graph: Graph, robot: str) -> str:
@@ -34,28 +30,10 @@ class Resets(Source):
 
     messages: ClassVar = {"reset": {"robot": text}}
 
-    def __init__(self, hub: Any, graph_watch: GraphWatch, drives: DrivingStatus) -> None:
-        self._hub, self._graphs, self._drives = hub, graph_watch, drives
-        self._asked: set[str] = set()  # names of services that have not answered yet
+    def __init__(self, driving: Driving, forms: Forms, graph_watch: GraphWatch) -> None:
+        self._driving, self._forms, self._graphs = driving, forms, graph_watch
 
     def on_reset(self, client: Client, _now: float, robot: str) -> None:
-        client.must_drive()
-        if robot == self._hub.driven and client.number != self._hub.session.driver:
-            raise RefusedError("another page drives this robot: only that page may reset it")
-        node = self._drives.node_that_drives(robot)
-        if node:
-            raise RefusedError(f"{node} drives this robot: stop it before you reset the robot")
+        self._driving.must_rest(client, robot)
         name = reset_service(self._graphs.graph, robot)
-        if name in self._asked:
-            raise RefusedError(f"{name} was called and has not answered yet")
-        self._asked.add(name)
-        # A thread of its own: a robot that hangs does not answer, and other robots go on.
-        threading.Thread(target=self._call, args=(name,), daemon=True).start()
-
-    def _call(self, name: str) -> None:
-        try:
-            rospy.ServiceProxy(name, Empty)()
-        except rospy.ServiceException as error:
-            rospy.logwarn("cockpit: %s: %s", name, error)
-        finally:
-            self._asked.discard(name)
+        self._forms.ask(client, name, lambda: call(name, {}))

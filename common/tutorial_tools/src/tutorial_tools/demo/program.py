@@ -18,7 +18,8 @@ import rosgraph
 import rospkg
 
 from gamepad.bags import BagError, opened
-from node_kit.ros_api import Answer, accepts, address, call, holder
+from node_kit.ros_api import Answer, accepts, call, holder
+from tutorial_tools.cockpit_page import address
 from tutorial_tools.command.words import fail, parser_of
 from tutorial_tools.demo.launch import ENDING, TOPICS, DemoError, Launch
 from tutorial_tools.launch_arguments import launch_arguments

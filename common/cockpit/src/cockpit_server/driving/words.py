@@ -1,13 +1,20 @@
 """The words for what drives a robot, why it stands, and what to do; all of them here (pure)."""
 
-from typing import Any, Dict, NamedTuple, Optional, Sequence, Tuple
+from typing import Dict, NamedTuple, Optional, Tuple
 
-from cockpit_server.clients import Client, Source
 from cockpit_server.graph import topic_of
 from gamepad.gamepads import F710
 from node_kit.arming import DRIVING
 
 NO_ROBOT = "no robot is running yet: start one, for example with ./tutorial demo"
+
+
+class Report(NamedTuple):
+    """What joy2twist reports."""
+
+    state: str
+    why: str = ""  # the whole line
+    deadman: Optional[str] = None  # number of that button, "none", or None if not reported
 
 
 class About(NamedTuple):
@@ -18,7 +25,7 @@ class About(NamedTuple):
     plays: bool = False  # whether that page plays a recording
     armed: bool = False  # whether all was seen released
     why: str = ""  # the last stop by a loss of the driver
-    said: Optional[Dict[str, Any]] = None  # what joy2twist reports: see teleop.report_of()
+    said: Optional[Report] = None
     senders: Tuple[str, ...] = ()  # other nodes that publish its joystick's topic
     moves: bool = False  # whether its odometry says so
     is_heard: bool = True  # whether a node subscribes to its joystick's topic
@@ -27,7 +34,7 @@ class About(NamedTuple):
     def is_driven_by_node(self) -> bool:
         if self.driver is not None:
             return False
-        return self.said["state"] == DRIVING if self.said else self.moves and bool(self.senders)
+        return self.said.state == DRIVING if self.said else self.moves and bool(self.senders)
 
 
 def driver(about: About) -> str:
@@ -37,14 +44,20 @@ def driver(about: About) -> str:
     return (", ".join(about.senders) or "a joystick") if about.is_driven_by_node else ""
 
 
+def in_a_table(about: About) -> Dict[str, str]:
+    """Return the row of a robot: what drives it, and joy2twist's state and line."""
+    report = about.said or Report("unknown")
+    return {"driver": driver(about), "state": report.state, "why": report.why}
+
+
 def who(about: About, robot: str, page: int) -> str:
     """Return a sentence that says to a page what drives the robot."""
     its = robot or "the robot"
     if about.driver is not None:
         i = about.driver == page
         if about.plays:
-            return f"{'You play' if i else f'{about.name} plays'} a recording to {its}."
-        return f"You drive {its}." if i else f"{about.name} drives {its}."
+            return sentence(f"{'you play' if i else f'{about.name} plays'} a recording to {its}")
+        return sentence(f"{'you drive' if i else f'{about.name} drives'} {its}")
     some = " and ".join(about.senders)
     if about.is_driven_by_node:
         return f"{some or 'A joystick'} drives {its}."
@@ -109,7 +122,7 @@ def how_to(about: About, page: int, may_drive: bool) -> str:
 
 def held(about: About) -> Optional[str]:
     """Return the name of the dead-man button, None if joy2twist needs none."""
-    number = (about.said or {}).get("deadman")
+    number = about.said.deadman if about.said else None
     if number is None:
         return "LB"  # as the suite's presets have it
     names = F710["D"].buttons
@@ -120,60 +133,3 @@ def held(about: About) -> Optional[str]:
 
 def lost_text(why: str, keeps_session: bool) -> str:
     return f"Stopped: {why}." if keeps_session else f"This page no longer drives: {why}."
-
-
-class DrivingStatus(Source):
-    """Sends each page what drives the robot that it shows, and the drivers of all robots."""
-
-    def __init__(self, hub: Any, graph_watch: Any, teleop: Any, robots: Any) -> None:
-        self._hub, self._graphs, self._teleop, self._robots = hub, graph_watch, teleop, robots
-        self._abouts: Dict[str, About] = {}
-        self._drivers: Dict[str, str] = {}
-        self._driven = None  # from a page, the last time
-
-    def collect(self, clients: Sequence[Client], now: float) -> None:
-        session, driven = self._hub.session, self._hub.driven
-        if self._driven not in (None, driven):
-            self._teleop.outdate(self._driven)  # Its driver has left since.
-        self._driven = driven
-        self._abouts = {robot: self._about(robot, now) for robot in self._graphs.graph.robots()}
-        for robot, about in self._abouts.items():
-            if about.is_driven_by_node:
-                session.moves_on(robot)
-        self._drivers = {robot: driver(about) for robot, about in self._abouts.items()}
-
-    def _about(self, robot: str, now: float) -> About:
-        session = self._hub.session
-        page = self._hub.clients.get(session.driver) if robot == self._hub.driven else None
-        return About(
-            driver=session.driver if page else None,
-            name=page.name if page else "",
-            plays=bool(page) and session.plays,
-            armed=bool(page) and session.armed,
-            why=session.why if robot == session.stopped else "",
-            said=self._teleop.newest(robot),
-            senders=self._graphs.joysticks(robot),
-            moves=self._robots.moves(robot, now),
-            is_heard=bool(self._graphs.joystick_listeners(robot)),
-        )
-
-    def node_that_drives(self, robot: str) -> str:
-        """Return the name of the node, other than a page, that drives a robot, or ""."""
-        about = self._abouts.get(robot, About())
-        return driver(about) if about.is_driven_by_node else ""
-
-    def send_to(self, client: Client, now: float) -> None:
-        robot = client.watch.look
-        about = self._abouts.get(robot, About())
-        refusal = self._hub.refusal(client, robot or "", now)
-        words = {
-            "robot": robot,
-            "who": who(about, robot or "", client.number),
-            "ready": ready(about, robot or "", client.number, refusal),
-            "how": how_to(about, client.number, not refusal),
-            "refusal": sentence(refusal),
-            "again": again(about),
-            "drivers": self._drivers,
-        }
-        if client.take_if_new("drives", words):
-            client.send("drives", **words)

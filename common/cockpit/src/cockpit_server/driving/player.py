@@ -26,7 +26,8 @@ class Player:
         self._next = bisect_left(self._times, position)
 
     def position(self, now: float) -> float:
-        return min(self._duration, (now - self._began) * self._rate)
+        """Return the time since the start [s]; after the end that of another begin."""
+        return 0.0 if self.is_over(now) else min(self._duration, (now - self._began) * self._rate)
 
     def is_over(self, now: float) -> bool:
         return not self._loop and (now - self._began) * self._rate >= self._duration

@@ -1,26 +1,10 @@
-"""Bodies and names of a classroom's robots: which there are, from the transforms."""
+"""Bodies and names of a classroom's robots."""
 
 import pytest
 
 pytest.importorskip("visualization_msgs", reason="no ROS for this Python: ./tutorial setup")
 
-from cockpit_server.classroom.node import base_frames, markers, robots
-
-STATIC = {
-    ("world", "ada/odom"),
-    ("world", "robot_2/odom"),
-    # Of a student's robot_state_publisher, and of a robot that is no classroom's.
-    ("ada/base_footprint", "ada/base_link"),
-    ("base_footprint", "base_link"),
-}
-MOVING = {("ada/odom", "ada/base_footprint"), ("ada/base_link", "ada/wheel_left_link")}
-
-
-def test_a_robot_has_a_base_once_it_was_seen_to_move():
-    assert robots(STATIC) == robots(STATIC | MOVING) == {"ada", "robot_2"}
-    assert base_frames(STATIC, MOVING) == {"ada": "ada/base_footprint"}
-    both = base_frames(STATIC, MOVING | {("robot_2/odom", "robot_2/base")})
-    assert both == {"ada": "ada/base_footprint", "robot_2": "robot_2/base"}
+from fake_turtlebot_sim.classroom.node import markers
 
 
 def test_a_body_and_the_name_above_it():

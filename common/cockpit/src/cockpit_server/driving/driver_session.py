@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from typing import Callable, NamedTuple, Tuple
 
+from cockpit_server.clients import RefusedError
 from gamepad.gamepads import triggers_by_count
 
 SILENCE_S = 0.2  # without a fresh input the operator is lost
@@ -26,10 +27,6 @@ CLOCK_DRIFT = 1e-3
 NEUTRAL = 0.1  # a stick that was let go is within this, as joy2twist has it
 Axes = Tuple[float, ...]
 Buttons = Tuple[int, ...]
-
-
-class RefusedError(Exception):
-    """Something cannot be done; the text says why in one line."""
 
 
 class Input(NamedTuple):

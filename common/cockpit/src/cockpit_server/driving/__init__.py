@@ -1,0 +1,1 @@
+"""Who drives a robot, by what, and why it stands."""

@@ -1,0 +1,1 @@
+"""Bodies and names of a classroom's robots for RViz: the node classroom_bodies."""

@@ -1,0 +1,189 @@
+"""The driver and the pages around: who may drive, who stops it, and what pages are sent of it."""
+
+import time
+from types import SimpleNamespace
+
+import pytest
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+
+from cockpit_server.access import DRIVER, VIEWER
+from cockpit_server.clients import LOOKS_ONLY, RefusedError
+from cockpit_server.driving.player import Player
+from cockpit_server.driving.teleop import DEADMAN, SILENT, Teleop
+from cockpit_server.driving.who_drives import CONNECT_S, Driving
+from cockpit_server.driving.words import Report
+from cockpit_server.graph import JOY, Graph
+from tutorial_testing.session_room import ANNA, BOB, DRIVE, REST, Topics, look, page
+
+ADA = {"robot": "ada", "mode": "D"}
+
+
+class Made(Driving):
+    """The pages of Anna and Bob, the robot ada, its joy2twist, and what is published."""
+
+    def __init__(self, role=DRIVER):
+        self.now, self.n = 100.0, 0
+        self.published, self.outdated, self.senders = [], [], ()
+        self.report, self.rival, self.is_heard = Report("armed", "", "4"), "", True
+        self.anna, self.bob = page(role, ANNA, look="ada"), page(DRIVER, BOB, look="ada")
+        graphs = SimpleNamespace(
+            graph=Graph(subscribers={"/ada/joy": {"/joy2twist"}}, types={"/ada/joy": JOY}),
+            joystick_listeners=lambda _: {"/joy2twist"}, joysticks=lambda _: self.senders,
+        )  # fmt: skip
+        joysticks = SimpleNamespace(
+            send=lambda *message: self.published.append(message), advertise=lambda _: None,
+            rival=lambda *_: self.rival, is_heard=lambda _: self.is_heard,
+        )  # fmt: skip
+        teleop = SimpleNamespace(newest=lambda *_: self.report, outdate=self.outdated.append)
+        pages = {ANNA: self.anna[0], BOB: self.bob[0]}
+        super().__init__(pages, graphs, joysticks, teleop, lambda *_: False)
+
+    def hold(self, position):
+        """Let Anna's page answer the next beat with this position."""
+        client, sent = self.anna
+        self.now += 0.1
+        self.tick(self.now)
+        self.beat(self.now)
+        beat = sent[-1]["n"]
+        axes, buttons = position
+        self.on_input(client, self.now, n=beat, t=1e3 * self.now, beat=beat, pad=None,
+                      axes=axes, buttons=buttons, source="keys")  # fmt: skip
+
+
+@pytest.fixture
+def driven():
+    """A Driving in which Anna drives."""
+    made = Made()
+    made.on_drive(made.anna[0], made.now, **ADA)
+    for position in (REST, DRIVE):
+        made.hold(position)
+    assert made.published.pop() == ("ada", *DRIVE)
+    made.published.clear()
+    return made
+
+
+@pytest.mark.parametrize(
+    ("is_heard", "after_s", "drives"),
+    [(False, CONNECT_S - 0.2, False), (True, 0.0, True), (False, CONNECT_S, True)],
+)
+def test_page_drives_once_all_subscribers_are_connected_or_after_a_while(is_heard, after_s, drives):
+    made = Made()
+    made.is_heard = is_heard
+    made.on_drive(made.anna[0], made.now, **ADA)
+    made.now += after_s
+    made.hold(REST)
+    assert made.session.armed == drives
+
+
+def test_stop_of_another_page_stops_the_driver_and_a_viewers_does_nothing(driven):
+    client, sent = driven.anna
+    with pytest.raises(RefusedError, match=LOOKS_ONLY):
+        driven.on_stop(page(VIEWER)[0], driven.now)
+    assert driven.session.armed
+    driven.on_stop(driven.bob[0], driven.now)
+    assert (driven.published, driven.session.driver) == ([("ada", *REST)], ANNA)
+    assert not driven.session.armed  # its hands must let go first
+    assert "pressed Stop" in sent[-1]["text"]
+    driven.on_stop(client, driven.now)
+    assert driven.driven is None
+
+
+def test_another_joystick_frees_the_session(driven):
+    driven.rival = "/player"
+    driven.beat(driven.now)
+    assert (driven.published, driven.driven) == ([("ada", *REST)], None)
+    assert "/player also drives this robot" in driven.anna[1][-1]["text"]
+
+
+@pytest.mark.parametrize(
+    ("role", "robot", "rival", "driver", "refusal"),
+    [
+        (DRIVER, "ada", "", None, ""),
+        (DRIVER, "bob", "", None, "there is no robot 'bob'"),
+        (VIEWER, "ada", "", None, LOOKS_ONLY),
+        (DRIVER, "ada", "/player", None, "/player publishes the joystick topic of this robot"),
+        (DRIVER, "ada", "", BOB, "another page drives"),
+        (DRIVER, "ada", "/player", ANNA, ""),  # the own session
+    ],
+)
+def test_page_is_told_beforehand_what_drive_would_be_refused_for(
+    role, robot, rival, driver, refusal
+):
+    made = Made(role)
+    if driver is not None:
+        made.session.take(driver, "ada", 0.0)
+    made.rival = rival
+    said = made.refusal(made.anna[0], robot, 0.0)
+    assert said.startswith(refusal) and bool(said) == bool(refusal)
+    if refusal:
+        with pytest.raises(RefusedError, match=refusal):
+            made.on_drive(made.anna[0], 0.0, robot, "D")
+
+
+def test_pages_are_sent_each_change_of_the_driver(driven):
+    def sessions():
+        found = look(driven, driven.anna, driven.bob)
+        return [[one for one in sent if one["kind"] == "session"] for sent in found]
+
+    state = {"kind": "session", "driver": ANNA, "robot": "ada", "plays": False, "armed": True}
+    assert sessions() == [[{**state, "yours": True}], [{**state, "yours": False}]]
+    assert sessions() == [[], []]
+    driven.on_drive(driven.anna[0], driven.now, **ADA)  # again
+    for position in (REST, DRIVE):
+        driven.hold(position)
+    assert [len(sent) for sent in sessions()] == [1, 1]
+
+
+@pytest.mark.parametrize(("is_cut", "end_s"), [(False, 3.0), (True, 2.5)])
+def test_a_recording_is_published_until_its_end_or_until_its_page_is_cut(is_cut, end_s):
+    made, player = Made(), Player([(n, n, ()) for n in range(4)], 3.0, 1.0, loop=False)
+    client, _ = made.anna
+    player.seek(0.5, 0.0)
+    made.play(client, "ada", player, 0.0)
+    made.tick(2.0)
+    assert [message[1] for message in made.published] == [1, 2]
+    client.is_cut = lambda: is_cut
+    made.session._last = None
+    made.tick(end_s - 0.5)
+    assert not made.plays(player) and made.driven is None
+
+
+def test_robot_is_not_reset_while_another_drives_it():
+    made = Made()
+    made.report, made.senders = Report("driving"), ("/rosbag_play",)
+    made.session.why, made.session.stopped = "hidden", "ada"
+    look(made, made.anna)
+    assert made.session.stopped is None  # it stands no longer
+    with pytest.raises(RefusedError, match="/rosbag_play drives this robot: stop it"):
+        made.must_rest(made.anna[0], "ada")
+    made.session.take(BOB, "ada", 0.0)
+    with pytest.raises(RefusedError, match="another page drives this robot"):
+        made.must_rest(made.anna[0], "ada")
+    with pytest.raises(RefusedError, match="another page drives: until"):
+        made.must_be_free(made.anna[0])
+    look(made, made.anna)
+    made.session.leave(BOB)
+    look(made, made.anna)
+    assert made.outdated == ["ada"]  # that joy2twist was driving is no longer true
+
+
+def test_reports_of_joy2twist_are_read_by_robot_and_outdated_once_its_driver_has_left():
+    topics = Topics()
+    teleop = Teleop(topics)
+    status = [
+        DiagnosticStatus(1, "myjoystick2twist: joystick", "driving", "", []),
+        DiagnosticStatus(1, "robot_1/joy2twist: joystick", "stopped: not armed", "",
+                         [KeyValue(DEADMAN, "4")]),
+        DiagnosticStatus(1, "fake_turtlebot: simulation", "running", "", []),
+    ]  # fmt: skip
+    for message in (DiagnosticArray(status=status), b"bytes that are none: joystick"):
+        topics.hear("/diagnostics", message)
+    now = time.monotonic()
+    assert teleop.newest("", now) == Report("driving", "driving")
+    assert teleop.newest("robot_1", now) == Report("stopped", "stopped: not armed", "4")
+    assert teleop.newest("robot_2", now) is None
+    for robot in ("", "robot_1"):
+        teleop.outdate(robot)
+    states = [teleop.newest(robot, now).state for robot in ("", "robot_1")]
+    assert states == ["unknown", "stopped"]
+    assert teleop.newest("", now + 5.0) == SILENT

@@ -1,0 +1,71 @@
+"""One truth about who drives and why a robot stands: what pages say in each situation."""
+
+import pytest
+
+from cockpit_server.clients import LOOKS_ONLY
+from cockpit_server.driving import words
+from cockpit_server.driving.words import About, Report, sentence
+from tutorial_testing.session_room import ANNA, BOB
+
+MOVING, ARMED, FREE = Report("driving"), Report("armed", "", "4"), Report("armed", "", "none")
+PLAYS = ("/rosbag_play",)
+SEAT = About(driver=ANNA, name="Firefox", armed=True, said=ARMED)
+
+WHO = {
+    "nobody": (About(said=ARMED), "Nobody drives."),
+    "this page": (SEAT, "You drive ada."),
+    "another page": (SEAT._replace(driver=BOB), "Firefox drives ada."),
+    "a recording of this page": (SEAT._replace(plays=True), "You play a recording to ada."),
+    "a recording of another": (
+        SEAT._replace(plays=True, driver=BOB), "Firefox plays a recording to ada."),
+    "a recording of rosbag": (About(said=MOVING, senders=PLAYS), "/rosbag_play drives ada."),
+    "a joystick at rest": (
+        About(said=ARMED, senders=PLAYS),
+        "Nobody drives. Publishers of its joystick topic: /rosbag_play."),
+    "without diagnostics": (About(senders=PLAYS, moves=True), "/rosbag_play drives ada."),
+    "no joystick": (About(moves=True),
+        "No joystick drives ada, but it moves: the tab Graph shows what moves it."),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", WHO)
+def test_who_drives(case):
+    about, said = WHO[case]
+    assert words.who(about, "ada", ANNA) == said
+    assert words.who(about, "", ANNA) == said.replace("ada", "the robot")
+    assert (words.driver(about) == "") == said.startswith(("Nobody", "No joystick"))
+
+
+UNHEARD = "No node subscribes to /ada/joy: nothing moves before you start joy2twist for ada."
+BY_LB = "Hold LB (a thumb, a gamepad's button, the key Shift), then move the stick (or arrow keys)."
+BY_77 = "Hold button 77 (a gamepad's button), then move the stick (or arrow keys)."
+FREELY = "Move the stick (a thumb, a gamepad, the arrow keys)."
+READY = {  # -> why it stands and what to do now; how it is driven, without "Esc: stop."
+    "drives": (SEAT, "Hold LB, then move the stick.", BY_LB),
+    "sits down": (SEAT._replace(armed=False), "Release LB and the stick first.", BY_LB),
+    "was stopped": (SEAT._replace(armed=False, why="hidden"),
+        "Stopped: hidden. Release LB and the stick, then hold LB again.", BY_LB),
+    "no button": (SEAT._replace(said=FREE),
+        "Move the stick: this robot needs no button held.", FREELY),
+    "a button without a name": (SEAT._replace(said=Report("armed", "", "77")),
+        "Hold button 77, then move the stick.", BY_77),
+    "plays": (SEAT._replace(plays=True), "", ""),
+    "looks on": (About(), "", BY_LB),
+    "another page drives": (SEAT._replace(driver=BOB), "", ""),
+    "a node drives": (About(said=MOVING), "", ""),
+    "it stopped": (About(said=ARMED, why="the network is down"),
+        "Stopped: the network is down.", BY_LB),
+    "without joy2twist": (SEAT._replace(is_heard=False, armed=False), UNHEARD, ""),
+    "without joy2twist, stopped": (About(is_heard=False, why="it"), f"Stopped: it. {UNHEARD}", ""),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", READY)
+def test_the_page_says_why_the_robot_stands_and_what_to_do(case):
+    about, said, how = READY[case]
+    assert words.ready(about, "ada", ANNA, "") == said
+    assert words.how_to(about, ANNA, may_drive=True) == f"{how} Esc: stop." * bool(how)
+    assert words.how_to(about, ANNA, may_drive=False) == ""
+    if about.driver is None:
+        viewed = words.ready(about, "ada", ANNA, LOOKS_ONLY)
+        assert viewed == f"{said} {sentence(LOOKS_ONLY)}".strip()
