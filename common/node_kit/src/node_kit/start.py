@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import sys
 from typing import Any, Callable
 
@@ -9,7 +10,12 @@ import rosgraph
 import rospy
 from rospy.client import load_command_line_node_params
 
-from node_kit.ending import end_in_time, end_on_signals, is_ending, wait_for_goodbye
+from node_kit.ending import (
+    end_in_time,
+    end_on_signals,
+    is_ending,
+    wait_for_goodbye,
+)
 from node_kit.parameters import checked_value, switch
 from node_kit.ros_api import Answer, call, holder
 from node_kit.rospy_patches.connections import be_careful
@@ -63,6 +69,20 @@ def run(
     if is_ending():
         wait_for_goodbye()
     return 0
+
+
+def as_callback(function: Callable[..., object]) -> Callable[..., None]:
+    """Return it for rospy's threads: that the end of the node closes its topics is no error."""
+
+    @functools.wraps(function)
+    def call_it(*arguments: Any) -> None:
+        try:
+            function(*arguments)
+        except rospy.ROSException:
+            if not is_ending():
+                raise
+
+    return call_it
 
 
 def _fail(name: str, why: object) -> int:
