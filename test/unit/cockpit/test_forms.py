@@ -12,14 +12,15 @@ from cockpit_server.clients import LOOKS_ONLY
 from cockpit_server.driver_session import RefusedError
 from cockpit_server.graph import Graph
 from cockpit_server.sources import forms
+from cockpit_server.sources.publishing import Publishing
 from tutorial_testing.session_room import page
 
 
 class InPlace:
     """In the place of a Thread: it runs at once."""
 
-    def __init__(self, target, args, daemon):
-        self.start = lambda: target(*args)
+    def __init__(self, target, daemon):
+        self.start = target
 
 
 @pytest.fixture
@@ -91,9 +92,10 @@ def test_hostile_parameter_is_one_line_or_a_value(monkeypatch, written):
 def test_who_may_publish_what(role, driver, topic, kind, why):
     graph = Graph(services={"/x/reset": {"/x"}}, types={"/x": "std_msgs/String"})
     hub = SimpleNamespace(session=SimpleNamespace(driver=driver))
-    source, (client, _) = forms.Forms(hub, SimpleNamespace(graph=graph)), page(role)
+    about, (client, _) = (hub, SimpleNamespace(graph=graph)), page(role)
+    source, publishing = forms.Forms(*about), Publishing(*about)
     with pytest.raises(RefusedError, match=f"^{why}"):
-        source.on_publish(client, 0.0, topic=topic, type=kind, values={})
+        publishing.on_publish(client, 0.0, topic=topic, type=kind, values={}, period=None)
     if kind == "std_msgs/String":
         with pytest.raises(RefusedError, match=f"^{why}"):
             source.on_call(client, 0.0, "/x/reset", {})

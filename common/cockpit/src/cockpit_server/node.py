@@ -22,8 +22,8 @@ from cockpit_server.sources.forms import Forms
 from cockpit_server.sources.graph_view import GraphView
 from cockpit_server.sources.logs import Logs
 from cockpit_server.sources.plots import Plots
+from cockpit_server.sources.publishing import Publishing
 from cockpit_server.sources.recorder import Recorder
-from cockpit_server.sources.repeats import Repeats
 from cockpit_server.sources.resets import Resets
 from cockpit_server.sources.robots import Pads, Robots
 from cockpit_server.sources.surroundings import Surroundings
@@ -60,11 +60,12 @@ class Cockpit:
         pads = Pads(feeds, graphs, name)
         hub = self._hub = Hub(self._soon, graphs, Joysticks(), pads, log.warn)
         bags, robots, teleop = Bags(hub), Robots(feeds, graphs), Teleop(feeds)
-        drives, forms = DrivingStatus(hub, graphs, teleop, robots), Forms(hub, graphs)
+        drives = DrivingStatus(hub, graphs, teleop, robots)
         sources = (
             robots, pads, teleop, drives, Resets(hub, graphs, drives),
-            GraphView(graphs), Topics(feeds, graphs), forms, Repeats(forms), Plots(feeds, graphs),
-            Logs(feeds), Doctor(), bags, Recorder(), Surroundings(feeds, graphs), Turtles(graphs),
+            GraphView(graphs), Topics(feeds, graphs), Forms(hub, graphs), Publishing(hub, graphs),
+            Plots(feeds, graphs), Logs(feeds), Doctor(), bags, Recorder(),
+            Surroundings(feeds, graphs), Turtles(graphs),
         )  # fmt: skip
         hub.add(sources, player=bags)
         self._server = server(self._hub, access)

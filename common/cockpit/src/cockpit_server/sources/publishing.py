@@ -1,0 +1,134 @@
+"""Messages that a driver's page publishes from a form: once, or again and again with the protection
+that driving has.
+
+The page gives the beat: what it does not send, or sends late, is not published. After a silence
+there is a zero velocity, where velocities were published, and nothing more until a person begins.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any, ClassVar, Mapping, Sequence
+
+from rosgraph.names import is_legal_name
+
+from cockpit_server.clients import Client, Source
+from cockpit_server.driver_session import LATE_S, SILENCE_S, Delay, RefusedError
+from cockpit_server.feeds import later
+from cockpit_server.graph import JOY
+from cockpit_server.graph_watch import GraphWatch
+from cockpit_server.schema import MILLISECONDS, full_name, number, or_null, text
+from cockpit_server.sources.forms import TEXTS, filled, must_be_free
+from cockpit_server.sources.plots import class_of
+from node_kit.rospy_patches.prompt_publisher import PromptPublisher
+
+SHORTEST_S, LONGEST_S = 0.02, 10.0  # between two messages
+MOST_PUBLISHERS = 20
+UNUSED_S = 5.0  # after which a publisher ends
+CONNECT_S = 1.0  # A new publisher waits so long for its subscribers.
+VELOCITY = "geometry_msgs/Twist"
+
+
+@dataclass
+class Outlet:
+    """A publisher that is kept for a while."""
+
+    publisher: PromptPublisher
+    opened_at: float  # [s]
+    used_at: float  # [s]
+    waits: Any = None  # the newest message, while subscribers are connected
+
+    def send(self, message: Any, now: float) -> None:
+        self.used_at = now
+        if self.waits:
+            self.waits = message
+        else:
+            self.publisher.publish(message)
+
+
+@dataclass
+class Repeat:
+    """What a page publishes again and again."""
+
+    form: dict[str, Any]  # topic, type, values
+    period: float  # [s]
+    fresh_at: float  # [s]
+    delay: Delay = field(default_factory=Delay)
+
+
+class Publishing(Source):
+    """Publishes for pages that may drive, unless another page does; each repeats one message."""
+
+    messages: ClassVar = {
+        "publish": {
+            "topic": full_name, "type": text, "values": TEXTS,
+            "period": or_null(number(SHORTEST_S, LONGEST_S)),
+        },
+        "again": {"t": MILLISECONDS},
+        "publish_end": {},
+    }  # fmt: skip
+
+    def __init__(self, hub: Any, graph_watch: GraphWatch) -> None:
+        self._hub, self._graphs = hub, graph_watch
+        self._outlets: dict[tuple[str, str], Outlet] = {}  # by topic and type
+        self._repeats: dict[int, Repeat] = {}  # by page
+
+    def collect(self, clients: Sequence[Client], now: float) -> None:
+        here = {client.number for client in clients}
+        for page, one in list(self._repeats.items()):
+            if page not in here or now - one.fresh_at > one.period + SILENCE_S:
+                self._end(page, now)
+        for key, outlet in list(self._outlets.items()):
+            wanted = self._graphs.graph.subscribers.get(key[0], frozenset())
+            is_met = wanted <= outlet.publisher.names or now - outlet.opened_at > CONNECT_S
+            if outlet.waits and is_met:
+                outlet.publisher.publish(outlet.waits)
+                outlet.waits = None
+            if now - outlet.used_at > UNUSED_S:
+                later(self._outlets.pop(key).publisher.end)
+
+    def on_publish(self, client: Client, now: float, *, period: float | None, **form: Any) -> None:
+        self._end(client.number, now)
+        self._publish(client, now, **form)
+        if period:
+            self._repeats[client.number] = Repeat(form, period, now)
+
+    def on_again(self, client: Client, now: float, t: float) -> None:
+        one = self._repeats.get(client.number)
+        if one is None:
+            raise RefusedError("the page was silent for too long: publish again")
+        if one.delay.of(t, now) > LATE_S:
+            return
+        one.fresh_at = now
+        try:
+            self._publish(client, now, **one.form)
+        except RefusedError:
+            self._end(client.number, now)
+            raise
+
+    def on_publish_end(self, client: Client, now: float) -> None:
+        self._end(client.number, now)
+
+    def _publish(
+        self, client: Client, now: float, topic: str, type: str, values: Mapping[str, str]
+    ) -> None:
+        must_be_free(self._hub, client)
+        kind, known = class_of(type), self._graphs.graph.types.get(topic, type)
+        if kind is None or known != type or not is_legal_name(topic):
+            raise RefusedError(f"{topic}: no topic of the type {type}")
+        if type == JOY and topic.endswith("/joy"):
+            raise RefusedError("a joystick is moved in the tab Robot, where a loss stops the robot")
+        message, outlet = filled(kind, values), self._outlets.get((topic, type))
+        if outlet is None:
+            if len(self._outlets) >= MOST_PUBLISHERS:
+                raise RefusedError(f"at most {MOST_PUBLISHERS} topics in {UNUSED_S:g} s")
+            publisher = PromptPublisher(topic, kind)
+            outlet = self._outlets[topic, type] = Outlet(publisher, now, now, message)
+        outlet.send(message, now)
+
+    def _end(self, page: int, now: float) -> None:
+        """End what a page repeats, with a zero velocity where velocities were published."""
+        one = self._repeats.pop(page, None)
+        outlet = one and self._outlets.get((one.form["topic"], VELOCITY))
+        if outlet:
+            outlet.send(class_of(VELOCITY)(), now)
