@@ -130,10 +130,14 @@ class Forms(Source):
                 why = without_folders(one_line(error))
                 found = {"kind": "refused", "what": "call", "why": why}
             self._asked.discard(asked)
-            self._hub.soon(lambda: client.number in self._hub.clients and client.send(**found))
+            self._hub.soon(lambda: self._send(client, found))
 
         # A thread of its own: a service may take its time.
         threading.Thread(target=answer, daemon=True).start()
+
+    def _send(self, client: Client, found: Mapping[str, Any]) -> None:
+        if client.number in self._hub.clients:
+            client.send(**found)
 
 
 def form(

@@ -87,9 +87,9 @@ class Turtlesim:
             ]
 
     def _command(self, twist: Twist, name: str) -> None:
-        velocity, turn = twist.linear, twist.angular.z
+        velocity = {"ahead": twist.linear.x, "left": twist.linear.y, "turn": twist.angular.z}
         try:
-            self._call(f"{name}/command", ahead=velocity.x, left=velocity.y, turn=turn)
+            self._call(f"{name}/command", **velocity)
         except ValueError as error:
             rospy.logwarn_throttle(1.0, f"{name}/cmd_vel is ignored: {error}")
 
@@ -104,9 +104,8 @@ class Turtlesim:
                     pose.publish(*turtle.pose)
                     color.publish(*turtle.seen)
                 show()
-            now_s = time.monotonic()
-            wait_s, due_s = max(0.0, due_s - now_s), max(due_s, now_s) + PERIOD_S
-            time.sleep(wait_s)  # A late step delays all.
+            time.sleep(max(0.0, due_s - time.monotonic()))
+            due_s = max(due_s, time.monotonic() - PERIOD_S) + PERIOD_S  # A late step delays all.
 
 
 def background() -> tuple[int, int, int]:
@@ -118,29 +117,26 @@ def background() -> tuple[int, int, int]:
 
 def open_window(field: Field) -> Callable[[], None]:
     """Return what shows the field, in the main thread, where there is a screen."""
+    if not os.environ.get("DISPLAY"):
+        return lambda: None
     try:
-        if os.environ.get("DISPLAY"):
-            return Window(field).show
-    except Exception as error:  # ImportError, or TclError of the module that may be missing
-        rospy.logwarn(f"no window, for which python3-tk and a screen are needed: {error}")
-    return lambda: None
-
-
-class Window:
-    """The window of a field; to close it ends the node."""
-
-    def __init__(self, field: Field) -> None:
         import tkinter  # noqa: PLC0415
 
-        self._field, self._shown, self._root = field, 0, tkinter.Tk(className="turtlesim")
-        self._root.title("TurtleSim")
-        self._root.resizable(False, False)
-        self._root.protocol("WM_DELETE_WINDOW", lambda: rospy.signal_shutdown("it is closed"))
-        self._image = tkinter.PhotoImage(width=SIZE, height=SIZE)
-        tkinter.Label(self._root, image=self._image, borderwidth=0).pack()
+        root = tkinter.Tk(className="turtlesim")
+    except Exception as error:  # ImportError, or TclError of the module that may be missing
+        rospy.logwarn(f"no window, for which python3-tk and a screen are needed: {error}")
+        return lambda: None
+    root.title("TurtleSim")
+    root.resizable(False, False)
+    root.protocol("WM_DELETE_WINDOW", lambda: rospy.signal_shutdown("its window is closed"))
+    image, shown = tkinter.PhotoImage(width=SIZE, height=SIZE), 0
+    tkinter.Label(root, image=image, borderwidth=0).pack()
 
-    def show(self) -> None:
-        if self._shown != self._field.version:
-            self._image.put(self._field.picture("PPM"))
-            self._shown = self._field.version
-        self._root.update()
+    def show() -> None:
+        nonlocal shown
+        if shown != field.version:
+            image.put(field.picture("PPM"))
+            shown = field.version
+        root.update()
+
+    return show
