@@ -23,7 +23,7 @@ class Desk:
         self.speeds, self.repeats = [], Publishing(hub, graphs)
         publisher = SimpleNamespace(publish=lambda twist: self.speeds.append(twist.linear.x))
         publisher.names = set()
-        self.repeats._outlets["/cmd_vel", VELOCITY] = Outlet(publisher, 99.0, 99.0)
+        self.repeats._outlets["/cmd_vel", VELOCITY] = Outlet(99.0, 99.0, None, publisher)
         (self.page, _), self.now = page(), 100.0
         self.publish(VALUES)
 
@@ -80,6 +80,7 @@ def test_the_first_message_waits_for_the_subscribers(desk, monkeypatch):
     graphs.graph = Graph(subscribers={"/x": {"/a"}, "/y": {"/b"}})
     publisher = SimpleNamespace(publish=desk.speeds.append, names={"/a"}, end=lambda: None)
     monkeypatch.setattr(publishing, "PromptPublisher", lambda *_: publisher)
+    monkeypatch.setattr(publishing, "later", lambda act, *about: act(*about))
     about = {"type": "std_msgs/Bool", "values": {}, "period": None}
     for topic in ("/x", "/y"):
         desk.repeats.on_publish(desk.page, 101.0, topic=topic, **about)

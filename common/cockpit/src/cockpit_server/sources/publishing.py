@@ -8,7 +8,7 @@ there is a zero velocity, where velocities were published, and nothing more unti
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any, ClassVar, Mapping, Sequence
+from typing import AbstractSet, Any, ClassVar, Mapping, Sequence
 
 from rosgraph.names import is_legal_name
 
@@ -33,10 +33,17 @@ VELOCITY = "geometry_msgs/Twist"
 class Outlet:
     """A publisher that is kept for a while."""
 
-    publisher: PromptPublisher
     opened_at: float  # [s]
     used_at: float  # [s]
-    waits: Any = None  # the newest message, while subscribers are connected
+    waits: Any  # the newest message, while subscribers are connected
+    publisher: Any = None  # once the master knows it
+
+    def open(self, topic: str, kind: Any) -> None:
+        self.publisher = PromptPublisher(topic, kind)
+
+    def close(self) -> None:
+        if self.publisher:
+            self.publisher.end()
 
     def send(self, message: Any, now: float) -> None:
         self.used_at = now
@@ -44,6 +51,13 @@ class Outlet:
             self.waits = message
         else:
             self.publisher.publish(message)
+
+    def send_first(self, wanted: AbstractSet[str], now: float) -> None:
+        """Publish what waits, once these nodes are connected or CONNECT_S is over."""
+        is_late = now - self.opened_at > CONNECT_S
+        if self.waits and self.publisher and (is_late or wanted <= self.publisher.names):
+            self.publisher.publish(self.waits)
+            self.waits = None
 
 
 @dataclass
@@ -79,13 +93,9 @@ class Publishing(Source):
             if page not in here or now - one.fresh_at > one.period + SILENCE_S:
                 self._end(page, now)
         for key, outlet in list(self._outlets.items()):
-            wanted = self._graphs.graph.subscribers.get(key[0], frozenset())
-            is_met = wanted <= outlet.publisher.names or now - outlet.opened_at > CONNECT_S
-            if outlet.waits and is_met:
-                outlet.publisher.publish(outlet.waits)
-                outlet.waits = None
+            outlet.send_first(self._graphs.graph.subscribers.get(key[0], set()), now)
             if now - outlet.used_at > UNUSED_S:
-                later(self._outlets.pop(key).publisher.end)
+                later(self._outlets.pop(key).close)
 
     def on_publish(self, client: Client, now: float, *, period: float | None, **form: Any) -> None:
         self._end(client.number, now)
@@ -122,8 +132,8 @@ class Publishing(Source):
         if outlet is None:
             if len(self._outlets) >= MOST_PUBLISHERS:
                 raise RefusedError(f"at most {MOST_PUBLISHERS} topics in {UNUSED_S:g} s")
-            publisher = PromptPublisher(topic, kind)
-            outlet = self._outlets[topic, type] = Outlet(publisher, now, now, message)
+            outlet = self._outlets[topic, type] = Outlet(now, now, message)
+            later(outlet.open, topic, kind)
         outlet.send(message, now)
 
     def _end(self, page: int, now: float) -> None:
