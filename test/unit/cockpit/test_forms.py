@@ -16,13 +16,6 @@ from cockpit_server.sources.publishing import Publishing
 from tutorial_testing.session_room import page
 
 
-class InPlace:
-    """In the place of a Thread: it runs at once."""
-
-    def __init__(self, target, daemon):
-        self.start = target
-
-
 @pytest.fixture
 def filled(monkeypatch):
     """A function that fills a form of a type at the time 7."""
@@ -72,7 +65,8 @@ def test_hostile_parameter_is_one_line_or_a_value(monkeypatch, written):
     hub.soon = lambda act: act()
     client, sent = page()
     hub.clients = {client.number: client}
-    monkeypatch.setattr(forms.threading, "Thread", InPlace)
+    at_once = lambda target, daemon: SimpleNamespace(start=target)  # noqa: E731
+    monkeypatch.setattr(forms.threading, "Thread", at_once)
     forms.Forms(hub, SimpleNamespace(graph=Graph())).on_set(client, 0.0, "/x", {"value": written})
     [said] = sent
     assert said["kind"] == ("form" if arrived else "refused")

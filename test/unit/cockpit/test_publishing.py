@@ -22,7 +22,6 @@ class Desk:
         hub, graphs = SimpleNamespace(session=self.session), SimpleNamespace(graph=Graph())
         self.speeds, self.repeats = [], Publishing(hub, graphs)
         publisher = SimpleNamespace(publish=lambda twist: self.speeds.append(twist.linear.x))
-        publisher.names = set()
         self.repeats._outlets["/cmd_vel", VELOCITY] = Outlet(99.0, 99.0, None, publisher)
         (self.page, _), self.now = page(), 100.0
         self.publish(VALUES)
@@ -75,18 +74,11 @@ def test_a_page_repeats_one_message(desk):
     assert desk.speeds == [0.0, 0.0]  # the end of the first one, and the second one
 
 
-def test_the_first_message_waits_for_the_subscribers(desk, monkeypatch):
-    graphs = desk.repeats._graphs
-    graphs.graph = Graph(subscribers={"/x": {"/a"}, "/y": {"/b"}})
-    publisher = SimpleNamespace(publish=desk.speeds.append, names={"/a"}, end=lambda: None)
+def test_the_first_message_waits_for_the_subscribers(monkeypatch):
+    sent = []
+    publisher = SimpleNamespace(publish=sent.append, names={"/a"})
     monkeypatch.setattr(publishing, "PromptPublisher", lambda *_: publisher)
-    monkeypatch.setattr(publishing, "later", lambda act, *about: act(*about))
-    about = {"type": "std_msgs/Bool", "values": {}, "period": None}
-    for topic in ("/x", "/y"):
-        desk.repeats.on_publish(desk.page, 101.0, topic=topic, **about)
-    assert desk.speeds == [0.0]  # the end of the velocity
-    counts = []
-    for now in (101.0, 101.5, 102.1):
-        desk.repeats.collect([desk.page], now)
-        counts.append(len(desk.speeds))
-    assert counts == [2, 2, 3]  # /x at once, and /y, to which nothing connects, in the end
+    for wanted, counts in (({"/a"}, [1, 1, 1]), ({"/b"}, [1, 1, 2])):
+        outlet = Outlet(0.0, 0.0, "message")
+        outlet.open("/x", None)
+        assert [outlet.send_first(wanted, now) or len(sent) for now in (0.0, 0.5, 1.1)] == counts

@@ -7,12 +7,11 @@ import rospkg
 
 from simulated_turtles.field import START, Field
 
-SCRIPT = f"{rospkg.RosPack().get_path('turtlesim')}/scripts/draw_square"
-
 
 def test_four_sides_return_to_the_start():
     field, corners = Field(lambda: (0, 0, 0), 0.0), []
-    for now_s, (ahead, turn) in enumerate(4 * runpy.run_path(SCRIPT)["SIDE"]):
+    side = runpy.run_path(f"{rospkg.RosPack().get_path('turtlesim')}/scripts/draw_square")["SIDE"]
+    for now_s, (ahead, turn) in enumerate(4 * side):
         field.call("turtle1/command", {"ahead": ahead, "left": 0.0, "turn": turn}, now_s)
         field.step(now_s + 1.0)
         corners += [field.turtles["turtle1"].pose[:2]] if now_s % 6 == 1 else []

@@ -48,15 +48,12 @@ def test_a_new_command_replaces_the_old_one_where_the_turtle_is_then():
 
 def test_the_wall_holds_and_says_from_where_with_y_from_the_top(caplog):
     field = Field(lambda: (0, 0, 0), 0.0)
-    turtle = field.turtles["turtle1"]
-    turtle.teleport_absolute(20.0, -1.0, 0.0)
-    field.step(0.0)
-    assert pose(turtle)[:2] == (FIELD_M, 0.0)
-    assert f"Clamping from [x=20.000000, y={FIELD_M + 1.0:f}]" in caplog.text
-    caplog.clear()
-    turtle.teleport_absolute(1.0, 20.0, 0.0)  # above, a teleport ends at the wall itself
-    field.step(0.0)
-    assert pose(turtle)[1] == FIELD_M and not caplog.text
+    for x, y, place in ((20.0, -1.0, (FIELD_M, 0.0)), (1.0, 20.0, (1.0, FIELD_M))):
+        field.turtles["turtle1"].teleport_absolute(x, y, 0.0)
+        field.step(0.0)
+        assert pose(field.turtles["turtle1"])[:2] == place
+    said = [line.partition("from ")[2] for line in caplog.messages if "wall" in line]
+    assert said == [f"[x=20.000000, y={FIELD_M + 1.0:f}])"]
 
 
 @pytest.mark.parametrize("turn", [0.0, 1e38])
