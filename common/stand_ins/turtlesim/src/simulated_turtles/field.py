@@ -81,9 +81,7 @@ class Turtle:
 
     @property
     def pose(self) -> tuple[float, float, float, float, float]:
-        """The values of turtlesim/Pose. As upstream's, the linear velocity has no sign: a mimic of
-        a turtle that drives backwards drives forwards.
-        """
+        """The values of turtlesim/Pose; as upstream's, the linear velocity has no sign."""
         return self.place.real, self.place.imag, self.theta, abs(self.velocity), self.turn
 
 
@@ -96,10 +94,7 @@ class Field:
         self.reset()
 
     def call(self, name: str, values: Mapping[str, float | str], now_s: float) -> str | None:
-        """Do what a service, or TURTLE/command, is called for; return its answer.
-
-        Raises ValueError, one line.
-        """
+        """Do what a service, or TURTLE/command, asks for; return its answer. Raises ValueError."""
         for value in values.values():
             if isinstance(value, float) and not abs(value) <= LARGEST:
                 raise ValueError(f"{value} is no length, angle or velocity of a turtle")
