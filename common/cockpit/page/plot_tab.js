@@ -10,6 +10,7 @@ const FIRST = 20; // of a chosen array's entries, which are offered before a sea
 const WINDOWS = [[10, "10 s"], [30, "30 s"], [120, "2 min"], [600, "10 min"]];
 const MOST_ROWS = 4000; // against another field
 const KEEP_S = 600; // the longest window; of a fast topic less, see MOST of samples.js
+const CSV_ROWS = 1000; // of a file, that are made at a time
 const DRAW_MS = 100;
 const SET_BACK_S = 1; // by so much and more
 
@@ -233,9 +234,16 @@ export class PlotTab {
     this.#fresh = true;
   }
 
+  /** A row for each sample; the browser keeps each part outside of the page's own memory. */
   #saveCsv() {
-    const lines = Object.entries(this.#samples).flatMap(([field, { times, values }]) =>
-      times.map((t, i) => `${t + this.#zero},${field},${values[i]}`));
-    save(new Blob([["time,field,value", ...lines, ""].join("\n")], { type: "text/csv" }), "plot.csv");
+    /** @type {BlobPart[]} */
+    const parts = ["time,field,value\n"];
+    for (const [field, { times, values }] of Object.entries(this.#samples)) {
+      for (let first = 0; first < times.length; first += CSV_ROWS) {
+        const part = times.slice(first, first + CSV_ROWS);
+        parts.push(new Blob(part.map((t, i) => `${t + this.#zero},${field},${values[first + i]}\n`)));
+      }
+    }
+    save(new Blob(parts, { type: "text/csv" }), "plot.csv");
   }
 }

@@ -74,7 +74,7 @@ export class TopicsTab {
     link.on("answer", ({ name, text }) => name === this.#chosen && this.#answer(text || "(an empty answer)"));
     link.on("refused", ({ what, why }) => {
       if (what === "call") this.#answer(why);
-      if (["repeat", "again"].includes(what)) this.#rest();
+      if (["publish", "again"].includes(what)) this.#rest();
     });
     document.addEventListener("visibilitychange", () => this.#rest());
     offer(byId("topics-kind"), Object.keys(FORMS).map((kind) => [kind]));
@@ -247,13 +247,11 @@ export class TopicsTab {
   #send() {
     const inputs = [...byId("topics-fields").querySelectorAll("input")].filter(({ value }) => value !== "");
     const values = Object.fromEntries(inputs.map(({ name, value }) => [name, value]));
-    const message = { topic: this.#chosen, type: this.#type, values };
-    const period = 1 / byId("topics-rate").valueAsNumber;
+    const period = 1 / byId("topics-rate").valueAsNumber || null;
     if (this.#kind === "services") this.link.send("call", { service: this.#chosen, values });
     else if (this.#kind === "parameters") this.link.send("set", { parameter: this.#chosen, values });
     else if (this.#repeats) this.#rest();
-    else if (!period) this.link.send("publish", message);
-    else if (this.link.send("repeat", { ...message, period })) {
+    else if (this.link.send("publish", { topic: this.#chosen, type: this.#type, values, period }) && period) {
       this.#repeats = setInterval(() => this.link.send("again", { t: performance.now() }), 1000 * period);
       say(byId("topics-send"), "Stop publishing");
     }
@@ -264,7 +262,7 @@ export class TopicsTab {
     if (!this.#repeats) return;
     clearInterval(this.#repeats);
     this.#repeats = 0;
-    this.link.send("repeat_end");
+    this.link.send("publish_end");
     say(byId("topics-send"), "Publish");
   }
 

@@ -37,12 +37,11 @@ GOOD = {
     "record": {"on": False},
     "doctor": {},
     "describe": {"what": "message", "name": "std_msgs/String"},
-    "publish": {"topic": "/x", "type": "std_msgs/String", "values": {"data": "a"}},
+    "publish": {"topic": "/x", "type": "std_msgs/String", "values": {"data": "a"}, "period": None},
     "call": {"service": "/x/reset", "values": {}},
     "set": {"parameter": "/x/rate", "values": {"value": "10"}},
-    "repeat": {"topic": "/x", "type": "std_msgs/String", "values": {}, "period": 0.1},
     "again": {"t": 12.5},
-    "repeat_end": {},
+    "publish_end": {},
 }  # fmt: skip
 
 

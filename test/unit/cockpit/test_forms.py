@@ -11,14 +11,8 @@ from roslib.message import get_message_class
 from cockpit_server.clients import LOOKS_ONLY, RefusedError
 from cockpit_server.graph import Graph
 from cockpit_server.sources import forms
+from cockpit_server.sources.publishing import Publishing
 from tutorial_testing.session_room import Free, page
-
-
-class InPlace:
-    """In the place of a Thread: it runs at once."""
-
-    def __init__(self, target, args, daemon):
-        self.start = lambda: target(*args)
 
 
 @pytest.fixture
@@ -67,7 +61,8 @@ def test_hostile_parameter_is_one_line_or_a_value(monkeypatch, written):
     monkeypatch.setattr(forms.rospy, "set_param", marshalled)
     monkeypatch.setattr(forms.rospy, "get_param", lambda *_: 1)
     client, sent = page()
-    monkeypatch.setattr(forms.threading, "Thread", InPlace)
+    at_once = lambda target, daemon: SimpleNamespace(start=target)  # noqa: E731
+    monkeypatch.setattr(forms.threading, "Thread", at_once)
     source = forms.Forms(Free(), lambda act: act(), SimpleNamespace(graph=Graph()))
     source.on_set(client, 0.0, "/x", {"value": written})
     [said] = sent
@@ -87,9 +82,10 @@ def test_hostile_parameter_is_one_line_or_a_value(monkeypatch, written):
 )
 def test_who_may_publish_what(role, driver, topic, kind, why):
     graph = Graph(services={"/x/reset": {"/x"}}, types={"/x": "std_msgs/String"})
-    source, (client, _) = forms.Forms(Free(driver), None, SimpleNamespace(graph=graph)), page(role)
+    (client, _), graphs, driving = page(role), SimpleNamespace(graph=graph), Free(driver)
+    source, publishing = forms.Forms(driving, None, graphs), Publishing(driving, graphs)
     with pytest.raises(RefusedError, match=f"^{why}"):
-        source.on_publish(client, 0.0, topic=topic, type=kind, values={})
+        publishing.on_publish(client, 0.0, topic=topic, type=kind, values={}, period=None)
     if kind == "std_msgs/String":
         with pytest.raises(RefusedError, match=f"^{why}"):
             source.on_call(client, 0.0, "/x/reset", {})

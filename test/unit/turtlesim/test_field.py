@@ -3,13 +3,11 @@
 import cmath
 import math
 from io import BytesIO
-from unittest import mock
 
 import pytest
 from PIL import Image, ImageChops, ImageDraw
 
-from simulated_turtles.field import COLORS, START, Field
-from simulated_turtles.turtle import FIELD_M
+from simulated_turtles.field import COLORS, FIELD_M, START, Field
 
 BLUE, RED = (69, 86, 255), (255, 0, 0)
 PEN = (179, 184, 255)  # as upstream's DEFAULT_PEN
@@ -18,7 +16,7 @@ PIXEL_M = 1 / 45
 
 @pytest.fixture
 def field():
-    return Field(lambda: BLUE, mock.Mock(), mock.Mock(), 0.0)
+    return Field(lambda: BLUE, 0.0)
 
 
 def spawn(field, name, x=1.0, y=1.0, theta=0.0):

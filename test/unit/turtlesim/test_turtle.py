@@ -5,7 +5,7 @@ import math
 
 import pytest
 
-from simulated_turtles.turtle import FIELD_M, Turtle
+from simulated_turtles.field import FIELD_M, Field, Turtle
 
 MIDDLE = FIELD_M / 2
 
@@ -35,7 +35,7 @@ def test_a_command_is_an_arc_of_one_second_however_it_is_cut(times, theta):
     turtle = driven((v, left, w), *times, theta=theta)
     end = math.remainder(theta + w, math.tau)
     assert pose(turtle) == approx(MIDDLE + way.real, MIDDLE + way.imag, end)
-    assert turtle.velocity == (0.0, 0.0, 0.0)
+    assert turtle.velocity == turtle.turn == 0
 
 
 def test_a_new_command_replaces_the_old_one_where_the_turtle_is_then():
@@ -46,18 +46,21 @@ def test_a_new_command_replaces_the_old_one_where_the_turtle_is_then():
     assert pose(turtle) == approx(MIDDLE + 0.25, MIDDLE, 1.0)
 
 
-def test_the_wall_holds_and_says_from_where_with_y_from_the_top():
-    turtle = Turtle(MIDDLE, MIDDLE, 0.0, 0.0)
-    assert turtle.clamp() is None
-    turtle.teleport_absolute(20.0, -1.0, 0.0)
-    assert turtle.clamp() == approx(20.0, FIELD_M + 1.0)
-    assert turtle.place == (FIELD_M, 0.0)
-    turtle.teleport_absolute(1.0, 20.0, 0.0)  # above, a teleport ends at the wall itself
-    assert turtle.clamp() is None and turtle.place[1] == FIELD_M
+def test_the_wall_holds_and_says_from_where_with_y_from_the_top(caplog):
+    field = Field(lambda: (0, 0, 0), 0.0)
+    for x, y, place in ((20.0, -1.0, (FIELD_M, 0.0)), (1.0, 20.0, (1.0, FIELD_M))):
+        field.turtles["turtle1"].teleport_absolute(x, y, 0.0)
+        field.step(0.0)
+        assert pose(field.turtles["turtle1"])[:2] == place
+    said = [line.partition("from ")[2] for line in caplog.messages if "wall" in line]
+    assert said == [f"[x=20.000000, y={FIELD_M + 1.0:f}])"]
 
 
 @pytest.mark.parametrize("turn", [0.0, 1e38])
 def test_the_largest_command_leaves_a_pose_in_the_field(turn):
-    turtle = driven((1e38, 1e38, turn), 1.0)
-    assert bool(turtle.clamp()) is (turn == 0.0)
-    assert all(0.0 <= one <= FIELD_M for one in turtle.place) and abs(turtle.theta) < 3.15
+    field = Field(lambda: (0, 0, 0), 0.0)
+    field.call("turtle1/command", {"ahead": 1e38, "left": 1e38, "turn": turn}, 0.0)
+    field.step(1.0)
+    x, y, theta = pose(field.turtles["turtle1"])
+    assert (x == y == FIELD_M) is (turn == 0.0)
+    assert 0.0 <= min(x, y) <= max(x, y) <= FIELD_M and abs(theta) < 3.15

@@ -10,10 +10,10 @@ from types import SimpleNamespace
 import pytest
 
 from tutorial_check.course_kit import client_node
-from tutorial_check.course_kit.client import Answer, Client, Transform
+from tutorial_check.course_kit.client import Answer, Client, Seen, Transform
+from tutorial_check.course_kit.files import File
 from tutorial_check.course_kit.launches import Launch, launch_file
 from tutorial_check.handout.s5.launch_facts import facts_of
-from tutorial_check.isolation.program import Ran
 from tutorial_check.model import CannotCheck, CutShort, Wrong
 from tutorial_testing.waiting import wait_for
 
@@ -67,7 +67,7 @@ def stage(monkeypatch):
 
     own = SimpleNamespace(packages=[SimpleNamespace(name="own")])
     about = {"runner": SimpleNamespace(start=start), "environment": {}, "session": own}
-    return SimpleNamespace(**about, wait=wait, wait_for_start=wait)
+    return SimpleNamespace(**about, wait=wait, wait_for_start=wait, call=lambda _: {"/t": "T"})
 
 
 def test_messages_of_any_type_go_and_come(stage):
@@ -86,7 +86,8 @@ def test_services_parameters_and_types(stage):
     client.serve("/there", "std_srvs/SetBool", {"success": True, "message": "m"})
     answer = client.ask("/there", "std_srvs/SetBool", {"data": True})
     assert answer == Answer({"success": True, "message": "m"})
-    assert [each[2] for each in client.heard("/there")] == [{"data": True}]
+    seen = client.seen(SimpleNamespace(ran="p"), "/there", answers=[7])
+    assert seen == Seen("p", {"/there": ({"data": True},)}, (7,), {"/t": "T"})
     assert client.parameter("/p") == ["/p", None]
     assert client.fields("std_srvs/Trigger") == ("---", "bool success", "string message")
 
@@ -156,10 +157,18 @@ def test_a_launch_file_is_read(make_session, name, text, seen, where):
 
 
 def test_what_a_launch_file_has_started():
-    ran = Ran("roslaunch", "[n/m-2] process has died [pid 1]\n", None, False, False)
-    program = SimpleNamespace(output=ran.output, ended=False, ran=ran)
+    program = SimpleNamespace(output="[n/m-2] process has died [pid 1]\n", ended=False)
     about = {"launch": lambda words: program, "call": lambda _: ({"/rosout": ["/b", "/a"]},)}
     about["session"] = SimpleNamespace(source=Path("src"))
     launch = Launch(SimpleNamespace(**about), "a.launch")
-    assert launch.is_over and launch.launched.died == ("n/m",)
-    assert launch.launched.nodes == ("/a", "/b")
+    assert launch.is_over and launch.died == ("n/m",) and launch.nodes == ("/a", "/b")
+
+
+def test_a_file_names_the_line_of_the_first_word_that_is_there(make_session):
+    session = make_session("p", "1")
+    (session.package("p").folder / "a.py").write_text("one\ntwo\n")
+    file = File(session, "p", "a.py")
+    for words, where in (("two one", "a.py:2"), ("three one", "a.py:1"), ("three", "a.py")):
+        with pytest.raises(Wrong) as wrong:
+            file.must([], words, "this", 7)
+        assert (wrong.value.seen, wrong.value.where) == ("7", where)

@@ -25,8 +25,8 @@ from cockpit_server.sources.forms import Forms
 from cockpit_server.sources.graph_view import GraphView
 from cockpit_server.sources.logs import Logs
 from cockpit_server.sources.plots import Plots
+from cockpit_server.sources.publishing import Publishing
 from cockpit_server.sources.recorder import Recorder
-from cockpit_server.sources.repeats import Repeats
 from cockpit_server.sources.resets import Resets
 from cockpit_server.sources.robots import Robots
 from cockpit_server.sources.surroundings import Surroundings
@@ -66,9 +66,9 @@ class Cockpit:
         forms = Forms(driving, self._soon, graphs)
         sources = (
             robots, joysticks, driving, Resets(driving, forms, graphs), GraphView(graphs),
-            Topics(feeds, graphs), forms, Repeats(forms), Plots(feeds, graphs), Logs(feeds),
-            Doctor(), Bags(driving, self._soon), Recorder(), Surroundings(feeds, graphs),
-            Turtles(graphs),
+            Topics(feeds, graphs), forms, Publishing(driving, graphs), Plots(feeds, graphs),
+            Logs(feeds), Doctor(), Bags(driving, self._soon), Recorder(),
+            Surroundings(feeds, graphs), Turtles(graphs),
         )  # fmt: skip
         self._hub = Hub(pages, driving, sources, log.warn)
         self._server = server(self._hub, access)

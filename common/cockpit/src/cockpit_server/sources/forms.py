@@ -1,52 +1,33 @@
-"""Messages that a driver publishes, and services that one calls, from a form of the page."""
+"""Services that a driver calls, and parameters that one sets, from a form of the page."""
 
 from __future__ import annotations
 
 import json
 import threading
-import time
 from io import BytesIO
-from typing import Any, Callable, ClassVar, Mapping, Sequence, Tuple
+from typing import Any, Callable, ClassVar, Mapping, Sequence
 
-import rosgraph
 import rospy
 import rosservice
 from genpy.message import fill_message_args
-from rosgraph.names import is_legal_name
 
 from cockpit_server.clients import Client, RefusedError, Soon, Source
 from cockpit_server.driving.who_drives import Driving
-from cockpit_server.feeds import later
 from cockpit_server.fields import definition, form_fields
-from cockpit_server.graph import JOY
 from cockpit_server.graph_watch import GraphWatch
 from cockpit_server.schema import full_name, one_of, require, text
 from cockpit_server.sources.logs import without_folders
 from cockpit_server.sources.plots import class_of, fields_of
-from node_kit.ros_api import Answer
-from node_kit.ros_api import call as ask_node
 
 MOST_FIELDS = 60  # A form has no more.
 LONGEST_VALUE = 2000  # characters
 LONGEST_ANSWER, LONGEST_LINE = 4000, 200  # characters
-MOST_PUBLISHERS = 20
-UNUSED_S = 5.0  # after which a publisher ends
-CONNECT_S = 1.0  # A new publisher waits so long for its subscribers.
-LOOK_S = 0.02
-VELOCITY = "geometry_msgs/Twist"
-Key = Tuple[str, str]  # topic, type
 
 TEXTS = require(
     lambda v: isinstance(v, dict) and len(v) <= MOST_FIELDS
     and all(isinstance(one, str) and len(one) <= LONGEST_VALUE for one in v.values()),
     f"be at most {MOST_FIELDS} texts of at most {LONGEST_VALUE} characters",
 )  # fmt: skip
-
-
-def form_of(kind: Any) -> dict[str, Any]:
-    """Return what a page needs for a form of a message class."""
-    asked = list(form_fields(kind, class_of))[:MOST_FIELDS]
-    return {"definition": "\n".join(definition(kind, class_of)), "fields": asked}
 
 
 def one_line(error: Exception) -> str:
@@ -87,71 +68,28 @@ def read(name: str, slot_type: str, written: str) -> Any:
 
 
 class Forms(Source):
-    """Publishes and calls for pages that may drive, unless another page does."""
+    """Calls services and sets parameters for pages that may drive, unless another page does."""
 
     messages: ClassVar = {
         "describe": {"what": one_of("message", "service", "parameter"), "name": text},
-        "publish": {"topic": full_name, "type": text, "values": TEXTS},
         "call": {"service": full_name, "values": TEXTS},
         "set": {"parameter": full_name, "values": TEXTS},
     }
 
     def __init__(self, driving: Driving, soon: Soon, graph_watch: GraphWatch) -> None:
         self._driving, self._soon, self._graphs = driving, soon, graph_watch
-        self._asked: set[str] = set()  # services that have not answered yet
-        self._publishers: dict[Key, Any] = {}  # Publisher, or None until it is connected
-        self._first: dict[Key, Any] = {}  # the message that a new one then publishes
-        self._used: dict[Key, float] = {}  # when [s]
-        self._lock = threading.Lock()  # It guards _first and _publishers.
-
-    def collect(self, clients: Sequence[Client], now: float) -> None:
-        for key, publisher in list(self._publishers.items()):
-            if publisher and now - self._used[key] > UNUSED_S:
-                del self._publishers[key]
-                later(publisher.unregister)
+        self._asked: set[str] = set()  # what has not answered yet
 
     def on_describe(self, client: Client, _now: float, what: str, name: str) -> None:
         if what == "service":
             self._call(client, name, lambda: describe_service(name))
-            return
-        if what == "parameter":
+        elif what == "parameter":
             self._ask_master(client, lambda: describe_parameter(name))
-            return
         # Of what is there: class_of() remembers each name.
-        kind = class_of(name) if name in self._graphs.graph.types.values() else None
-        if kind is None:
+        elif name in self._graphs.graph.types.values() and class_of(name):
+            client.send(**form(name, class_of(name), numbers=fields_of(name)))
+        else:
             raise RefusedError(f"the package of {name} is not installed here")
-        client.send("form", what=what, name=name, numbers=fields_of(name), **form_of(kind))
-
-    def on_publish(
-        self, client: Client, now: float, *, topic: str, type: str, values: Mapping[str, str]
-    ) -> None:
-        self._driving.must_be_free(client)
-        kind, known = class_of(type), self._graphs.graph.types.get(topic, type)
-        if kind is None or known != type or not is_legal_name(topic):
-            raise RefusedError(f"{topic}: no topic of the type {type}")
-        if type == JOY and topic.endswith("/joy"):
-            raise RefusedError("a joystick is moved in the tab Robot, where a loss stops the robot")
-        key, message = (topic, type), filled(kind, values)
-        if key not in self._publishers:
-            if len(self._publishers) >= MOST_PUBLISHERS:
-                raise RefusedError(f"at most {MOST_PUBLISHERS} topics in {UNUSED_S:g} s")
-            self._publishers[key] = None
-            threading.Thread(target=self._begin, args=(key, kind), daemon=True).start()
-        self._send_out(key, message)
-        self._used[key] = now
-
-    def rest(self, topic: str, type: str) -> None:
-        """Publish a zero velocity, where velocities were published."""
-        if type == VELOCITY and (topic, type) in self._publishers:
-            self._send_out((topic, type), class_of(type)())
-
-    def _send_out(self, key: Key, message: Any) -> None:
-        with self._lock:
-            if self._publishers.get(key):
-                self._publishers[key].publish(message)
-            else:
-                self._first[key] = message
 
     def on_call(self, client: Client, _now: float, service: str, values: Mapping[str, str]) -> None:
         self._call(client, service, lambda: call(service, values))
@@ -167,23 +105,6 @@ class Forms(Source):
     def _ask_master(self, client: Client, ask: Callable[[], dict[str, Any]]) -> None:
         self.ask(client, f"the master, for page {client.number},", ask)
 
-    def _begin(self, key: Key, kind: Any) -> None:
-        """Publish a first message once the subscribers are connected."""
-        try:
-            publisher = rospy.Publisher(key[0], kind, queue_size=10)
-        except Exception as error:  # whatever rospy or the master answers
-            del self._publishers[key]
-            rospy.logwarn("cockpit: %s: %s", key[0], one_line(error))
-            return
-        answer, state = ask_node(rosgraph.get_master_uri(), "getSystemState")
-        subscribers = dict(state[1]) if answer is Answer.WELL else {}
-        wanted, end = len(subscribers.get(key[0], ())), time.monotonic() + CONNECT_S
-        while publisher.get_num_connections() < wanted and time.monotonic() < end:
-            time.sleep(LOOK_S)
-        with self._lock:
-            publisher.publish(self._first.pop(key))
-            self._publishers[key] = publisher
-
     def _call(self, client: Client, service: str, ask: Callable[[], dict[str, Any]]) -> None:
         self._driving.must_be_free(client)
         if service not in self._graphs.graph.services:
@@ -195,27 +116,33 @@ class Forms(Source):
         if asked in self._asked:
             raise RefusedError(f"{asked} was called and has not answered yet")
         self._asked.add(asked)
-        # A thread of its own: a service may take its time.
-        arguments = (client, asked, ask)
-        threading.Thread(target=self._answer, args=arguments, daemon=True).start()
 
-    def _answer(self, client: Client, asked: str, ask: Callable[[], dict[str, Any]]) -> None:
-        try:
-            answer = ask()
-        except Exception as error:  # whatever the service, its package or the master brings about
-            why = without_folders(one_line(error))
-            answer = {"kind": "refused", "what": "call", "why": why}
-        finally:
+        def answer() -> None:
+            try:
+                found = ask()
+            except Exception as error:  # whatever the service, its package or the master does
+                why = without_folders(one_line(error))
+                found = {"kind": "refused", "what": "call", "why": why}
             self._asked.discard(asked)
-        self._soon(lambda: client.send(**answer))
+            self._soon(lambda: client.send(**found))
+
+        # A thread of its own: a service may take its time.
+        threading.Thread(target=answer, daemon=True).start()
+
+
+def form(
+    name: str, kind: Any, below: Sequence[str] = (), numbers: Sequence[str] = ()
+) -> dict[str, Any]:
+    """Return a message with the form of a message class. below: more lines of the definition."""
+    lines, fields = [*definition(kind, class_of), *below], form_fields(kind, class_of)
+    about = {"definition": "\n".join(lines), "fields": list(fields)[:MOST_FIELDS]}
+    return {"kind": "form", "name": name, "numbers": numbers, **about}
 
 
 def describe_service(name: str) -> dict[str, Any]:
     kind = rosservice.get_service_class_by_name(name)
-    form = form_of(kind._request_class)
-    answer = definition(kind._response_class, class_of)
-    form["definition"] = "\n".join([form["definition"], "---", *answer])
-    return {"kind": "form", "what": "service", "name": name, "numbers": [], **form}
+    answer = ("---", *definition(kind._response_class, class_of))
+    return form(name, kind._request_class, answer)
 
 
 def call(name: str, values: Mapping[str, str]) -> dict[str, Any]:
@@ -226,8 +153,8 @@ def call(name: str, values: Mapping[str, str]) -> dict[str, Any]:
 
 def describe_parameter(name: str) -> dict[str, Any]:
     value = json.dumps(rospy.get_param(name, None), default=str)[:LONGEST_ANSWER]
-    form = {"definition": value, "fields": [("value", "JSON, or a text")], "numbers": []}
-    return {"kind": "form", "what": "parameter", "name": name, **form}
+    fields = [("value", "JSON, or a text")]
+    return {"kind": "form", "name": name, "definition": value, "fields": fields, "numbers": []}
 
 
 def set_parameter(name: str, written: str) -> dict[str, Any]:

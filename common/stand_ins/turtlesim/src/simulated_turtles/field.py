@@ -1,81 +1,119 @@
-"""The field with its turtles and their lines: upstream's services as rules (pure)."""
+"""The field with its turtles and their lines: upstream's services as rules (pure).
+
+Places are complex numbers, x + y j [m], from the lower left corner of the field.
+"""
 
 from __future__ import annotations
 
+import cmath
 import itertools
+import logging
 import math
 import re
 from io import BytesIO
-from typing import Callable, Mapping
+from typing import Callable, Mapping, Tuple
 
 from PIL import Image, ImageDraw
 
-from simulated_turtles.turtle import FIELD_M, Color, Point, Turtle
-
 SIZE, PIXELS_PER_M = 500, 45
+FIELD_M = (SIZE - 1) / PIXELS_PER_M  # as upstream's window
+COMMAND_S = 1.0  # a velocity lasts so long
 FARTHEST = 20_000.0  # [pixels] from the field; a line ends there
 LARGEST = 10.0**38  # messages hold float32
 START = (5.5444446, 5.5444446, 0.0)  # the middle, FIELD_M / 2, as a float32 has it
 NAME = re.compile(r"[A-Za-z]\w*(/[A-Za-z]\w*)*", re.ASCII)
-# A turtle as a polygon: (ahead, left) [pixels]; turtles have the colors in turn.
-LEFT = ((22, 0), (15, 5), (13, 14), (7, 11), (-9, 11), (-16, 14), (-20, 0))
-SHAPE = (*LEFT, *((ahead, -left) for ahead, left in LEFT[:0:-1]))
+# A turtle as a polygon: ahead, and to its right as j [pixels]; turtles have the colors in turn.
+RIGHT = (22, 15 - 5j, 13 - 14j, 7 - 11j, -9 - 11j, -16 - 14j, -20)
+SHAPE = (*RIGHT, *(one.conjugate() for one in RIGHT[:0:-1]))
 COLORS = ("#4a7c3a", "#8a6a3a", "#3a6a8a", "#7a4a7a")
+SAID = {"clear": "Clearing turtlesim.", "reset": "Resetting turtlesim."}
+LOG = logging.getLogger("rosout")  # rospy's own
+Color = Tuple[int, int, int]  # (r, g, b), each 0 to 255
 
 
-def pixel(x: float, y: float) -> tuple[float, float]:
+def pixel(place: complex) -> tuple[float, float]:
     """Return (column, row), not rounded, of a place [m]."""
-    return x * PIXELS_PER_M, (FIELD_M - y) * PIXELS_PER_M
+    return place.real * PIXELS_PER_M, (FIELD_M - place.imag) * PIXELS_PER_M
+
+
+class Turtle:
+    """A turtle at a place and theta [rad]. Services and their fields are named as upstream's."""
+
+    color: Color = (179, 184, 255)  # of the pen, as upstream's
+    width, is_down = 3, True  # [pixels], whether it draws
+    seen: Color  # where it is, before it draws there, as upstream's sensor
+
+    def __init__(self, x: float, y: float, theta: float, now_s: float) -> None:
+        self.place = self.drawn = complex(x, y)  # and up to where its line is drawn
+        self.theta, self.velocity, self.turn = theta, 0j, 0.0  # ahead + left j [m/s], [rad/s]
+        self._time_s = self._until_s = now_s  # when it was there, and when its command ends
+
+    def command(self, ahead: float, left: float, turn: float) -> None:
+        """Obey velocities [m/s, m/s, rad/s] from now on, for COMMAND_S."""
+        self.velocity, self.turn = complex(ahead, left), turn
+        self._until_s = self._time_s + COMMAND_S
+
+    def advance(self, now_s: float) -> None:
+        """Drive until now, on an exact arc; walls are not looked at."""
+        dt_s = max(0.0, min(now_s, self._until_s) - self._time_s)
+        half = self.turn * dt_s / 2
+        chord_s = dt_s * (math.sin(half) / half if half else 1.0)
+        self.place += self.velocity * cmath.rect(chord_s, self.theta + half)
+        self.theta = math.remainder(self.theta + 2 * half, math.tau)
+        self._time_s = now_s
+        if now_s >= self._until_s:
+            self.velocity, self.turn = 0j, 0.0
+
+    def teleport_absolute(self, x: float, y: float, theta: float) -> None:
+        """Be elsewhere at once; as upstream's, only y is bounded here, and only above."""
+        self.place, self.theta = complex(x, min(y, FIELD_M)), theta
+
+    def teleport_relative(self, linear: float, angular: float) -> None:
+        """Turn [rad], then go straight on [m], both at once."""
+        self.theta += angular
+        self.place += cmath.rect(linear, self.theta)
+
+    def set_pen(self, r: int, g: int, b: int, width: int, off: int) -> None:
+        """Lift the pen and leave it as it is, or put down one of a color and width [pixels]."""
+        self.is_down = not off
+        if not off:
+            self.color, self.width = (r, g, b), width or 1
+
+    @property
+    def pose(self) -> tuple[float, float, float, float, float]:
+        """The values of turtlesim/Pose; as upstream's, the linear velocity has no sign."""
+        return self.place.real, self.place.imag, self.theta, abs(self.velocity), self.turn
 
 
 class Field:
     """The turtles by name, on paper of SIZE x SIZE pixels. version: of the picture."""
 
-    def __init__(
-        self, background: Callable[[], Color], inform: Callable[[str], None],
-        warn: Callable[[str], None], now_s: float,
-    ) -> None:  # fmt: skip
-        """Begin with turtle1. background: is asked for the color of a blank paper."""
-        self._background, self._inform, self._warn = background, inform, warn
-        self.version, self._now_s = 0, now_s
-        self._begin()
+    def __init__(self, background: Callable[[], Color], now_s: float) -> None:
+        """Begin with turtle1. background: returns the color of a blank paper."""
+        self._background, self.version, self._now_s = background, 0, now_s
+        self.reset()
 
-    def call(self, name: str, values: Mapping[str, float | str], now_s: float) -> str:
-        """Do what a service, or TURTLE/command, is called for; return its answer.
-
-        Raises ValueError, one line.
-        """
+    def call(self, name: str, values: Mapping[str, float | str], now_s: float) -> str | None:
+        """Do what a service, or TURTLE/command, asks for; return its answer. Raises ValueError."""
         for value in values.values():
             if isinstance(value, float) and not abs(value) <= LARGEST:
                 raise ValueError(f"{value} is no length, angle or velocity of a turtle")
         self.step(now_s)
         self.version += 1
-        turtle_name, _, service = name.rpartition("/")
-        if not turtle_name:
-            return getattr(self, service)(**values) or ""
-        turtle = self.turtles.get(turtle_name)
-        if not turtle:  # killed meanwhile
-            raise ValueError(f"there is no turtle [{turtle_name}]")
-        start = turtle.place
-        getattr(turtle, service)(**values)
-        self._draw(turtle, start)
-        return ""
+        of, _, service = name.rpartition("/")
+        if of and of not in self.turtles:  # killed meanwhile
+            raise ValueError(f"there is no turtle [{of}]")
+        if service in SAID:
+            LOG.info(SAID[service])
+        answer: str | None = getattr(self.turtles.get(of, self), service)(**values)
+        self._draw()
+        return answer
 
     def clear(self) -> None:
-        """Have a blank paper."""
-        self._inform("Clearing turtlesim.")
-        self._fill()
-
-    def reset(self) -> None:
-        """Have a blank paper, and turtle1 alone."""
-        self._inform("Resetting turtlesim.")
-        self._begin()
-
-    def _fill(self) -> None:
         self._paper = Image.new("RGB", (SIZE, SIZE), self._background())
 
-    def _begin(self) -> None:
-        self._fill()
+    def reset(self) -> None:
+        self.clear()
         self.turtles: dict[str, Turtle] = {}
         self._names = map("turtle{}".format, itertools.count(1))
         self.spawn(*START, "")
@@ -88,7 +126,7 @@ class Field:
             raise ValueError(f"[{name}] cannot name a turtle: take letters, digits and _")
         name = name or next(one for one in self._names if one not in self.turtles)
         self.turtles[name] = Turtle(x, y, theta, self._now_s)
-        self._inform(f"Spawning turtle [{name}] at x=[{x:f}], y=[{y:f}], theta=[{theta:f}]")
+        LOG.info(f"Spawning turtle [{name}] at x=[{x:f}], y=[{y:f}], theta=[{theta:f}]")
         return name
 
     def kill(self, name: str) -> None:
@@ -100,19 +138,19 @@ class Field:
         """Drive all turtles until now."""
         self._now_s = now_s
         for turtle in self.turtles.values():
-            start = turtle.place
-            self.version += any(turtle.velocity)
+            self.version += bool(turtle.velocity or turtle.turn)
             turtle.advance(now_s)
-            outside = turtle.clamp()
-            if outside:
-                words = "[x={:f}, y={:f}]".format(*outside)
-                self._warn(f"Oh no! I hit the wall! (Clamping from {words})")
-            turtle.seen = self.color_at(*turtle.place)
-            self._draw(turtle, start)
+            x, y, *_ = turtle.pose
+            turtle.place = complex(*(min(max(one, 0.0), FIELD_M) for one in (x, y)))
+            if turtle.place != complex(x, y):  # y from the top, as upstream
+                where = f"[x={x:f}, y={FIELD_M - y:f}]"
+                LOG.warning(f"Oh no! I hit the wall! (Clamping from {where})")
+            turtle.seen = self.color_at(*turtle.pose[:2])
+        self._draw()
 
     def color_at(self, x: float, y: float) -> Color:
         """Return the color of a place [m] in the field."""
-        column, row = map(round, pixel(x, y))
+        column, row = map(round, pixel(complex(x, y)))
         red, green, blue = self._paper.getpixel((column, row))
         return red, green, blue
 
@@ -121,21 +159,24 @@ class Field:
         shown, data = self._paper.copy(), BytesIO()
         pen = ImageDraw.Draw(shown)
         for (name, turtle), color in zip(self.turtles.items(), itertools.cycle(COLORS)):
-            (x, y), cos, sin = pixel(*turtle.place), math.cos(turtle.theta), math.sin(turtle.theta)
-            polygon = [(x + a * cos - b * sin, y - a * sin - b * cos) for a, b in SHAPE]
-            pen.polygon(polygon, color, "#222")
-            pen.text((x + 17, y + 17), name, "#222")  # a shadow
-            pen.text((x + 16, y + 16), name, "white")
+            (x, y), heading = pixel(turtle.place), cmath.rect(1.0, -turtle.theta)
+            outline = [complex(x, y) + heading * one for one in SHAPE]
+            pen.polygon([(one.real, one.imag) for one in outline], color, "#222")
+            for shift, shade in ((17, "#222"), (16, "white")):
+                pen.text((x + shift, y + shift), name, shade)
         shown.save(data, kind, compress_level=1)
         return data.getvalue()
 
-    def _draw(self, turtle: Turtle, start: Point) -> None:
-        """Draw the way of a turtle from where it was, if its pen is down."""
-        if not turtle.is_down or start == turtle.place:
-            return
-        pen, reach = ImageDraw.Draw(self._paper), (turtle.width - 1) / 2
-        both = (*pixel(*start), *pixel(*turtle.place))
-        ends = [round(min(max(one, -FARTHEST), FARTHEST)) for one in both]
-        pen.line(ends, turtle.color, turtle.width)
-        for x, y in (ends[:2], ends[2:]):  # The ends are round.
-            pen.ellipse((x - reach, y - reach, x + reach, y + reach), turtle.color)
+    def _draw(self) -> None:
+        """Draw the way of each turtle whose pen is down, since it was drawn last."""
+        pen = ImageDraw.Draw(self._paper)
+        for turtle in self.turtles.values():
+            start, turtle.drawn = turtle.drawn, turtle.place
+            if not turtle.is_down or start == turtle.place:
+                continue
+            reach = (turtle.width - 1) / 2
+            ends = [*pixel(start), *pixel(turtle.place)]
+            ends = [round(min(max(one, -FARTHEST), FARTHEST)) for one in ends]
+            pen.line(ends, turtle.color, turtle.width)
+            for x, y in (ends[:2], ends[2:]):  # The ends are round.
+                pen.ellipse((x - reach, y - reach, x + reach, y + reach), turtle.color)

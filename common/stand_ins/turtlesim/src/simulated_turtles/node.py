@@ -6,7 +6,7 @@ import base64
 import os
 import threading
 import time
-from typing import Any
+from typing import Any, Callable
 
 import rospy
 from geometry_msgs.msg import Twist
@@ -15,17 +15,13 @@ from turtlesim import srv
 from turtlesim.msg import Color, Pose
 
 from node_kit.rospy_patches.questions import answer
-from simulated_turtles.field import Field
+from simulated_turtles.field import SIZE, Field
 
 PERIOD_S = 0.016  # 62.5 Hz
 BACKGROUND = {"background_r": 69, "background_g": 86, "background_b": 255}
-# Services are methods of Field, and of Turtle.
-SERVICES = {"clear": Empty, "reset": Empty, "spawn": srv.Spawn, "kill": srv.Kill}
-OF_TURTLES = {
-    "set_pen": srv.SetPen,
-    "teleport_absolute": srv.TeleportAbsolute,
-    "teleport_relative": srv.TeleportRelative,
-}
+# Services are methods of Field, and of Turtle; their types have the same names, or are Empty.
+SERVICES = ("clear", "reset", "spawn", "kill")
+OF_TURTLES = ("set_pen", "teleport_absolute", "teleport_relative")
 
 
 class Turtlesim:
@@ -44,11 +40,11 @@ class Turtlesim:
             rospy.set_param(f"~{name}", given.get(name, default))
         rospy.loginfo(f"Starting turtlesim with node name {rospy.get_name()}")
         self._lock = threading.RLock()
-        self._field = Field(background, rospy.loginfo, rospy.logwarn, time.monotonic())
+        self._field = Field(background, time.monotonic())
         self._ends: dict[str, list[Any]] = {}  # each turtle's ends of topics and services
         self._open_and_close()
-        for service, kind in SERVICES.items():
-            self._serve(service, kind)
+        for service in SERVICES:
+            self._serve(service)
         answer("picture", self._picture)
 
     def _picture(self, known: int) -> tuple[int, str]:
@@ -58,20 +54,21 @@ class Turtlesim:
             png = b"" if version == known else self._field.picture("PNG")
         return version, base64.b64encode(png).decode()
 
-    def _serve(self, name: str, kind: Any) -> rospy.Service:
+    def _serve(self, name: str) -> rospy.Service:
+        kind = getattr(srv, name.rpartition("/")[2].title().replace("_", ""), Empty)
+
         def handle(request: Any) -> Any:
             try:
-                text = self._call(name, {f: getattr(request, f) for f in request.__slots__})
+                return self._call(name, **{f: getattr(request, f) for f in request.__slots__}) or {}
             except ValueError as error:
                 rospy.logerr(str(error))
                 raise rospy.ServiceException(str(error)) from None
-            return text or {}
 
         return rospy.Service(name, kind, handle)
 
-    def _call(self, name: str, values: dict[str, Any]) -> str:
+    def _call(self, service: str, **values: Any) -> str | None:
         with self._lock:
-            text = self._field.call(name, values, time.monotonic())
+            text = self._field.call(service, values, time.monotonic())
             self._open_and_close()
         return text
 
@@ -86,34 +83,29 @@ class Turtlesim:
                 rospy.Publisher(f"{name}/pose", Pose, queue_size=1),
                 rospy.Publisher(f"{name}/color_sensor", Color, queue_size=1),
                 rospy.Subscriber(f"{name}/cmd_vel", Twist, self._command, name, queue_size=1),
-                *(self._serve(f"{name}/{service}", kind) for service, kind in OF_TURTLES.items()),
+                *(self._serve(f"{name}/{service}") for service in OF_TURTLES),
             ]
 
     def _command(self, twist: Twist, name: str) -> None:
-        values = {"ahead": twist.linear.x, "left": twist.linear.y, "turn": twist.angular.z}
+        velocity = {"ahead": twist.linear.x, "left": twist.linear.y, "turn": twist.angular.z}
         try:
-            self._call(f"{name}/command", values)
+            self._call(f"{name}/command", **velocity)
         except ValueError as error:
             rospy.logwarn_throttle(1.0, f"{name}/cmd_vel is ignored: {error}")
 
-    def _step(self) -> None:
-        self._field.step(time.monotonic())
-        for name, turtle in self._field.turtles.items():
-            pose, color, *_ = self._ends[name]
-            pose.publish(*turtle.pose)
-            color.publish(*turtle.seen)
-
     def spin(self) -> None:
         """Drive, publish and show until the node or its window is closed."""
-        window, due_s = open_window(), time.monotonic()
-        while not rospy.is_shutdown() and (window is None or window.is_open):
+        show, due_s = open_window(self._field), time.monotonic()
+        while not rospy.is_shutdown():
             with self._lock:
-                self._step()
-                if window:
-                    window.show(self._field)
-            now_s = time.monotonic()
-            wait_s, due_s = max(0.0, due_s - now_s), max(due_s, now_s) + PERIOD_S
-            time.sleep(wait_s)  # A late step delays all.
+                self._field.step(time.monotonic())
+                for name, turtle in self._field.turtles.items():
+                    pose, color, *_ = self._ends[name]
+                    pose.publish(*turtle.pose)
+                    color.publish(*turtle.seen)
+                show()
+            time.sleep(max(0.0, due_s - time.monotonic()))
+            due_s = max(due_s, time.monotonic() - PERIOD_S) + PERIOD_S  # A late step delays all.
 
 
 def background() -> tuple[int, int, int]:
@@ -123,13 +115,28 @@ def background() -> tuple[int, int, int]:
     return red, green, blue
 
 
-def open_window() -> Any:
-    """Return the window; None without a screen, or in a line why there is none."""
+def open_window(field: Field) -> Callable[[], None]:
+    """Return what shows the field, in the main thread, where there is a screen."""
+    if not os.environ.get("DISPLAY"):
+        return lambda: None
     try:
-        if os.environ.get("DISPLAY"):
-            from simulated_turtles.window import Window  # noqa: PLC0415 - it needs python3-tk
+        import tkinter  # noqa: PLC0415
 
-            return Window()
+        root = tkinter.Tk(className="turtlesim")
     except Exception as error:  # ImportError, or TclError of the module that may be missing
         rospy.logwarn(f"no window, for which python3-tk and a screen are needed: {error}")
-    return None
+        return lambda: None
+    root.title("TurtleSim")
+    root.resizable(False, False)
+    root.protocol("WM_DELETE_WINDOW", lambda: rospy.signal_shutdown("its window is closed"))
+    image, shown = tkinter.PhotoImage(width=SIZE, height=SIZE), 0
+    tkinter.Label(root, image=image, borderwidth=0).pack()
+
+    def show() -> None:
+        nonlocal shown
+        if shown != field.version:
+            image.put(field.picture("PPM"))
+            shown = field.version
+        root.update()
+
+    return show

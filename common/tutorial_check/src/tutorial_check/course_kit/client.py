@@ -9,9 +9,9 @@ import socket
 import traceback
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Dict, List, Optional, Tuple
+from typing import Any, Dict, List, Optional, Sequence, Tuple
 
-from tutorial_check.isolation.program import Program
+from tutorial_check.isolation.program import Program, Ran
 from tutorial_check.model import NO_TYPE, CannotCheck, CutShort
 from tutorial_check.record.stage import SETTLE_S, START_S, Stage
 from tutorial_check.source.tracebacks import last_lines
@@ -35,6 +35,18 @@ class Transform:
 
     translation: Tuple[float, ...]
     rotation: Tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class Seen:
+    """A program beside a Client: what that heard of topics and services; what it was answered; the
+    type of each topic that there was.
+    """
+
+    program: Ran
+    heard: Dict[str, Tuple[Dict[str, Any], ...]]
+    answers: Tuple[Any, ...]
+    types: Dict[str, str]
 
 
 def _place() -> str:
@@ -89,6 +101,11 @@ class Client:
     def heard(self, name: str, since: int = 0) -> List[Heard]:
         """Return the messages of a topic, or the requests of a service."""
         return [(at_s, node, values) for at_s, node, values in self._tell("heard", name, since)]
+
+    def seen(self, program: Program, *names: str, answers: Sequence[object] = ()) -> Seen:
+        """Return what was seen until now. names: of topics and services."""
+        heard = {name: tuple(values for *_, values in self.heard(name)) for name in names}
+        return Seen(program.ran, heard, tuple(answers), self._stage.call("types"))
 
     def count(self, name: str) -> int:
         return int(self._tell("count", name))

@@ -9,30 +9,26 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Dict, Tuple
 
+from tutorial_check.course_kit.files import Lines
 from tutorial_check.handout.s5.launch_text import Fault, blamed, package_hint, parse_error
 from tutorial_check.handout.s5.record import facts_of_files
-from tutorial_check.isolation.program import Ran
 from tutorial_check.judge.packages import package_of
 from tutorial_check.model import Wrong
 from tutorial_check.record.session import Session
 from tutorial_check.record.stage import Stage
-from tutorial_check.source.launch_xml import place_of, read
+from tutorial_check.source.launch_xml import read
 
 DIED = re.compile(r"^\[([^\]]+)-\d+\] process has died", re.MULTILINE)
 
 
 @dataclass(frozen=True)
-class LaunchFile:
+class LaunchFile(Lines):
     """A launch file that roslaunch can read."""
 
     path: str  # within src
     where: str  # within its package
     text: str  # without comments
     nodes: Tuple[Dict[str, Any], ...]  # with package, type, name, namespace, args, remaps, ...
-
-    def at(self, *words: str) -> str:
-        """Return FILE:LINE of the first of the words that is there; else the file."""
-        return place_of(self.where, self.text, *words)
 
 
 def launch_file(session: Session, package: str, name: str) -> LaunchFile:
@@ -68,15 +64,6 @@ def launch_file(session: Session, package: str, name: str) -> LaunchFile:
     return file
 
 
-@dataclass(frozen=True)
-class Launched:
-    """A launch file that was started, as it was when this was noted."""
-
-    program: Ran  # roslaunch, with the output of its nodes
-    nodes: Tuple[str, ...]  # that the master knew
-    died: Tuple[str, ...]  # nodes, as roslaunch printed
-
-
 class Launch:
     """A launch file that runs on a stage."""
 
@@ -99,8 +86,3 @@ class Launch:
     def is_over(self) -> bool:
         """Whether it has ended, or a node of it."""
         return self.program.ended or bool(self.died)
-
-    @property
-    def launched(self) -> Launched:
-        """What a recording keeps of it."""
-        return Launched(self.program.ran, self.nodes, self.died)

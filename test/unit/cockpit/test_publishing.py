@@ -6,9 +6,8 @@ import pytest
 
 from cockpit_server.clients import RefusedError
 from cockpit_server.graph import Graph
-from cockpit_server.sources import forms
-from cockpit_server.sources.forms import VELOCITY, Forms
-from cockpit_server.sources.repeats import Repeats
+from cockpit_server.sources import forms, publishing
+from cockpit_server.sources.publishing import VELOCITY, Outlet, Publishing
 from tutorial_testing.session_room import Free, page
 
 PERIOD_S = 0.1
@@ -20,15 +19,15 @@ class Desk:
 
     def __init__(self):
         self.driving = Free()
-        desk = Forms(self.driving, None, SimpleNamespace(graph=Graph()))
-        self.speeds = []
-        self._key = ("/cmd_vel", VELOCITY)
+        self.speeds, self.repeats = [], Publishing(self.driving, SimpleNamespace(graph=Graph()))
         publisher = SimpleNamespace(publish=lambda twist: self.speeds.append(twist.linear.x))
-        desk._publishers[self._key] = publisher
-        self.repeats, (self.page, _), self.now = Repeats(desk), page(), 100.0
-        self.repeats.on_repeat(
-            self.page, self.now, topic="/cmd_vel", type=VELOCITY, values=VALUES, period=PERIOD_S
-        )
+        self.repeats._outlets["/cmd_vel", VELOCITY] = Outlet(99.0, 99.0, None, publisher)
+        (self.page, _), self.now = page(), 100.0
+        self.publish(VALUES)
+
+    def publish(self, values):
+        about = {"topic": "/cmd_vel", "type": VELOCITY, "period": PERIOD_S}
+        self.repeats.on_publish(self.page, self.now, values=values, **about)
 
     def again(self, after_s=PERIOD_S, late_s=0.0):
         self.now += after_s
@@ -52,7 +51,7 @@ def test_a_loss_publishes_one_zero_and_nothing_before_a_person_begins_again(desk
         desk.again(late_s=0.2)
         desk.again(late_s=0.2)
     if end == "stopped":
-        desk.repeats.on_repeat_end(desk.page, desk.now)
+        desk.repeats.on_publish_end(desk.page, desk.now)
     for _ in range(5):
         desk.now += 0.1
         desk.repeats.collect([] if end == "gone" else [desk.page], desk.now)
@@ -70,7 +69,15 @@ def test_another_page_that_drives_ends_it(desk):
 
 
 def test_a_page_repeats_one_message(desk):
-    desk.repeats.on_repeat(
-        desk.page, desk.now, topic="/cmd_vel", type=VELOCITY, values={}, period=PERIOD_S
-    )
+    desk.publish({})
     assert desk.speeds == [0.0, 0.0]  # the end of the first one, and the second one
+
+
+def test_the_first_message_waits_for_the_subscribers(monkeypatch):
+    sent = []
+    publisher = SimpleNamespace(publish=sent.append, names={"/a"})
+    monkeypatch.setattr(publishing, "PromptPublisher", lambda *_: publisher)
+    for wanted, counts in (({"/a"}, [1, 1, 1]), ({"/b"}, [1, 1, 2])):
+        outlet = Outlet(0.0, 0.0, "message")
+        outlet.open("/x", None)
+        assert [outlet.send_first(wanted, now) or len(sent) for now in (0.0, 0.5, 1.1)] == counts

@@ -1,0 +1,32 @@
+"""The keys of a terminal."""
+
+from __future__ import annotations
+
+import os
+import select
+import sys
+import termios
+import tty
+from collections.abc import Iterator
+
+import rospy
+
+PERIOD_S = 0.1
+
+
+def keys() -> Iterator[bytes]:
+    """Yield the bytes of the keys that are pressed, one by one, and b"" after each PERIOD_S without
+    one, until the node or standard input, a terminal, ends.
+    """
+    terminal = sys.stdin.fileno()
+    before = termios.tcgetattr(terminal)
+    try:
+        tty.setcbreak(terminal)
+        while not rospy.is_shutdown():
+            is_ready = select.select([terminal], [], [], PERIOD_S)[0]
+            key = os.read(terminal, 1) if is_ready else b""
+            if is_ready and not key:
+                return
+            yield key
+    finally:
+        termios.tcsetattr(terminal, termios.TCSADRAIN, before)

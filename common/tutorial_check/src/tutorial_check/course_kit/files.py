@@ -1,0 +1,54 @@
+"""Files of the student's, whose lines a diagnosis names."""
+
+from __future__ import annotations
+
+from typing import Callable, TypeVar
+
+from tutorial_check.isolation.program import Ran
+from tutorial_check.judge.scripts import crash, program_of
+from tutorial_check.model import Wrong
+from tutorial_check.record.session import Session
+from tutorial_check.source.launch_xml import place_of
+
+Recording = TypeVar("Recording")
+
+
+class Lines:
+    """A text, and where it is within its package."""
+
+    where: str
+    text: str
+
+    def at(self, *words: str) -> str:
+        """Return FILE:LINE of the first of the words that is there; else the file."""
+        return place_of(self.where, self.text, *words)
+
+    def must(
+        self, is_right: object, words: str, expected: str, seen: object, hint: str = ""
+    ) -> None:
+        """Raise Wrong, at the first of the words that is there, unless it is right."""
+        if not is_right:
+            raise Wrong(expected, str(seen), self.at(*words.split()), hint)
+
+
+class File(Lines):
+    """A file of a package, such as a program."""
+
+    def __init__(self, session: Session, package: str, path: str) -> None:
+        """Read it. path: within the package."""
+        self._session, self._package, self.where = session, package, path
+        self.text = session.text(package, path)
+
+    def must_run(self, ran: Ran, expected: str, hint: str = "", may_end: bool = False) -> None:
+        """Raise Wrong if this program printed a traceback, or has ended, unless it may."""
+        if "Traceback" in ran.output or (ran.ended and not may_end):
+            hint = hint or "rospy.spin() keeps it running"
+            raise crash(self._session, self._package, ran, expected, hint)
+
+
+def recorded(
+    session: Session, package: str, name: str, recorder: Callable[..., Recording], *about: object
+) -> tuple[File, Recording]:
+    """Return a program, and what recorder(ground, path, ...) recorded of it. Raises Wrong."""
+    file = File(session, package, program_of(session, package, name))
+    return file, session.recording(recorder, file.where, *about)
