@@ -1,19 +1,31 @@
 """draw_square: the corners of a square, driven by the rules of the field."""
 
 import runpy
+from types import SimpleNamespace
+from unittest import mock
 
 import pytest
 import rospkg
+import rospy
 
 from simulated_turtles.field import START, Field
+from simulated_turtles.node import PERIOD_S
+
+SCRIPT = f"{rospkg.RosPack().get_path('turtlesim')}/scripts/draw_square"
 
 
 def test_four_sides_return_to_the_start():
-    field, corners = Field(lambda: (0, 0, 0), 0.0), []
-    side = runpy.run_path(f"{rospkg.RosPack().get_path('turtlesim')}/scripts/draw_square")["SIDE"]
-    for now_s, (ahead, turn) in enumerate(4 * side):
-        field.call("turtle1/command", {"ahead": ahead, "left": 0.0, "turn": turn}, now_s)
-        field.step(now_s + 1.0)
-        corners += [field.turtles["turtle1"].pose[:2]] if now_s % 6 == 1 else []
+    field = Field(lambda: (0, 0, 0), 0.0)
+    square, corners, now_s = runpy.run_path(SCRIPT)["square"](), [], 0.0
+    turtle, (ahead, turn) = field.turtles["turtle1"], next(square)
+    with mock.patch.object(rospy, "loginfo", lambda _: corners.append(turtle.pose[:2])):
+        while len(corners) < 9:
+            now_s += PERIOD_S
+            assert now_s < 60.0
+            field.call("turtle1/command", {"ahead": ahead, "left": 0.0, "turn": turn}, now_s)
+            field.step(now_s)
+            names = ("x", "y", "theta", "linear_velocity", "angular_velocity")
+            ahead, turn = square.send(SimpleNamespace(**dict(zip(names, turtle.pose))))
     x, y = START[:2]
-    assert corners == [pytest.approx((x + k, y + n)) for k, n in [(2, 0), (2, 2), (0, 2), (0, 0)]]
+    for place, corner in zip(corners[1::2], [(2, 0), (2, 2), (0, 2), (0, 0)]):
+        assert place == pytest.approx((x + corner[0], y + corner[1]), abs=0.4)
