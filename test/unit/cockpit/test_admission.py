@@ -11,8 +11,6 @@ from tutorial_testing.session_room import page
 ADA, BOB, CY = "10.0.0.1", "10.0.0.2", "10.0.0.3"
 LONG = 60.1  # [s]
 RATE = 0.25  # s/s
-
-
 HERE = (DRIVER, ADA, LONG)
 
 

@@ -15,13 +15,6 @@ from cockpit_server.sources import forms
 from tutorial_testing.session_room import page
 
 
-class InPlace:
-    """In the place of a Thread: it runs at once."""
-
-    def __init__(self, target, args, daemon):
-        self.start = lambda: target(*args)
-
-
 @pytest.fixture
 def filled(monkeypatch):
     """A function that fills a form of a type at the time 7."""
@@ -71,7 +64,11 @@ def test_hostile_parameter_is_one_line_or_a_value(monkeypatch, written):
     hub.soon = lambda act: act()
     client, sent = page()
     hub.clients = {client.number: client}
-    monkeypatch.setattr(forms.threading, "Thread", InPlace)
+
+    def at_once(target, args, daemon):
+        return SimpleNamespace(start=lambda: target(*args))
+
+    monkeypatch.setattr(forms.threading, "Thread", at_once)
     forms.Forms(hub, SimpleNamespace(graph=Graph())).on_set(client, 0.0, "/x", {"value": written})
     [said] = sent
     assert said["kind"] == ("form" if arrived else "refused")

@@ -23,10 +23,6 @@ def graph(*robots):
     )
 
 
-def of(kind, sent):
-    return next((message for message in sent if message["kind"] == kind), None)
-
-
 PLACE = {"x", "y", "yaw"}
 
 
@@ -60,7 +56,7 @@ def test_page_gets_only_the_robots_that_changed_since_it_was_sent_some():
         topics.hear(f"/{robot}/odom", odometry)
 
     def seen(*pages):
-        newest = of("robots", look(robots, *pages)[0])
+        [newest] = [sent for sent in look(robots, *pages)[0] if sent["kind"] == "robots"]
         return newest["all"], {name: state["x"] for name, state in newest["robots"].items()}
 
     assert seen(one) == (True, {})

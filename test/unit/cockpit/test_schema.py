@@ -12,8 +12,6 @@ from tutorial_testing.socket_page import GOOD
 
 SOURCES = [one for one in Source.__subclasses__() if one.__module__.startswith("cockpit_server.")]
 SCHEMA = Schema([Hub, *SOURCES])
-
-
 LONG = "x" * 41
 
 
