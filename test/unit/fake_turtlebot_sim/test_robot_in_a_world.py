@@ -52,16 +52,25 @@ def test_at_a_wall_the_wheels_stall_and_odometry_says_so():
     assert robot.contact is None and not any(map(any, robot.sensed()))
     on_a_plane = SimulatedRobot(Parameters())
     assert not any(map(any, on_a_plane.sensed())) and not on_a_plane.odometry_differs
+    robot = SimulatedRobot(Parameters(world=WALL, max_angular_acceleration=1.0), (1 - R, 0.0, 0.0))
+    robot.command((0.5, 0.5), 0)
+    robot.advance(500_000_000)
+    assert robot.state()[:3] == pytest.approx((1 - R, 0.0, 0.125)) == robot.true_pose
 
 
-@pytest.mark.parametrize("acceleration", [0.0, 0.01, 0.3])
-def test_one_long_step_ends_at_the_wall_as_many_short_ones(acceleration):
-    limits = {"max_linear_acceleration": acceleration, "cmd_vel_timeout": 60.0}
-    robot = SimulatedRobot(Parameters(world=World((((3.0, -5.0), (3.0, 5.0)),)), **limits))
-    robot.command((0.7, 0.0), 0)
+@pytest.mark.parametrize(
+    ("speed", "ramp", "then"),
+    [(0.7, 0.0, 0.7), (0.7, 0.01, 0.7), (0.7, 0.3, 0.7), (100.0, 0.0, 0.0), (12.0, 12.0, 0.0)],
+)
+def test_one_long_step_ends_at_the_wall_as_many_short_ones(speed, ramp, then):
+    limits = {"max_linear_acceleration": ramp, "max_linear_speed": 0}  # 0: none
+    world = World((((10.0, -5.0), (10.0, 5.0)),))
+    robot = SimulatedRobot(Parameters(world=world, cmd_vel_timeout=60.0, **limits))
+    driven(robot, (speed, 0.0), 1)
+    robot.command((then, 0.0), 10**9)
     robot.advance(50 * 10**9)
-    assert (robot.state().x, robot.true_pose[0]) == pytest.approx((3 - R, 3 - R), abs=EXACT)
-    assert robot.state()[5:7] == pytest.approx(((3 - R) / 0.035, (3 - R) / 0.035))
+    assert (robot.state().x, robot.true_pose[0]) == pytest.approx((10 - R, 10 - R), abs=EXACT)
+    assert robot.state()[5:7] == pytest.approx(((10 - R) / 0.035, (10 - R) / 0.035))
 
 
 def test_a_robot_with_errors_touches_with_its_true_body():
@@ -157,6 +166,7 @@ def test_it_is_not_put_into_a_wall_or_over_an_edge():
         with pytest.raises(ValueError, match="a pose is at most 1e\\+06 m from"):
             robot.place((0.0, far, 0.0))
     assert robot.true_pose == (0.0, 0.0, 0.0)
+    robot.place((0.0, 0.0, 1e7))  # an angle has no limit
 
 
 @pytest.mark.parametrize(("given", "near", "far"), [("inf", -inf, inf), ("nan", nan, nan)])
