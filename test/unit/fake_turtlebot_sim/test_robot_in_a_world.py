@@ -144,9 +144,8 @@ def test_robots_stop_each_other():
 
 
 def test_a_reset_of_the_odometry_leaves_the_robot_where_it_is():
-    robot = driven(
-        SimulatedRobot(Parameters(world=World((SQUARE,))), (0.5, 0.5, 1.0)), (0.2, 0.3), 2
-    )
+    robot = SimulatedRobot(Parameters(world=World((SQUARE,))), (0.5, 0.5, 1.0))
+    driven(robot, (0.2, 0.3), 2)
     at = robot.true_pose
     robot.reset_odometry()
     assert (robot.true_pose, robot.state()[:3]) == (at, (0.0, 0.0, 0.0))
@@ -229,11 +228,12 @@ def test_places_are_around_the_start_and_not_behind_a_wall(side):
     assert [pose[:2] for pose in world.places(4)] == [
         pytest.approx(at(0.5 * ahead, 0.5 * left)) for ahead, left in free
     ]
-    further = [pose[:2] for pose in World(start=start).places(9)[5:]]
-    assert further == [
+    assert [pose[:2] for pose in World(start=start).places(9)[5:]] == [
         pytest.approx(at(0.5 * ahead, 0.5 * left))
         for ahead, left in [(0, -2), (-1, -1), (1, -1), (-2, 0)]
     ]
+    corridor = World(tuple(((-2.0, y), (2.0, y)) for y in (-0.2, 0.2)))  # hardly wider than a robot
+    assert [x for x, *_ in corridor.places(3)] == [0.0, -0.5, 0.5]
 
 
 whole = st.integers(-6, 6).map(float)
