@@ -163,10 +163,10 @@ def test_inputs_that_are_fresh(room, case):
 
 def test_of_many_beats_sixteen_are_kept(room):
     sit(room)
-    for number in range(2, 18):
+    for number in range(2, 19):
         room.session.beat(number, 0.0)
-    hand(room, 1, 0.0, beat=2)
-    hand(room, 2, 0.0, beat=1)
+    hand(room, 1, 0.0, beat=3)
+    hand(room, 2, 0.0, beat=2)
     assert room.session.newest == 1
 
 

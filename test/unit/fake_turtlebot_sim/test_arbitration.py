@@ -1,4 +1,4 @@
-"""Programs that are obeyed; test_any_commands of test_stateful.py judges any commands."""
+"""Programs that are obeyed; the machine Mux of test_stateful.py judges any commands."""
 
 import pytest
 

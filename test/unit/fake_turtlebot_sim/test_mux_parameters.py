@@ -26,7 +26,7 @@ def test_a_turtlebots_own_file_works_as_it_is():
     assert parameters.publisher == "output"
     assert parameters.subscribers[1] == Input("Teleoperation", "input/teleop", 1.0, 7)
     assert [one.timeout for one in parameters.subscribers] == [0.2, 1.0, 1.0]
-    assert parse_mux_parameters(with_teleop(priority=0, timeout=60.0))
+    assert hash(parse_mux_parameters(with_teleop(priority=0, timeout=60.0)))  # all of it is frozen
 
 
 @pytest.mark.parametrize(

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from fake_turtlebot_sim.simulator.differential_drive import arc
+from fake_turtlebot_sim.simulator.differential_drive import arc, wheel_rates
+from fake_turtlebot_sim.simulator.odometry_errors import OdometryErrors
 from fake_turtlebot_sim.simulator.parameters import Parameters
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
 
@@ -23,22 +24,40 @@ def test_unequal_wheels_bend_the_true_path_and_the_estimate_knows_nothing(ratio,
         assert state[:3] == pytest.approx(arc((0.0, 0.0, 0.0), velocity, 0.5), abs=1e-12)
 
 
-def noisy_drive(seed, rate_hz):
-    """Drive an S of 6 s and return (robot at its end, odometry minus truth)."""
-    robot = SimulatedRobot(Parameters(wheel_noise=0.01, seed=seed))
-    for k in range(6 * rate_hz):
-        robot.command((0.5, 1.0 if k < 3 * rate_hz else -1.0), k * SECOND // rate_hz)
-    robot.advance(6 * SECOND)
-    odometry, truth = robot.state(), robot.true_state()
-    return robot, np.subtract(odometry[:3], truth[:3])
+def test_a_step_errs_as_its_wheels_and_the_covariance_as_small_errors_move_its_end():
+    separation, noise, dt = 0.23, 0.02, 0.03  # [m], [m] after 1 m, [s]
+    errors = OdometryErrors(separation, wheel_noise=noise, seed="ada")
+    pose, velocity = (0.3, -0.2, 0.7), (-0.3, 2.0)
+    ways = np.array(wheel_rates(velocity, separation, 1.0 / dt))  # [m], left and right
+    measured = [errors.measured(velocity, dt) for _ in range(1000)]
+    drawn = np.array([wheel_rates(one, separation, 1.0 / dt) for one in measured])
+    variances = noise**2 * np.abs(ways)
+    assert np.mean((drawn - ways) ** 2, axis=0) == pytest.approx(variances, rel=0.2)
+
+    def end(x, y, yaw, left, right):
+        v, w = (left + right) / 2 / dt, (right - left) / separation / dt
+        return np.array(arc((x, y, yaw), (v, w), dt))
+
+    at, before = [*pose, *ways], np.array([[4, 1, 2], [1, 9, -3], [2, -3, 5]]) * 1e-6
+    slopes = np.transpose([(end(*at + d) - end(*at - d)) / 2e-5 for d in 1e-5 * np.eye(5)])
+    by_pose, by_wheels = slopes[:, :3], slopes[:, 3:]
+    errors.covariance = before
+    errors.grow(pose, end(*at), velocity, dt)
+    after = by_pose @ before @ by_pose.T + by_wheels @ np.diag(variances) @ by_wheels.T
+    assert errors.covariance == pytest.approx(after, rel=2e-3)
 
 
 @pytest.mark.parametrize("rate_hz", [4, 20])
 def test_the_covariance_is_that_of_the_errors_whatever_the_rate(rate_hz):
-    drives = [noisy_drive(seed, rate_hz) for seed in range(300)]
-    sampled = np.cov(np.array([error for _, error in drives]).T)
-    told = np.mean([robot.covariance() for robot, _ in drives], axis=0)
+    errors, told = [], []
+    for seed in range(300):
+        robot = SimulatedRobot(Parameters(wheel_noise=0.01, seed=seed))
+        for k in range(6 * rate_hz):
+            robot.command((0.5, 1.0 if k < 3 * rate_hz else -1.0), k * SECOND // rate_hz)  # an S
+        robot.advance(6 * SECOND)
+        errors.append(np.subtract(robot.state()[:3], robot.true_state()[:3]))
+        told.append(robot.covariance())
+    sampled, mean = np.cov(np.transpose(errors)), np.mean(told, axis=0)
     # 300 samples know a variance to 8 %; the worst of six numbers may be three times as far off.
-    scale = np.sqrt(np.outer(np.diag(told), np.diag(told)))
-    assert np.abs(sampled - told).max() < 0.25 * scale.max()
-    assert np.abs((sampled - told) / scale).max() < 0.25
+    scale = np.sqrt(np.outer(np.diag(mean), np.diag(mean)))
+    assert np.abs((sampled - mean) / scale).max() < 0.25

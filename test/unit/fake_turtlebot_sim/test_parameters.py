@@ -10,7 +10,7 @@ import yaml
 
 import fake_turtlebot_sim
 from fake_turtlebot_sim.safety.parameters import Parameters as SafetyParameters
-from fake_turtlebot_sim.simulator.parameters import Parameters, line_up, parse_parameters
+from fake_turtlebot_sim.simulator.parameters import Parameters, parse_parameters
 
 PACKAGE = Path(fake_turtlebot_sim.__file__).parents[2]
 ALL = (*fields(Parameters), *fields(SafetyParameters))
@@ -81,15 +81,14 @@ def test_robots_by_name_and_by_number():
     assert named.start_poses() == {"alice": (1e6, 1.0, 2.0)}
     one = parse_parameters({"initial_x": 1, "initial_y": 2, "initial_yaw": 3})
     assert one.start_poses() == {"": (1.0, 2.0, 3.0)}
-    assert len(parse_parameters({"robots": 1000}).robots) == 1000
+    for count in (1, 1000):
+        robots = parse_parameters({"robots": count}).robots
+        assert len(robots) == count and parse_parameters({"robots": list(robots)}).robots == robots
     numbered = parse_parameters({"robots": 30}).start_poses()
-    assert list(numbered) == [f"robot_{k}" for k in range(1, 31)]
+    in_rows = [(-float(k // 10), -float(k % 10), 0.0) for k in range(30)]  # of ten, 1 m apart
+    assert numbered == {f"robot_{k}": pose for k, pose in enumerate(in_rows, start=1)}
     listed = parse_parameters({"robots": ["ada", "bob"]}).start_poses()
     assert listed == {"ada": numbered["robot_1"], "bob": numbered["robot_2"]}
-
-
-def test_robots_are_lined_up_a_metre_apart_ten_in_a_row():
-    assert line_up(35) == [(-float(k // 10), -float(k % 10), 0.0) for k in range(35)]
 
 
 def test_the_yaml_file_holds_parameters_with_their_defaults():

@@ -33,9 +33,9 @@ QUARTER = [(ms, twist(0.1 * pi, 0.5 * pi)) for ms in (0, 200, 400)]
 JOYS = [(200 * k, Joy(axes=[0.0, 0.7], buttons=[0] * 12)) for k in range(35)]
 
 
-def write_bag(path, topic_messages):
-    """Write {topic: [(ms after the start, message)]}."""
-    with rosbag.Bag(str(path), "w") as bag:
+def write_bag(path, topic_messages, *options):
+    """Write {topic: [(ms after the start, message)]}; options: of rosbag.Bag."""
+    with rosbag.Bag(str(path), "w", *options) as bag:
         for topic, messages in topic_messages.items():
             for time_ms, message in messages:
                 bag.write(topic, message, START + Duration.from_sec(time_ms / 1000))
@@ -160,8 +160,5 @@ def test_a_damaged_bag_ends_in_one_line_wherever_it_is_read(bags, damage, kind):
 def bags(tmp_path_factory):
     folder = tmp_path_factory.mktemp("bags")
     for kind in ("none", "bz2", "lz4"):
-        with rosbag.Bag(str(folder / f"{kind}.bag"), "w", kind, chunk_threshold=300) as bag:
-            for time_ms, message in QUARTER:
-                bag.write("/cmd_vel", message, START + Duration.from_sec(time_ms / 1000))
-                bag.write("/joy", JOYS[0][1], START)
+        write_bag(folder / f"{kind}.bag", {"/cmd_vel": QUARTER, "/joy": JOYS[:3]}, kind, 300)
     return folder

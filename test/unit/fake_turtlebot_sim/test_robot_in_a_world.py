@@ -24,7 +24,7 @@ PERIOD_NS = 20_000_000
 NOBODY = np.empty((0, 5))
 SQUARE = ((-2.0, -2.0), (2.0, -2.0), (2.0, 2.0), (-2.0, 2.0), (-2.0, -2.0))
 WALL = World((((1.0, -5.0), (1.0, 5.0)),))  # x = 1
-EDGE = World(cliffs=(((1.0, -3.0), (3.0, -3.0), (3.0, 3.0), (1.0, 3.0)),))
+EDGE = World(cliffs=(((1.0, -0.5), (3.0, -0.5), (3.0, 0.5), (1.0, 0.5)),))
 
 
 def drive(robot, velocity, seconds, begin=0.0):
@@ -52,16 +52,25 @@ def test_at_a_wall_the_wheels_stall_and_odometry_says_so():
     assert robot.contact is None and not any(map(any, robot.sensed()))
     on_a_plane = SimulatedRobot(Parameters())
     assert not any(map(any, on_a_plane.sensed())) and not on_a_plane.odometry_differs
+    robot = SimulatedRobot(Parameters(world=WALL, max_angular_acceleration=1.0), (1 - R, 0.0, 0.0))
+    robot.command((0.5, 0.5), 0)
+    robot.advance(500_000_000)
+    assert robot.state()[:3] == pytest.approx((1 - R, 0.0, 0.125)) == robot.true_pose
 
 
-@pytest.mark.parametrize("acceleration", [0.0, 0.01, 0.3])
-def test_one_long_step_ends_at_the_wall_as_many_short_ones(acceleration):
-    limits = {"max_linear_acceleration": acceleration, "cmd_vel_timeout": 60.0}
-    robot = SimulatedRobot(Parameters(world=World((((3.0, -5.0), (3.0, 5.0)),)), **limits))
-    robot.command((0.7, 0.0), 0)
+@pytest.mark.parametrize(
+    ("speed", "ramp", "then"),
+    [(0.7, 0.0, 0.7), (0.7, 0.01, 0.7), (0.7, 0.3, 0.7), (100.0, 0.0, 0.0), (12.0, 12.0, 0.0)],
+)
+def test_one_long_step_ends_at_the_wall_as_many_short_ones(speed, ramp, then):
+    limits = {"max_linear_acceleration": ramp, "max_linear_speed": 0}  # 0: none
+    world = World((((10.0, -5.0), (10.0, 5.0)),))
+    robot = SimulatedRobot(Parameters(world=world, cmd_vel_timeout=60.0, **limits))
+    driven(robot, (speed, 0.0), 1)
+    robot.command((then, 0.0), 10**9)
     robot.advance(50 * 10**9)
-    assert (robot.state().x, robot.true_pose[0]) == pytest.approx((3 - R, 3 - R), abs=EXACT)
-    assert robot.state()[5:7] == pytest.approx(((3 - R) / 0.035, (3 - R) / 0.035))
+    assert (robot.state().x, robot.true_pose[0]) == pytest.approx((10 - R, 10 - R), abs=EXACT)
+    assert robot.state()[5:7] == pytest.approx(((10 - R) / 0.035, (10 - R) / 0.035))
 
 
 def test_a_robot_with_errors_touches_with_its_true_body():
@@ -135,9 +144,8 @@ def test_robots_stop_each_other():
 
 
 def test_a_reset_of_the_odometry_leaves_the_robot_where_it_is():
-    robot = driven(
-        SimulatedRobot(Parameters(world=World((SQUARE,))), (0.5, 0.5, 1.0)), (0.2, 0.3), 2
-    )
+    robot = SimulatedRobot(Parameters(world=World((SQUARE,))), (0.5, 0.5, 1.0))
+    driven(robot, (0.2, 0.3), 2)
     at = robot.true_pose
     robot.reset_odometry()
     assert (robot.true_pose, robot.state()[:3]) == (at, (0.0, 0.0, 0.0))
@@ -157,6 +165,7 @@ def test_it_is_not_put_into_a_wall_or_over_an_edge():
         with pytest.raises(ValueError, match="a pose is at most 1e\\+06 m from"):
             robot.place((0.0, far, 0.0))
     assert robot.true_pose == (0.0, 0.0, 0.0)
+    robot.place((0.0, 0.0, 1e7))  # an angle has no limit
 
 
 @pytest.mark.parametrize(("given", "near", "far"), [("inf", -inf, inf), ("nan", nan, nan)])
@@ -219,11 +228,12 @@ def test_places_are_around_the_start_and_not_behind_a_wall(side):
     assert [pose[:2] for pose in world.places(4)] == [
         pytest.approx(at(0.5 * ahead, 0.5 * left)) for ahead, left in free
     ]
-    further = [pose[:2] for pose in World(start=start).places(9)[5:]]
-    assert further == [
+    assert [pose[:2] for pose in World(start=start).places(9)[5:]] == [
         pytest.approx(at(0.5 * ahead, 0.5 * left))
         for ahead, left in [(0, -2), (-1, -1), (1, -1), (-2, 0)]
     ]
+    corridor = World(tuple(((-2.0, y), (2.0, y)) for y in (-0.2, 0.2)))  # hardly wider than a robot
+    assert [x for x, *_ in corridor.places(3)] == [0.0, -0.5, 0.5]
 
 
 whole = st.integers(-6, 6).map(float)
@@ -245,7 +255,7 @@ def test_what_is_near_is_what_has_a_small_gap(walls, ways):
 
 @given(points, points, points, points)
 def test_a_point_is_inside_of_a_triangle_that_goes_once_around_it(a, b, c, point):
-    at = complex(*point) + 0.3 + 0.4j  # on no edge between whole numbers
+    at = complex(*point) + 0.37 + 0.013j  # on no edge between such whole numbers
     ways = [complex(*one) - at for one in (a, b, c, a)]
     turns = sum(cmath.phase(one / other) for one, other in zip(ways, ways[1:]))
     assert bool(is_inside(at.real, at.imag, (a, b, c))) == (abs(turns) > pi)

@@ -19,8 +19,6 @@ posts:
 cliffs: [[[2, 2], [3, 2], [3, 3]]]
 start: {x: 0.5, y: 0.5, yaw: 1.57}
 """
-
-
 MAP = """\
 image: map.pgm
 resolution: 0.5

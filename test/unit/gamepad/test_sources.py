@@ -117,6 +117,19 @@ def test_a_move_may_last_a_day_and_has_every_position():
     assert load_script({"moves": [{"for": 0.5}]}) == Script(((0.5, Controls()),), "D")
 
 
+MOVES = [
+    *[({"for": value}, f"for: {value!r}: must be seconds") for value in (
+        math.nan, 0, 86400.5, True)],
+    *[({part: value}, f"{part}: {value!r}: must be two numbers from -1 to 1") for value in (
+        1, [0, 0, 0], [0, -1.5], [math.nan, 0]) for part in ("left_stick", "dpad")],
+    ({"triggers": [-0.5, 0]}, "triggers: [-0.5, 0]: must be two numbers from 0 to 1"),
+    ({"held": [[]]}, "held: [[]]: must be a list of"),
+    ({"held": ["LOGITECH", "A"]}, "'LOGITECH' is no button in D mode: X, A, B, Y, LB, RB, LT"),
+    ({"plugged": 0}, "plugged: 0: must be true or false"),
+    ({"stick": [0, 0]}, "stick: [0, 0]: no such parameter"),
+]  # fmt: skip
+
+
 @pytest.mark.parametrize(
     ("document", "line"),
     [
@@ -124,32 +137,10 @@ def test_a_move_may_last_a_day_and_has_every_position():
         ({"moves": []}, "moves: []: must be a list of moves"),
         ({"moves": [{"for": 1}], "speed": 2}, "speed: 2: no such parameter; allowed: mode, moves"),
         ({"moves": [7]}, "move 1: 7 is not a map"),
+        *[({"moves": [{"for": 1}, {"for": 1, **move}]}, f"move 2: {line}") for move, line in MOVES],
     ],
 )
 def test_a_mistake_in_a_script_is_named(document, line):
     with pytest.raises(ValueError) as error:
         load_script(document)
     assert str(error.value).startswith(line)
-
-
-SECONDS, STICK, BUTTONS = "must be seconds", "must be two numbers from -1 to 1", "must be a list of"
-
-
-@pytest.mark.parametrize(
-    ("wrong", "line"),
-    [
-        *[({"for": value}, f"for: {value!r}: {SECONDS}") for value in (
-            math.nan, 0, 86400.5, True)],
-        *[({part: value}, f"{part}: {value!r}: {STICK}") for value in (
-            1, [0, 0, 0], [0, -1.5], [math.nan, 0]) for part in ("left_stick", "dpad")],
-        ({"triggers": [-0.5, 0]}, "triggers: [-0.5, 0]: must be two numbers from 0 to 1"),
-        ({"held": [[]]}, f"held: [[]]: {BUTTONS}"),
-        ({"held": ["LOGITECH", "A"]}, "'LOGITECH' is no button in D mode: X, A, B, Y, LB, RB, LT"),
-        ({"plugged": 0}, "plugged: 0: must be true or false"),
-        ({"stick": [0, 0]}, "stick: [0, 0]: no such parameter"),
-    ],
-)  # fmt: skip
-def test_a_mistake_in_a_move_is_named(wrong, line):
-    with pytest.raises(ValueError) as error:
-        load_script({"moves": [{"for": 1}, {"for": 1, **wrong}]})
-    assert str(error.value).startswith(f"move 2: {line}")

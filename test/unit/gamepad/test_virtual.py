@@ -18,8 +18,6 @@ from gamepad.virtual.pads import SIGN_OF_LIFE_S, PadError, StreamPad
 
 REST = positions(F710_D, Controls())
 PUSHED = positions(F710_D, Controls(left_stick=(0.0, 1.0), held=frozenset(["LB"])))
-
-
 # Least, most and middle of an axis in hid-input.c or xpad.c.
 BYTE, WORD, HAT = (0, 255, 127), (-32768, 32767, 0), (-1, 1, 0)
 
