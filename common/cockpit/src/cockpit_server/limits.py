@@ -20,7 +20,7 @@ SENDING_BURST_S = 0.003  # that what is sent to pages, one after the other, may 
 MESSAGE_S = 0.0005  # paid before a message is read: those that wait do not come all at once
 MESSAGES_BURST_S = 0.005  # that messages may use at once, while the driver waits
 REQUEST_S = 0.002  # answering an HTTP request; measured: 1 to 2 ms
-REQUESTS_BURST_S = 0.1  # that requests may use at once: a page loads 25 files
+REQUESTS_BURST_S = 0.5  # that requests may use at once: ten pages load, each 25 files
 
 
 class Budget:
