@@ -4,7 +4,11 @@ from setuptools import find_packages, setup
 setup(
     **generate_distutils_setup(
         packages=find_packages("src"),
-        package_data={"tutorial_check.handout": ["course.yaml"]},
+        package_data={
+            "tutorial_check.handout": ["course.yaml"],
+            "tutorial_check.judge": ["causes.txt"],
+            "tutorial_check.report": ["class_page.html"],
+        },
         package_dir={"": "src"},
     )
 )

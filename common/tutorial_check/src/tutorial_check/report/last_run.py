@@ -61,7 +61,8 @@ class LastRun:
 
 def digest_of_checks(course: Course, exercises: Iterable[str], hints: int) -> str:
     """Return what makes two runs the same: the checker, the course, the exercises and the hints."""
-    sources = sorted(Path(__file__).parents[1].rglob("*.py"))
+    package = Path(__file__).parents[1]
+    sources = sorted([*package.rglob("*.py"), *package.rglob("*.txt")])
     digest = hashlib.sha256(json.dumps([list(exercises), hints == 0]).encode())
     for path in (*sources, course.folder / FILE, *sorted(course.folder.glob("*.py"))):
         digest.update(path.read_bytes())

@@ -68,10 +68,6 @@ class PythonFacts:
     def functions(self) -> dict[str, int]:
         return {node.name: node.lineno for node in self._functions}
 
-    @property
-    def globals(self) -> list[int]:
-        return [node.lineno for node in self._of(ast.Global)]
-
     @cached_property
     def calls(self) -> dict[str, list[Call]]:
         """{last part of the name: its calls, by line}."""
