@@ -64,13 +64,11 @@ def explain(error: str, text: str = "", file: str = "FILE", section: str = "pyth
 
     section: syntax if Python cannot read the line.
     """
-    found = re.search(r"No module named '([^'.]+)'", error)
     hint = porting(error, text, file) or "".join(explained(section, f"{error}\n{text}"))
-    return hint or (_absent(found[1]) if found else "")
-
-
-def _absent(module: str) -> str:
-    """Return what to do about a module that is not there."""
+    found = re.search(r"No module named '([^'.]+)'", error)
+    if hint or not found:
+        return hint
+    module = found[1]
     near = difflib.get_close_matches(module, COMMON, 1, 0.75)
     hint = f"there is no {module} here: hand in your own file with the program, or install it"
     if near:

@@ -100,7 +100,8 @@ def _faults(session: Session, package: str, script: str) -> Iterator[Wrong]:
         look = f"python3 -m py_compile {whole}"
         yield Wrong("Python that can be read", seen, where, hint, look=look)
     yield from _faults_of_first_line(data, script, whole)
-    if not is_runnable(session, package, path):
+    may_be_run = path.stat().st_mode & 0o100  # or catkin makes it so, in devel
+    if not may_be_run and not session.recording(installed, package, script).installed:
         seen = f"{path.name} is not executable (rosrun: Couldn't find executable)"
         hint, look = f"chmod +x {whole}", f"ls -l {whole}"
         yield Wrong("a program that may be run", seen, script, hint, look=look)
@@ -152,13 +153,6 @@ def _faults_of_first_line(data: bytes, script: str, whole: str) -> Iterator[Wron
     if "python2" in program:
         hint = f"ROS here belongs to Python 3: {PYTHON3}"
         yield Wrong("Python 3", line, where, hint, look=look)
-
-
-def is_runnable(session: Session, package: str, path: Path) -> bool:
-    """Return whether rosrun takes a program: executable, or made so by catkin in devel."""
-    may_be_run = path.stat().st_mode & 0o100
-    script = str(path.relative_to(session.package(package).folder))
-    return bool(may_be_run) or session.recording(installed, package, script).installed
 
 
 def odd_node(session: Session, package: str, script: str) -> Note | None:

@@ -20,14 +20,6 @@ from tutorial_check.report.text import lines_of
 
 # Where a spreadsheet may see the start of a cell, with any separator, followed by a formula.
 FORMULA = re.compile(r"(^|[;,|\t\r\n])(?=\s*[=+\-@])")
-LEGEND = {
-    "ok": "all checks of the exercise hold",
-    "C16": "the first check that is wrong, and what was seen; the pointer shows the rest",
-    "-": "not reached: what comes before it is wrong",
-    "not done": "there was nothing to check",
-    "?": "could not be checked, through no fault of the student's",
-    "...": "is being checked",
-}
 KINDS = {"ok": "ok", "-": "no", "?": "no", "not done": "no", "...": "no"}  # word: CSS class
 LONGEST = 70  # characters of a cause in a cell
 MOST_CAUSES = 10
@@ -50,7 +42,7 @@ class Student:
     before: list[Outcome] = field(default_factory=list)
 
     def cell(self, exercise: str) -> tuple[str, str, str]:
-        """Return a word of LEGEND for an exercise, the cause in short, and the details."""
+        """Return a word of the page's legend for an exercise, the cause in short, and the details."""
         if not self.outcomes:
             return ("?", "", self.trouble) if self.trouble else ("...", "", "")
         outcome = next(each for each in self.outcomes if each.id == exercise)
@@ -149,7 +141,6 @@ def _below(students: Sequence[Student]) -> Iterator[str]:
     yield _section("Since the last run", head, (row for row in changed if any(row[1:])))
     remarks = ((one.name, one.remark) for one in students if one.remark)
     yield _section("Remarks", ("student", "remark"), remarks)
-    yield _section("Legend", (), LEGEND.items())
 
 
 def _section(title: str, head: Sequence[str], rows: Iterable[Iterable[str]]) -> str:

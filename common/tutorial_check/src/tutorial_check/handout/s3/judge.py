@@ -189,9 +189,8 @@ def anonymous(session: Session) -> Note | str:
         raise Wrong("the second talker of one name ends the first", "both go on", where)
     if not pair.both and not pair.first_ended:
         raise Wrong("a second talker publishes, or ends the first", "neither", script)
-    flipped = None
-    if given in ("True", "False"):
-        flipped = flipped_anonymous(session.text(PACKAGE, script), given == "False")
+    text, is_plain = session.text(PACKAGE, script), given in ("True", "False")
+    flipped = flipped_anonymous(text, given == "False") if is_plain else None
     if not flipped:
         return Note("anonymous cannot be changed by the checker here; try both yourself")
     other = session.recording(record.second, script, flipped)

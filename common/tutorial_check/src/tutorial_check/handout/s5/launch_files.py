@@ -98,13 +98,10 @@ def find_launch(session: Session, name: str) -> Path:
     if found:
         return found[0]
     paths = sorted(path for path in session.source.rglob("*launch*") if path.is_file())
-    others = {path.name: path for path in paths}
-    near = [other for other in others if other.lower() == name.lower()]
-    strange = [other for other in others if other not in ALL]
-    near = near or difflib.get_close_matches(name, strange, 1, 0.85)
+    others = {path.name.lower(): path for path in paths if path.name not in ALL}
     expected = f"{session.task.names.package}/launch/{name}"
-    if near:
-        other = os.path.relpath(others[near[0]], session.source)
+    for near in difflib.get_close_matches(name.lower(), others, 1, 0.85):
+        other = os.path.relpath(others[near], session.source)
         hint = f"its name must be {name}, and its place {own}/launch"
         raise Wrong(expected, f"a file {other}", other, hint)
     hint = f"write it: launch/{name} in YOUR package. ./tutorial shell without --in has one of OURS"

@@ -72,15 +72,6 @@ def check_viewer(file: LaunchFile) -> Note | None:
     return None
 
 
-def odd_name(file: LaunchFile) -> Note | None:
-    """Return a Note about a node whose name has a space; None if there is none."""
-    for name in (node["name"] for node in file.nodes if " " in node["name"]):
-        hint = f'the PDF shows _ as a gap: name="{name.replace(" ", "_")}"'
-        seen = f'name="{name}": the name of a node has no space'
-        return Note(seen, file.at(*attribute("name", name)), hint)
-    return None
-
-
 def check_one_driver(file: LaunchFile) -> None:
     """Raise Wrong if two programs of the student's send velocities to the same place."""
     programs, topic = file.session.scripts(PACKAGE).items(), file.session.task.topic(CMD_VEL)
@@ -105,20 +96,6 @@ def topic_of(node: Node, topic: str) -> str:
     renamed = (*node["remaps"], *re.findall(r"(\S+):=(\S+)", node["args"]))
     names = {source.strip("/"): to for source, to in renamed}
     return f"/{names.get(topic.strip('/'), topic).strip('/')}"
-
-
-def check_joy(file: LaunchFile, sender: Node) -> None:
-    """Raise Wrong unless the sender, a node, sends its Joys where joy2twist listens."""
-    sends, own = topic_of(sender, JOY), file.session.task.topic(JOY)
-    listens = [topic_of(node, own) for node in file.own]
-    if sends not in listens:
-        first = file.own[0]
-        seen = f"{sender['type']} sends them on {sends}, {first['type']} listens to {listens[0]}"
-        remaps = (*sender["remaps"], *first["remaps"])
-        named = [to for source, to in remaps if source.strip("/") in ("joy", own.strip("/"))]
-        where = file.at(*(each for to in named for each in attribute("to", to)))
-        hint = "leave that <remap> out, or give both nodes the same"
-        raise Wrong("the Joys go to joy2twist, on /joy", seen, where, hint)
 
 
 def bag_of(session: Session) -> tuple[str, str]:
@@ -149,7 +126,12 @@ def bag_of(session: Session) -> tuple[str, str]:
 
 def _check_items(file: LaunchFile) -> Note | None:
     """Look at what both files start; return a Note about it, or None."""
-    note = check_viewer(file) or odd_name(file)
+    note = check_viewer(file)
+    odd = [node["name"] for node in file.nodes if " " in node["name"]]
+    if odd and not note:
+        hint = f'the PDF shows _ as a gap: name="{odd[0].replace(" ", "_")}"'
+        seen = f'name="{odd[0]}": the name of a node has no space'
+        note = Note(seen, file.at(*attribute("name", odd[0])), hint)
     file.demand("the simulated robot", is_simulator, ROBOT_HINT)
     file.demand("joy2twist", file.own.__contains__, OWN_HINT.format(file.package))
     check_one_driver(file)
@@ -177,7 +159,16 @@ def bag_nodes(session: Session) -> Note | str | None:
 def stick_nodes(session: Session) -> Note | str | None:
     file = LaunchFile(session, STICK)
     note = _check_items(file)
-    check_joy(file, file.demand("joy_node", is_joystick, JOY_HINT))
+    sender, first = file.demand("joy_node", is_joystick, JOY_HINT), file.own[0]
+    own, sends = session.task.topic(JOY), topic_of(sender, JOY)
+    listens = [topic_of(node, own) for node in file.own]
+    if sends not in listens:
+        seen = f"{sender['type']} sends them on {sends}, {first['type']} listens to {listens[0]}"
+        remaps = (*sender["remaps"], *first["remaps"])
+        named = [to for source, to in remaps if source.strip("/") in ("joy", own.strip("/"))]
+        where = file.at(*(each for to in named for each in attribute("to", to)))
+        hint = "leave that <remap> out, or give both nodes the same"
+        raise Wrong("the Joys go to joy2twist, on /joy", seen, where, hint)
     if any(map(is_player, file.nodes)):
         seen = "it plays a recording, too: both would drive"
         raise Wrong("a joystick only", seen, f"launch/{STICK}", "take the rosbag node out")

@@ -76,19 +76,6 @@ def _not_remapped(file: LaunchFile, plan: Plan, seen: Remap) -> Wrong:
        look="rostopic echo /cmd_vel_mux/active")  # fmt: skip
 def real_robot(session: Session) -> None:
     file = check_file(session, REAL)
-    _check_items(file)
-    has_base = any(node["type"] == "cmd_vel_mux.py" for node in file.nodes)
-    plan = plan_of(file, TELEOP)
-    run = session.recording(real_run, plan, has_base)
-    if not run.drives:
-        expected = "cmd_vel_mux lets teleop through, and the robot moves with the stick"
-        raise fault_of(file, plan, run, expected)
-    if not any("teleop" in each for each in run.active):
-        seen = ", ".join(run.active) or "nothing"
-        raise Wrong("cmd_vel_mux/active says teleop", seen, file.where, remap_of(session))
-
-
-def _check_items(file: LaunchFile) -> None:
     # Its node, with the remap, may stand here once more.
     topics = [f"/{to.strip('/')}" for node in file.own for _, to in node["remaps"]]
     is_included = any(each.endswith(f"/{TURTLEBOT}") for each in file.facts["files"])
@@ -101,3 +88,12 @@ def _check_items(file: LaunchFile) -> None:
     if len(file.own) > 1:
         seen, hint = f"{len(file.own)}: both would drive", f"{TURTLEBOT} starts it already"
         raise Wrong("one joy2twist", seen, file.at("joy2twist.py"), hint)
+    has_base = any(node["type"] == "cmd_vel_mux.py" for node in file.nodes)
+    plan = plan_of(file, TELEOP)
+    run = session.recording(real_run, plan, has_base)
+    if not run.drives:
+        expected = "cmd_vel_mux lets teleop through, and the robot moves with the stick"
+        raise fault_of(file, plan, run, expected)
+    if not any("teleop" in each for each in run.active):
+        seen = ", ".join(run.active) or "nothing"
+        raise Wrong("cmd_vel_mux/active says teleop", seen, file.where, remap_of(session))

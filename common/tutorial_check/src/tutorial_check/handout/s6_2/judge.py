@@ -122,9 +122,8 @@ def is_class(session: Session) -> Note | str | None:
     return f"{one.name} in {path}"
 
 
-@check(
-    "C30", "the class does what the functions did", "6.2", "C29", look="rostopic echo {n.cmd_vel}"
-)
+@check("C30", "the class does what the functions did", "6.2", "C29",
+       look="rostopic echo {n.cmd_vel}")  # fmt: skip
 def behaves(session: Session) -> Note | str | None:
     script, _, _ = program(session)
     notes = [

@@ -10,7 +10,7 @@ from tutorial_check.course import check
 from tutorial_check.handout.s3.record import PACKAGE
 from tutorial_check.handout.s4_3.record import CMD_VEL
 from tutorial_check.handout.s7 import record
-from tutorial_check.handout.s7.record import LONGEST_PUSH_S, SIDES, WANDER_S, Drive
+from tutorial_check.handout.s7.record import LONGEST_PUSH_S, SIDES, WANDER_S
 from tutorial_check.judge.scripts import crash, program_of
 from tutorial_check.model import Wrong
 from tutorial_check.record.recording import Topics
@@ -109,7 +109,9 @@ def wanders(session: Session) -> str:
         hint = "with BumperEvent.PRESSED go back: linear.x < 0; what is beside it no scan shows"
         seen = f"it pushed for {push_s:.1f} s at ({drive.path[-1].x:.1f}, {drive.path[-1].y:.1f})"
         raise Wrong(expected, seen, script, hint)
-    way_m, width_m = way_and_width_m(drive)
+    path = [(sample.x, sample.y) for sample in drive.path]
+    way_m = sum(math.dist(a, b) for a, b in zip(path, path[1:]))
+    width_m = max(max(places) - min(places) for places in zip(*path))
     if way_m < LEAST_WAY_M or width_m < LEAST_WIDTH_M:
         hint = "ahead while min(scan.ranges) is large enough, else turn until it is"
         raise Wrong(expected, f"{way_m:.1f} m in a place {width_m:.1f} m wide", script, hint)
@@ -118,13 +120,6 @@ def wanders(session: Session) -> str:
         hint = "where nothing is free ahead, turn until min(scan.ranges) is large again"
         raise Wrong(expected, f"it did not move for {stand_s:.0f} s", script, hint)
     return f"{way_m:.1f} m"
-
-
-def way_and_width_m(drive: Drive) -> tuple[float, float]:
-    """Return the length [m] of a path, and the larger side of the rectangle around it."""
-    path = [(sample.x, sample.y) for sample in drive.path]
-    width_m = max(max(places) - min(places) for places in zip(*path))
-    return sum(math.dist(a, b) for a, b in zip(path, path[1:])), width_m
 
 
 def longest_stand_s(samples: Sequence[Sample]) -> float:
