@@ -10,6 +10,8 @@ setup(
                 "autograder/*",
                 "isolation/session/bin/*",
                 "isolation/session/view/*/rviz/*",
+                "judge/causes.txt",
+                "report/class_page.html",
             ]
         },
         package_dir={"": "src"},

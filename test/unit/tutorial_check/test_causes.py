@@ -6,7 +6,7 @@ import sys
 
 import pytest
 
-from tutorial_check.judge.causes import explain, syntax_hint
+from tutorial_check.judge.causes import explain
 from tutorial_check.source.python_facts import PythonFacts
 from tutorial_check.source.tracebacks import first_traceback
 
@@ -49,7 +49,7 @@ def test_a_program_in_python_2_is_named_as_such(line):
     """Each in a program of its own, as Python 3 refuses it."""
     facts = PythonFacts(line)
     if facts.error:
-        hint = syntax_hint(facts.error, facts.error_text, "/x.py")
+        hint = explain(facts.error, facts.error_text, "/x.py", "syntax")
     else:
         with pytest.raises(Exception) as caught:
             exec(line, {"f": sys.stderr})
@@ -72,7 +72,7 @@ def test_the_hint_for_python_2_works(tmp_path):
 @pytest.mark.parametrize("line", ["x = f(", "rospy.init_node(`talker')", "x y", "print = (5"])
 def test_another_error_is_not_called_python_2(line):
     facts = PythonFacts(line)
-    assert "Python 2" not in syntax_hint(facts.error, facts.error_text)
+    assert "Python 2" not in explain(facts.error, facts.error_text, section="syntax")
 
 
 @pytest.mark.parametrize(
@@ -95,7 +95,7 @@ def test_what_python_cannot_read_has_a_hint(text, line, word):
     # Python 3.8 names no characters, and fewer causes.
     known = facts.error not in ("invalid syntax", "unexpected EOF while parsing")
     known = known and not facts.error.endswith("identifier")
-    assert word in syntax_hint(facts.error, facts.error_text) or not known
+    assert word in explain(facts.error, facts.error_text, section="syntax") or not known
 
 
 OUTPUT = """[ERROR] [1.0]: bad callback: <function callback at 0x7f>

@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from tutorial_check.handout.s4_3 import diagnoses as c
+from tutorial_check.handout.s4_3 import judge as c
 from tutorial_check.handout.s4_3.drive import Drive
 from tutorial_check.handout.s4_3.facts import Facts, repetition
 from tutorial_check.handout.s4_3.record import CMD_VEL, JOY

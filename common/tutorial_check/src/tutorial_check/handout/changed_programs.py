@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import ast
+import re
 from typing import Iterable
 
-from tutorial_check.source.python_text import is_broad, last_name, python_lines
+from tutorial_check.source.python_text import last_name, python_lines
+
+# The start of an except that hides every kind of error.
+MASK = re.compile(r"^([ \t]*except)\b[ \t(]*(?:(?:Base)?Exception)?\)?(?=[ \t]*(?:as\b.*)?:)", re.M)
 
 
 def _nodes(text: str) -> list[ast.AST]:
@@ -20,19 +24,9 @@ def _joined(lines: Iterable[str]) -> str:
 
 
 def unmasked(text: str) -> str | None:
-    """Return the program with every except: that hides all made to catch nothing; None if there is none.
-
-    Every line keeps its number, and its margin of blanks or tabs.
-    """
-    lines = python_lines(text)
-    every = [node for node in _nodes(text) if isinstance(node, ast.ExceptHandler)]
-    hidden = [handler for handler in every if is_broad(handler)]
-    for handler in hidden:
-        if handler.type:
-            _put(lines, handler.type, handler.type.end_col_offset or 0, "()")
-        else:
-            _put(lines, handler, handler.col_offset + len("except"), "except ()")
-    return _joined(lines) if hidden else None
+    """Return the program with every except: that hides all made to catch nothing; None if there is none."""
+    changed, count = MASK.subn(r"\1 ()", _joined(python_lines(text)))
+    return changed if count else None
 
 
 def without_name(text: str, name: str) -> str | None:
@@ -55,22 +49,17 @@ def flipped_anonymous(text: str, wanted: bool) -> str | None:
         if not (isinstance(node, ast.Call) and last_name(node) == "init_node"):
             continue
         given = [word.value for word in node.keywords if word.arg == "anonymous"]
-        if given:
-            old, new = given[0], str(wanted)
-        elif node.args:
-            old = node.args[-1]
-            new = f"{ast.get_source_segment(text, old)}, anonymous={wanted}"
-        else:
+        if not given and not node.args:
             continue
+        old = (given or node.args)[-1]
         if old.lineno != old.end_lineno or (given and not isinstance(old, ast.Constant)):
             return None
+        new = str(wanted)
+        if not given:
+            new = f"{ast.get_source_segment(text, old)}, anonymous={wanted}"
         lines = python_lines(text)
-        _put(lines, old, old.end_col_offset or 0, new)
+        line = lines[old.lineno - 1].encode()  # ast counts bytes
+        changed = line[: old.col_offset] + new.encode() + line[old.end_col_offset :]
+        lines[old.lineno - 1] = changed.decode()
         return _joined(lines)
     return None
-
-
-def _put(lines: list[str], node: ast.expr | ast.ExceptHandler, end: int, new: str) -> None:
-    """Put a text in the place of a node, up to a column of its first line, in bytes as ast counts."""
-    line = lines[node.lineno - 1].encode()
-    lines[node.lineno - 1] = (line[: node.col_offset] + new.encode() + line[end:]).decode()

@@ -6,34 +6,34 @@ import difflib
 import re
 import shutil
 from pathlib import Path
+from typing import Iterator
 
 from tutorial_check.isolation.program import Ran
-from tutorial_check.judge.causes import NO_KEYBOARD, explain, hider, syntax_hint, traced
+from tutorial_check.judge.causes import explain, hider, traced
 from tutorial_check.judge.packages import package_of
-from tutorial_check.judge.rows import Row, find
 from tutorial_check.model import Note, Wrong
 from tutorial_check.record.build import built, installed
 from tutorial_check.record.session import Session
 from tutorial_check.source import student_files
-from tutorial_check.source.python_facts import Call, PythonFacts
+from tutorial_check.source.python_facts import PythonFacts
 from tutorial_check.source.python_text import unreadable
 from tutorial_check.source.tracebacks import Traceback, first_traceback, last_lines
 
 COPY = re.compile(r"checked_\d+_")  # a program with one thing changed; see Session.sibling
-# env -S takes arguments
-INTERPRETER = re.compile(rb"#!\s*(\S+)(?:\s+(?:-S\s*)?(?:\w+=\S*\s+)*(\S+))?")
+# env -S takes arguments.
+INTERPRETER = re.compile(rb"#!\s*(?:\S*/env\s+(?:-S\s*)?(?:\w+=\S*\s+)*)?(\S+)")
+PYTHON3 = "#!/usr/bin/env python3"
 
 
 def find_script(session: Session, package: str, name: str) -> str:
     """Return the path of a program within its package. Raises Wrong."""
     folder = session.package(package).folder
     files = sorted(path for path in folder.rglob("*") if path.is_file())
+    found = must_be_one(folder, name)
     # One without .py counts where there is none with it.
-    found = [path for path in files if path.name in (name, name[:-3])]
-    found.sort(key=lambda path: path.name != name)
-    runnable = must_be_one(folder, name)
+    found += [path for each in (name, name[:-3]) for path in files if path.name == each]
     if found:
-        return str((runnable or found)[0].relative_to(folder))
+        return str(found[0].relative_to(folder))
     others = {path.name: path for path in files if path.name != "CMakeLists.txt"}
     compiled = [path for path in files if path.suffix in (".cpp", ".cc", ".cxx", ".c")]
     compiled.sort(key=lambda path: path.stem != name[:-3])
@@ -77,107 +77,82 @@ def must_be_one(folder: Path, name: str) -> list[Path]:
     return runnable
 
 
-class Text:
-    """A program that is not run yet: the facts of the rows below."""
-
-    def __init__(self, session: Session, package: str, script: str) -> None:
-        path = session.package(package).folder / script
-        self.script, self.name, self.whole = script, path.name, session.whole(script, package)
-        self.data = student_files.read(session.folder, path)
-        self.first = self.data.split(b"\n", 1)[0]
-        self.first_line = self.first.decode(errors="replace")[:80]
-        self.further = "; #! stands further down" if b"\n#!" in self.data else ""
-        self.facts = session.scripts(package).get(script)
-        self.error, self.python_hint = "", ""
-        if self.facts and self.facts.error:
-            self.error = self.facts.error
-            self.python_hint = syntax_hint(self.error, self.facts.error_text, self.whole)
-        self.is_runnable = is_runnable(session, package, path)
-
-    @property
-    def interpreter(self) -> str:
-        """The program that #! names, if there is one of that name and it is Python; else empty."""
-        found = INTERPRETER.match(self.first)
-        words = [word.decode(errors="replace") for word in found.groups() if word] if found else []
-        program = words[0] if words else ""
-        if program.endswith("/env") and len(words) > 1:
-            program = words[1]
-        known = program in ("python", "python3") or (program and shutil.which(program))
-        return program if known and "python" in program else ""
-
-    @property
-    def gap(self) -> tuple[Call, str] | None:
-        """(the first call that gives a node or topic a name with a space, the name without)."""
-        known = self.facts.calls if self.facts else {}
-        kinds = ("Publisher", "Subscriber", "init_node")
-        calls = (call for kind in kinds for call in known.get(kind, []))
-        found = next((call for call in calls if call.words and " " in call.words[0]), None)
-        return (found, "_".join(found.words[0].split())) if found else None
-
-
-PYTHON3 = "#!/usr/bin/env python3"
-# (what is expected, a command to see it, the diagnosis); the first that applies counts.
-OF_A_TEXT = (
-    ("a program", "",
-     Row(lambda t: not t.data.strip(), "the file is empty", "was it saved?", "{f.script}")),
-    ("#! as the very first two bytes", "",
-     Row(lambda t: t.data.startswith((b"\xef\xbb\xbf", b"\xff\xfe", b"\xfe\xff")),
-         "a byte order mark before them", "save the file as UTF-8 without BOM", "{f.script}:1")),
-    ("a Python program", "",
-     Row(lambda t: re.match(rb"\s*<(!doctype|html)", t.data, re.IGNORECASE), "a web page",
-         "the download gave the page and not the file: take the address of the raw file",
-         "{f.script}")),
-    ("Unix line ends", "head -1 {whole} | cat -A",  # further down they do no harm
-     Row(lambda t: t.first.endswith(b"\r"),
-         "the file has Windows line ends (python3\\r: No such file)",
-         "sed -i 's/\\r$//' {f.whole}", "{f.script}:1")),
-    ("a file in UTF-8, or in the coding that its first lines name", "python3 -m py_compile {whole}",
-     Row(lambda t: t.facts and unreadable(t.data), "{found[1]}",
-         "save the file as UTF-8 and name no other coding; or name the right one in line 2:"
-         " # coding: latin-1", "{f.script}:{found[0]}")),
-    ("Python that can be read", "python3 -m py_compile {whole}",
-     Row(lambda t: t.error, "{found}: {f.facts.error_text}", "{f.python_hint}",
-         "{f.script}:{f.facts.error_line}")),
-    (f"{PYTHON3} as the first line", "head -3 {whole}",
-     Row(lambda t: not t.first.startswith(b"#!"), "the first line is {f.first_line!r}{f.further}",
-         "without #! in the very first line the shell tries to run the Python lines itself"
-         " (import: command not found)", "{f.script}:1")),
-    (f"an interpreter that exists: {PYTHON3}", "head -1 {whole}",
-     Row(lambda t: not t.interpreter, "{f.first_line}", f"{PYTHON3}, or #!/usr/bin/python3",
-         "{f.script}:1")),
-    ("Python 3", "head -1 {whole}",
-     Row(lambda t: "python2" in t.interpreter, "{f.first_line}",
-         f"ROS here belongs to Python 3: {PYTHON3}", "{f.script}:1")),
-    ("a program that may be run", "ls -l {whole}",
-     Row(lambda t: not t.is_runnable,
-         "{f.name} is not executable (rosrun: Couldn't find executable)", "chmod +x {f.whole}",
-         "{f.script}")),
-    # Underscores that the PDF shows as gaps and that Python reads all the same.
-    ("if __name__ == '__main__':", "",
-     Row(lambda t: t.facts and t.facts.odd_main, "{found[1]}",
-         "two underscores on either side of name and of main, and no blanks: the PDF shows gaps",
-         "{f.script}:{found[0]}")),
-    ("names of nodes and topics without a space", "",
-     Row(lambda t: t.gap, "the name {found[0].words[0]!r} has a space",
-         "the PDF shows _ as a gap: {found[1]!r}", "{f.script}:{found[0].line}")),
-)  # fmt: skip
-
-
 def check_file(session: Session, package: str, script: str) -> None:
-    text = Text(session, package, script)
-    for expected, look, row in OF_A_TEXT:
-        wrong = find([row], text, expected)
-        if isinstance(wrong, Wrong):
-            start = f"rosrun {session.task.shown(package)} {text.name}"
-            wrong.look = look.format(whole=text.whole) or start
-            raise wrong
+    """Raise Wrong for a program that rosrun does not start, or Python does not read."""
+    for wrong in _faults(session, package, script):  # the first counts
+        wrong.look = wrong.look or f"rosrun {session.task.shown(package)} {Path(script).name}"
+        raise wrong
 
 
-def is_runnable(session: Session, package: str, path: Path) -> bool:
-    """Return whether rosrun takes a program: executable, or made so by catkin in devel."""
-    may_be_run = path.stat().st_mode & 0o100
-    script = str(path.relative_to(session.package(package).folder))
-    return bool(may_be_run) or session.recording(installed, package, script).installed
+def _faults(session: Session, package: str, script: str) -> Iterator[Wrong]:
+    path, whole = session.package(package).folder / script, session.whole(script, package)
+    data, facts = student_files.read(session.folder, path), session.scripts(package).get(script)
+    yield from _faults_of_bytes(data, script, whole)
+    line, text = (facts and unreadable(data)) or (0, "")
+    if line:
+        hint = "save the file as UTF-8 and name no other coding; or name the right one in line 2:"
+        hint, look = f"{hint} # coding: latin-1", f"python3 -m py_compile {whole}"
+        expected = "a file in UTF-8, or in the coding that its first lines name"
+        yield Wrong(expected, text, f"{script}:{line}", hint, look=look)
+    if facts and facts.error:
+        seen, where = f"{facts.error}: {facts.error_text}", f"{script}:{facts.error_line}"
+        hint = explain(facts.error, facts.error_text, whole, "syntax")
+        look = f"python3 -m py_compile {whole}"
+        yield Wrong("Python that can be read", seen, where, hint, look=look)
+    yield from _faults_of_first_line(data, script, whole)
+    may_be_run = path.stat().st_mode & 0o100  # or catkin makes it so, in devel
+    if not may_be_run and not session.recording(installed, package, script).installed:
+        seen = f"{path.name} is not executable (rosrun: Couldn't find executable)"
+        hint, look = f"chmod +x {whole}", f"ls -l {whole}"
+        yield Wrong("a program that may be run", seen, script, hint, look=look)
+    # Underscores that the PDF shows as gaps and that Python reads all the same.
+    if facts and facts.odd_main:
+        line, text = facts.odd_main
+        hint = "two underscores on either side of name and of main, and no blanks: the PDF shows"
+        hint += " gaps"
+        yield Wrong("if __name__ == '__main__':", text, f"{script}:{line}", hint)
+    kinds = ("Publisher", "Subscriber", "init_node")
+    calls = (call for kind in kinds for call in (facts.calls.get(kind, []) if facts else ()))
+    for call in (call for call in calls if call.words and " " in call.words[0]):
+        seen, right = f"the name {call.words[0]!r} has a space", "_".join(call.words[0].split())
+        hint = f"the PDF shows _ as a gap: {right!r}"
+        expected = "names of nodes and topics without a space"
+        yield Wrong(expected, seen, f"{script}:{call.line}", hint)
+
+
+def _faults_of_bytes(data: bytes, script: str, whole: str) -> Iterator[Wrong]:
+    if not data.strip():
+        yield Wrong("a program", "the file is empty", script, "was it saved?")
+    if data.startswith((b"\xef\xbb\xbf", b"\xff\xfe", b"\xfe\xff")):
+        seen, hint = "a byte order mark before them", "save the file as UTF-8 without BOM"
+        yield Wrong("#! as the very first two bytes", seen, f"{script}:1", hint)
+    if re.match(rb"\s*<(!doctype|html)", data, re.IGNORECASE):
+        hint = "the download gave the page and not the file: take the address of the raw file"
+        yield Wrong("a Python program", "a web page", script, hint)
+    if data.split(b"\n", 1)[0].endswith(b"\r"):  # further down they do no harm
+        seen = "the file has Windows line ends (python3\\r: No such file)"
+        hint, look = f"sed -i 's/\\r$//' {whole}", f"head -1 {whole} | cat -A"
+        yield Wrong("Unix line ends", seen, f"{script}:1", hint, look=look)
+
+
+def _faults_of_first_line(data: bytes, script: str, whole: str) -> Iterator[Wrong]:
+    first, where, look = data.split(b"\n", 1)[0], f"{script}:1", f"head -1 {whole}"
+    line = first.decode(errors="replace")[:80]
+    if not first.startswith(b"#!"):
+        further = "; #! stands further down" if b"\n#!" in data else ""
+        hint = "without #! in the very first line the shell tries to run the Python lines itself"
+        hint, look = f"{hint} (import: command not found)", f"head -3 {whole}"
+        seen = f"the first line is {line!r}{further}"
+        yield Wrong(f"{PYTHON3} as the first line", seen, where, hint, look=look)
+    found = INTERPRETER.match(first)
+    program = found[1].decode(errors="replace") if found else ""
+    is_known = program in ("python", "python3") or shutil.which(program)
+    if "python" not in program or not is_known:
+        hint = f"{PYTHON3}, or #!/usr/bin/python3"
+        yield Wrong(f"an interpreter that exists: {PYTHON3}", line, where, hint, look=look)
+    if "python2" in program:
+        hint = f"ROS here belongs to Python 3: {PYTHON3}"
+        yield Wrong("Python 3", line, where, hint, look=look)
 
 
 def odd_node(session: Session, package: str, script: str) -> Note | None:
@@ -194,8 +169,8 @@ def odd_node(session: Session, package: str, script: str) -> Note | None:
 # ------------------------------------------------------------------------- why one has failed
 
 
-def cause_of(session: Session, package: str, name: str, trace: Traceback) -> tuple[str, str]:
-    """Return (the line to blame, what to do) for a Traceback of the program of that name."""
+def cause_of(session: Session, package: str, trace: Traceback, name: str = "") -> tuple[str, str]:
+    """Return (the line to blame, what to do) for a Traceback of a program, maybe of that name."""
     name = COPY.sub("", name)
     script = next((each for each in session.scripts(package) if Path(each).name == name), "")
     script = COPY.sub("", trace.where.rpartition(":")[0] or script)  # with the same lines
@@ -223,7 +198,7 @@ def crash(session: Session, package: str, program: Ran, expected: str, hint: str
     trace = first_traceback(program.output, str(session.package(package).folder))
     if trace and not (program.was_stopped and trace.error.startswith("KeyboardInterrupt")):
         seen = trace.error + (f"   in: {trace.text}" if trace.text else "")
-        place, cause = cause_of(session, package, program.name, trace)
+        place, cause = cause_of(session, package, trace, program.name)
         return Wrong(expected, seen, place, cause or hint, sure=True)
     if program.code is not None and program.code < 0:
         return Wrong(expected, f"the program was ended by signal {-program.code}", "", hint)
@@ -231,10 +206,10 @@ def crash(session: Session, package: str, program: Ran, expected: str, hint: str
         seen = f"{program.name} works all the time and gets nowhere"
         hint = "a loop without end? In the callback, and before rospy.init_node, there is none"
         return Wrong(expected, seen, hint=hint, sure=True)
-    ended = "it runs" if program.code is None else f"it ended, exit code {program.code}"
+    seen = "it runs" if program.code is None else f"it ended, exit code {program.code}"
     said = last_lines(program.output)
-    said = f"; it printed: {said}" if said else ", and printed nothing"
-    return Wrong(expected, ended + said, hint=hint)
+    seen += f"; it printed: {said}" if said else ", and printed nothing"
+    return Wrong(expected, seen, hint=hint)
 
 
 def check_end(
@@ -258,12 +233,7 @@ def check_end(
     return None
 
 
-def misnamed_init(methods: list[str]) -> str:
-    """Return the method that was meant to be __init__, or an empty text."""
-    return next((each for each in methods if re.fullmatch(r"_*init_*", each)), "")
-
-
-def with_end(wrong: Wrong, facts: PythonFacts, script: str) -> Wrong:
+def ended(wrong: Wrong, facts: PythonFacts, script: str) -> Wrong:
     """Return the Wrong for a program that ended, with what its text shows if its output does not."""
     if not wrong.where:
         asked = facts.first("Subscriber")
@@ -276,24 +246,14 @@ def with_end(wrong: Wrong, facts: PythonFacts, script: str) -> Wrong:
 def silent_end(facts: PythonFacts, script: str) -> tuple[str, str]:
     """Return (where, hint) for a program that ends at once, as far as its text shows."""
     if facts.keyboard:
-        return f"{script}:{facts.keyboard}", NO_KEYBOARD
+        return f"{script}:{facts.keyboard}", explain("EOF when reading a line")
     for line, text in facts.bare_names:
         if text.endswith(("spin", "listener")):
             return f"{script}:{line}", f"{text} needs its (): {text}()"
-    for one in facts.classes:
-        odd = misnamed_init(one.methods) if "__init__" not in one.methods else ""
-        if one.is_node and odd:
-            hint = f"`def {odd}`: Python calls `__init__`, two underscores on either side"
-            return f"{script}:{one.line}", hint
-        if one.is_node and not one.instantiated:
-            hint = f"it is never made: {one.name}() under if __name__ == '__main__':"
-            return f"{script}:{one.line}", hint
     if facts.sunken_main:
         line, function = facts.sunken_main
         hint = f"line {line} stands within {function}(): move it, and what is below it, to the left"
         return f"{script}:{line}", f"{hint} margin"
     if "spin" not in facts.calls:
         return script, "rospy.spin() is missing: without it the program comes to its end"
-    if not facts.has_main:
-        return script, "listener() is never called: if __name__ == '__main__': listener()"
     return script, "is listener() called, in the last line, and with ()?"

@@ -9,6 +9,7 @@ from collections import Counter
 from dataclasses import dataclass, field, replace
 from html import escape
 from pathlib import Path
+from string import Template
 from typing import Any, Iterable, Iterator, Mapping, Sequence
 from urllib.parse import quote
 
@@ -19,14 +20,6 @@ from tutorial_check.report.text import lines_of
 
 # Where a spreadsheet may see the start of a cell, with any separator, followed by a formula.
 FORMULA = re.compile(r"(^|[;,|\t\r\n])(?=\s*[=+\-@])")
-LEGEND = {
-    "ok": "all checks of the exercise hold",
-    "C16": "the first check that is wrong, and what was seen; the pointer shows the rest",
-    "-": "not reached: what comes before it is wrong",
-    "not done": "there was nothing to check",
-    "?": "could not be checked, through no fault of the student's",
-    "...": "is being checked",
-}
 KINDS = {"ok": "ok", "-": "no", "?": "no", "not done": "no", "...": "no"}  # word: CSS class
 LONGEST = 70  # characters of a cause in a cell
 MOST_CAUSES = 10
@@ -34,17 +27,7 @@ BAR = "\u2588"  # one student
 WORDS = ("expected", "seen", "where", "hint")  # a Result's fields, in its order
 # No script, picture or other content can load, whatever a name or an output contains.
 POLICY = "default-src 'none'; style-src 'unsafe-inline'"
-STYLE = """
-body{font-family:sans-serif}td,th{padding:.2em .6em;border:1px solid #ccc;vertical-align:top}
-table{border-collapse:collapse}.ok{background:#cfc}.wrong{background:#fcc}.no{color:#777}
-small{display:block;max-width:16em;overflow-wrap:break-word}
-@media print{body{font-size:9pt}tr{break-inside:avoid}a{color:#000;text-decoration:none}
-.wrong{font-weight:bold}}
-"""
-PAGE = """<!DOCTYPE html><html lang="en"><meta charset="utf-8"><title>Exercises</title>
-<meta http-equiv="Content-Security-Policy" content="{policy}">{refresh}
-<style>{style}</style><h1>Exercises</h1>{body}</html>
-"""
+PAGE = Template(Path(__file__).with_name("class_page.html").read_text(encoding="utf-8"))
 
 
 @dataclass
@@ -59,7 +42,7 @@ class Student:
     before: list[Outcome] = field(default_factory=list)
 
     def cell(self, exercise: str) -> tuple[str, str, str]:
-        """Return a word of LEGEND for an exercise, the cause in short, and the details."""
+        """Return a word of the page's legend for an exercise, the cause in short, and the details."""
         if not self.outcomes:
             return ("?", "", self.trouble) if self.trouble else ("...", "", "")
         outcome = next(each for each in self.outcomes if each.id == exercise)
@@ -131,7 +114,7 @@ def table_html(
     runs = any(student.cell(exercises[0])[0] == "..." for student in students)
     refresh = '<meta http-equiv="refresh" content="5">' if runs else ""
     body = f"<table>{''.join(rows)}</table>{''.join(_below(students))}"
-    return PAGE.format(policy=escape(POLICY), refresh=refresh, style=STYLE, body=body)
+    return PAGE.substitute(policy=escape(POLICY), refresh=refresh, body=body)
 
 
 def _cell(word: str, cause: str, details: str) -> str:
@@ -158,7 +141,6 @@ def _below(students: Sequence[Student]) -> Iterator[str]:
     yield _section("Since the last run", head, (row for row in changed if any(row[1:])))
     remarks = ((one.name, one.remark) for one in students if one.remark)
     yield _section("Remarks", ("student", "remark"), remarks)
-    yield _section("Legend", (), LEGEND.items())
 
 
 def _section(title: str, head: Sequence[str], rows: Iterable[Iterable[str]]) -> str:
@@ -188,15 +170,10 @@ def causes(students: Iterable[Student]) -> list[tuple[int, Result]]:
 
 def changes(student: Student) -> dict[str, list[str]]:
     """Return what changed since the last run: exercises now done, no more done, stuck at a check."""
-    found: dict[str, list[str]] = {"now done": [], "no more done": [], "stuck": []}
-    earlier = {outcome.id: outcome for outcome in student.before}
-    for outcome in student.outcomes:
-        old = earlier.get(outcome.id)
-        if old is None:
-            continue
-        if outcome.passed != old.passed:
-            found["now done" if outcome.passed else "no more done"].append(outcome.id)
-        for first, was in zip(outcome.wrong[:1], old.wrong[:1]):
-            if first.id == was.id:
-                found["stuck"].append(f"{first.id} {first.title}")
-    return found
+    pairs = [(one, old) for one in student.outcomes for old in student.before if old.id == one.id]
+    firsts = (both for one, old in pairs for both in zip(one.wrong[:1], old.wrong[:1]))
+    return {
+        "now done": [one.id for one, old in pairs if one.passed and not old.passed],
+        "no more done": [one.id for one, old in pairs if old.passed and not one.passed],
+        "stuck": [f"{first.id} {first.title}" for first, was in firsts if first.id == was.id],
+    }

@@ -62,7 +62,8 @@ class LastRun:
 def digest_of_checks(course: Course, exercises: Iterable[str], hints: int) -> str:
     """Return what makes two runs the same: the checker, the course, the exercises and the hints."""
     package = Path(__file__).parents[1]
-    sources = [path for kind in ("*.py", "*.yaml") for path in sorted(package.rglob(kind))]
+    kinds = ("*.py", "*.yaml", "*.txt")
+    sources = [path for kind in kinds for path in sorted(package.rglob(kind))]
     digest = hashlib.sha256(json.dumps([list(exercises), hints == 0]).encode())
     for path in (*sources, course.folder / FILE, *sorted(course.folder.glob("*.py"))):
         digest.update(path.read_bytes())

@@ -8,6 +8,7 @@ import re
 from pathlib import Path
 
 from tutorial_check.course import check
+from tutorial_check.judge.causes import explained
 from tutorial_check.model import Note, Wrong
 from tutorial_check.record.build import built
 from tutorial_check.record.builder import Built
@@ -22,30 +23,11 @@ WANTED = {
     "joy2twist": ("rospy", "std_msgs", "sensor_msgs", "geometry_msgs"),
 }
 
-# What a message of CMake's most often means here: (pattern, what to do). The first that fits counts.
-CMAKE_HINTS = (
-    (r"does not match current PROJECT_NAME", "write the name that package.xml has into project()"),
-    (r"include dir '(.+)' does not exist|directory not found: \S*?/src/(\S+)"
-     r"|source \"(\w[^\"]*)\" which is not an existing",
-     "git keeps no empty folders: put a file into {f}, as .gitkeep, or take it out of the line"),
-    (r"non-existing file|Cannot find source file", "look at the spelling of the file's path"),
-    (r'Unknown CMake command "(add_(?:message|service)_files|generate_messages)',
-     "{f}() is of message_generation: name that in find_package(catkin REQUIRED COMPONENTS ...)"),
-    (r"Unknown CMake command", "look at the spelling of the command"),
-)  # fmt: skip
 # What genmsg says of a message or service: (file, type) or (file, what it read there).
 DEFINITION = re.compile(
     r"messages which\s+'([^']+)'\s+depends.+?message\s+\[(\S+)\]"
     r"|InvalidMsgSpec: (/\S+): (?:Invalid declaration: ([^\n]+)|(\S+) is not a legal)", re.DOTALL
 )  # fmt: skip
-
-
-def _similar(name: str, packages: list[Package]) -> Package | None:
-    def is_near(word: str) -> bool:
-        bare, plain = (re.sub(r"[^a-z0-9]", "", each.lower()) for each in (word, name))
-        return difflib.SequenceMatcher(None, bare, plain).ratio() > 0.8
-
-    return next((p for p in packages if is_near(p.name) or is_near(p.folder.name)), None)
 
 
 def _package(session: Session, name: str) -> Package:
@@ -66,6 +48,10 @@ def _package(session: Session, name: str) -> Package:
     return named[0]
 
 
+def _plain(name: str) -> str:
+    return re.sub(r"[^a-z0-9]", "", name.lower())
+
+
 def _missing(session: Session, name: str, expected: str) -> Wrong:
     """Return the Wrong for a package that is not there, or is elsewhere, or has another name."""
     own = session.task.named(name)
@@ -77,8 +63,9 @@ def _missing(session: Session, name: str, expected: str) -> Wrong:
     if leads_to:
         seen = f"src/{own} is a link to {leads_to}, and leads nowhere here"
         return Wrong(expected, seen, f"src/{own}", "put the folder itself into src, no link")
-    similar = _similar(own, session.packages)
-    if similar:
+    named = {_plain(word): p for p in session.packages for word in (p.name, p.folder.name)}
+    for near in difflib.get_close_matches(_plain(own), named, 1, 0.8):
+        similar = named[near]
         hint = f"its name must be exactly {own}: lower case, with _ and without -;"
         hint += " in package.xml, CMakeLists.txt and the folder"
         seen, where = f"a package called {similar.name}", f"{similar.inside}/package.xml"
@@ -99,15 +86,14 @@ def _dependencies(session: Session, name: str) -> Package:
             hint += " fix package.xml and CMakeLists.txt"
             raise Wrong("names of packages", f"a dependency on {odd!r}", where, hint)
     missing = [each for each in wanted if each not in package.depends]
-    others = package.depends - set(wanted)
-    # One kind of dependency may name it rightly.
-    for each in sorted(others) if not missing else ():
-        meant = difflib.get_close_matches(each, wanted, 1, 0.8)
-        missing = missing or (meant if not _is_known(session, each) else [])
-    if not missing:
-        return package
+    others = sorted(package.depends - set(wanted))
     # What is a package is not misspelt.
     unknown = [o for o in others if not (packages_of_ros(o) or _is_known(session, o))]
+    if not missing:  # one kind of dependency may name it rightly
+        meant = (difflib.get_close_matches(each, wanted, 1, 0.8) for each in unknown)
+        missing = next(filter(None, meant), [])
+    if not missing:
+        return package
     near = {each: difflib.get_close_matches(each, unknown, 1, 0.65) for each in missing}
     seen = f"no {', '.join(missing)}"
     if missing[0] in package.depends:
@@ -206,9 +192,8 @@ def _build_error(session: Session, output: str) -> Wrong:
     message, where = _cmake_error(output)
     if words.startswith("CMake Error") and message:
         words = f"CMake: {message}"
-    hint = "read the first error of catkin_make: it names file and line"
-    for found, what in ((re.search(each, message), what) for each, what in CMAKE_HINTS[::-1]):
-        hint = what.format(f=found[found.lastindex or 0]) if found else hint
+    hint = "".join(explained("cmake", message))
+    hint = hint or "read the first error of catkin_make: it names file and line"
     if missing:
         words, place, hint = _not_found(session, missing[0])
         where = place or where
@@ -216,11 +201,8 @@ def _build_error(session: Session, output: str) -> Wrong:
     if definition:  # a type that is not there, or what is no field
         path = Path(definition[1] or definition[3])
         word = definition[2] or definition[4] or definition[5]
-        inside, text = str(path.relative_to(session.source)), session.read(path)
-        words, where = (
-            f"{path.name}: {word} is no field of a known type",
-            place_of(inside, text, word),
-        )
+        words = f"{path.name}: {word} is no field of a known type"
+        where = place_of(str(path.relative_to(session.source)), session.read(path), word)
         hint = "a field is TYPE NAME, as int64 num; another package's type has that before it"
     return Wrong("catkin_make without an error", words[:300], where, hint)
 

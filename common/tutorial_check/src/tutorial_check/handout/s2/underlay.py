@@ -54,20 +54,15 @@ def _check_below(session: Session, below: Sequence[str]) -> None:
     suite = os.path.realpath(Path(session.order.underlay).parent)
     if suite in map(os.path.realpath, below):
         return
-    other = next(filter(_is_suite, below), None)
     seen = f"devel was built over {', '.join(below) or 'nothing'}"
     hint = "built in a terminal without ./tutorial shell: delete build and devel, then catkin_make in it"
-    if other:
-        seen = f"devel was built over another copy of the suite, {other}; this one is {suite}"
-        hint = f"{AGAIN} in the ./tutorial shell of this copy; or check with the ./tutorial"
-        hint += " (and TUTORIAL_WORKSPACE) of the other"
+    for other in below[::-1]:  # the first counts
+        is_suite = any(os.path.isdir(f"{other}/share/{name}") for name in SUITE)
+        if is_suite or Path(other).parts[-2:] == ("lower", "devel"):  # it may be hidden here
+            seen = f"devel was built over another copy of the suite, {other}; this one is {suite}"
+            hint = f"{AGAIN} in the ./tutorial shell of this copy; or check with the ./tutorial"
+            hint += " (and TUTORIAL_WORKSPACE) of the other"
     raise Wrong("a workspace built on top of this suite", seen, "devel", hint)
-
-
-def _is_suite(devel: str | Path) -> bool:
-    """Return whether a devel folder is the underlay of some copy of this suite; it may be hidden here."""
-    is_there = any(os.path.isdir(os.path.join(devel, "share", name)) for name in SUITE)
-    return is_there or Path(devel).parts[-2:] == ("lower", "devel")
 
 
 def _check_names(session: Session) -> None:

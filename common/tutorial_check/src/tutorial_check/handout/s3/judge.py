@@ -7,31 +7,13 @@ from typing import Iterable, Mapping
 
 from tutorial_check.course import check
 from tutorial_check.handout.changed_programs import flipped_anonymous
-from tutorial_check.handout.s3.record import (
-    KIND,
-    LISTEN_S,
-    OF_ALL,
-    PACKAGE,
-    STRINGS,
-    TOPIC,
-    Pair,
-    Talk,
-    second,
-    talk,
-)
-from tutorial_check.isolation.program import Ran
+from tutorial_check.handout.s3 import record
+from tutorial_check.handout.s3.record import KIND, PACKAGE, STRINGS, TOPIC, Pair, Talk
 from tutorial_check.judge.causes import with_import
-from tutorial_check.judge.rows import Row, demand
-from tutorial_check.judge.scripts import (
-    check_end,
-    check_file,
-    crash,
-    find_script,
-    odd_node,
-    with_end,
-)
+from tutorial_check.judge.scripts import check_end, check_file, crash, ended, find_script, odd_node
 from tutorial_check.model import Note, Wrong, master_gone
 from tutorial_check.record.session import Session
+from tutorial_check.source.python_facts import PythonFacts
 
 LISTENS = "every text sent on /chatter, displayed once"
 GOES_ON = "it goes on until Ctrl-C"
@@ -42,102 +24,8 @@ FEW = 3  # messages: too few for a rate
 
 def other_topic(topics: Iterable[str], asked_for: str, types: Mapping[str, str], kind: str) -> str:
     """Return another topic than the one asked for, with its type if that is another; or empty."""
-    topic = min(set(topics) - {asked_for, *OF_ALL}, default="")
+    topic = min(set(topics) - {asked_for, *record.OF_ALL}, default="")
     return topic if types.get(topic, kind) == kind else f"{topic}, of type {types[topic]}"
-
-
-class Half:
-    """One of the two programs in a Talk: facts of the rows below."""
-
-    def __init__(self, session: Session, talk: Talk, script: str, program: Ran) -> None:
-        """Raise Wrong if the master has gone."""
-        if not talk.master_alive:
-            raise master_gone()
-        self.session, self.talk, self.script, self.program = session, talk, script, program
-        self.facts = session.scripts(PACKAGE)[script]
-        self.has_failed = "Traceback" in program.output or program.spins
-        # rospy says whose types differ.
-        self.refused = [line for line in talk.warnings if "datatype" in line]
-
-    def crash(self, expected: str, hint: str = "") -> Wrong:
-        wrong = crash(self.session, PACKAGE, self.program, expected, hint)
-        return with_end(wrong, self.facts, self.script)
-
-
-class Talker(Half):
-    """The talker, as it was recorded."""
-
-    def __init__(self, session: Session) -> None:
-        talk = _talk(session)
-        super().__init__(session, talk, scripts(session)[0], talk.talker)
-        line = "rospy.Publisher('chatter', String, queue_size=10)"
-        made = self.facts.first("Publisher")
-        self.place = f"{self.script}:{made.line if made else 1}"
-        kind = talk.published.get(TOPIC, KIND)
-        self.carried = kind if kind != KIND or (self.refused and TOPIC in talk.published) else ""
-        self.sent_on = other_topic(talk.published, TOPIC, talk.published, KIND)
-        ends = talk.talker_ended and not self.has_failed
-        self.end = ", and it ends by itself" if ends else ""
-        self.todo = with_import(line, "String", self.facts) + (f"; and {LOOP}" if ends else "")
-
-    def silent(self) -> Wrong:
-        loops = ", and does it loop: while not rospy.is_shutdown()" if self.facts.has_main else ""
-        return self.crash(talks(self.session), f"does the last line call talker(){loops}?")
-
-
-class Listener(Half):
-    """The listener, as it was recorded."""
-
-    def __init__(self, session: Session) -> None:
-        talk = _talk(session)
-        super().__init__(session, talk, scripts(session)[1], talk.listener)
-        line = "rospy.Subscriber('chatter', String, callback)"
-        self.todo = with_import(line, "String", self.facts)
-        asked = self.facts.first("Subscriber")
-        self.place = f"{self.script}:{asked.line}" if asked else self.script
-        heard_on = other_topic(talk.subscribers, TOPIC, talk.types, KIND)
-        self.heard_on = TOPIC not in talk.subscribers and heard_on
-        # The type that it asks for, where that is no String.
-        kind = asked.words[1].rpartition(".")[2] if asked and len(asked.words) > 1 else "String"
-        other = any("chatter" in line for line in self.refused) and "another type of message"
-        self.wanted = kind if kind != "String" else other
-        # With or without colours or a separator.
-        lines = self.program.output.splitlines()
-        self.times = [sum(text in line for line in lines) for text in STRINGS]
-
-    @property
-    def found(self) -> int:
-        return sum(map(bool, self.times))
-
-    @property
-    def second_line(self) -> str:
-        """Where a text is displayed for the second time."""
-        subscribers = [call.line for call in self.facts.calls.get("Subscriber", [])]
-        called = self.facts.called_back
-        shown = sorted(called.get("print", []) + called.get("loginfo", []))
-        lines = (each[1] for each in (subscribers, shown) if len(each) > 1)
-        return next((f"{self.script}:{line}" for line in lines), self.script)
-
-
-SILENT_TALKER = (
-    Row(lambda h: h.has_failed, lambda h: h.silent()),
-    Row(lambda h: h.carried, "/chatter carries {found}{f.end}", "{f.todo}", "{f.place}", sure=True),
-    Row(lambda h: h.sent_on, "it publishes on {found}{f.end}", "{f.todo}", "{f.place}"),
-    Row(lambda h: h.talk.talker_ended, lambda h: h.silent()),
-    Row(lambda h: True, "not one message", "is publish(...) called within the loop?", "{f.script}"),
-)  # fmt: skip
-DEAF_LISTENER = (
-    Row(lambda h: h.has_failed, lambda h: crash(h.session, PACKAGE, h.program, LISTENS)),
-    Row(lambda h: h.heard_on, "it subscribes to {found}", "the topic is called chatter",
-        "{f.place}", sure=True),
-    Row(lambda h: TOPIC not in h.talk.subscribers, "it subscribes to nothing",
-        "{f.todo}, before rospy.spin()", "{f.place}"),
-    Row(lambda h: not h.found and h.facts.without_callback, "its Subscriber has no callback",
-        "{f.todo}", "{f.script}:{found.line}", sure=True),
-    Row(lambda h: h.wanted, "it wants {found} on /chatter", "{f.todo}", "{f.place}"),
-    Row(lambda h: len(h.times), "{f.found} of {found} displayed",
-        "does callback(data) display data.data, with rospy.loginfo?", "{f.place}"),
-)  # fmt: skip
 
 
 def talks(session: Session) -> str:
@@ -151,7 +39,7 @@ def scripts(session: Session) -> list[str]:
 
 
 def _talk(session: Session) -> Talk:
-    return session.recording(talk, *scripts(session))
+    return session.recording(record.talk, *scripts(session))
 
 
 @check("C5", "talker.py and listener.py can be run", "3.1", "C2",
@@ -163,31 +51,37 @@ def files(session: Session) -> Note | str:
     return next(filter(None, notes), ", ".join(scripts(session)))
 
 
+def _half(session: Session, number: int) -> tuple[Talk, str, PythonFacts]:
+    """Return what was recorded, and the talker (0) or listener (1). Raise Wrong if the master has gone."""
+    seen, script = _talk(session), scripts(session)[number]
+    if not seen.master_alive:
+        raise master_gone()
+    return seen, script, session.scripts(PACKAGE)[script]
+
+
 @check("C6", "the talker talks", "3.1", "C5", look="rostopic hz /chatter")
 def talker(session: Session) -> Note | str:
-    half = Talker(session)
-    seen, facts = half.talk, half.facts
+    seen, script, facts = _half(session, 0)
+    expected = talks(session)
     if not seen.received:
-        demand(SILENT_TALKER, half, talks(session))
+        raise _silent(session, seen, script, facts)
     if seen.talker_ended:
-        raise crash(session, PACKAGE, half.program, GOES_ON, LOOP)
+        raise crash(session, PACKAGE, seen.talker, GOES_ON, LOOP)
     times = [when for when, caller, _ in seen.received if caller == seen.received[0][1]]
     wanted = session.task.values.get("rate")
     if len(times) < FEW and not wanted:
-        return Note(f"{len(times)} messages in {LISTEN_S + 2:.0f} s: slower than 1 Hz")
-    steps = [b - a for a, b in zip(times, times[1:])] or [LISTEN_S]
+        return Note(f"{len(times)} messages in {record.LISTEN_S + 2:.0f} s: slower than 1 Hz")
+    steps = [b - a for a, b in zip(times, times[1:])] or [record.LISTEN_S]
     rate = 1 / max(1e-6, statistics.median(steps))
     # Where we come late for some, they come at once; but not more of them than were sent.
     if min(rate, (len(times) - 1) / max(1e-6, times[-1] - times[0])) > 150:
         words = f"{f'{rate:.0f}' if rate < 1000 else 'thousands of'} messages a second"
-        where = f"{half.script}:{facts.loops[0]}" if facts.loops else half.script
-        raise Wrong(
-            talks(session), words, where, "rate.sleep() is missing within the loop", sure=True
-        )
+        where = f"{script}:{facts.loops[0]}" if facts.loops else script
+        raise Wrong(expected, words, where, "rate.sleep() is missing within the loop", sure=True)
     if wanted and not abs(rate / wanted - 1) < RATE_TOLERANCE:
         call = facts.first("Rate")
-        where = f"{half.script}:{call.line}" if call else half.script
-        raise Wrong(talks(session), f"{rate:.1f} times a second", where, f"rospy.Rate({wanted})")
+        where = f"{script}:{call.line}" if call else script
+        raise Wrong(expected, f"{rate:.1f} times a second", where, f"rospy.Rate({wanted})")
     texts = {value for _, _, value in seen.received}
     if len(texts) == 1:
         return Note(f"always the same text, {texts.pop()!r}; the handout's has the time in it")
@@ -195,18 +89,74 @@ def talker(session: Session) -> Note | str:
     return f"{rate:.1f} Hz" if is_as_asked else Note(f"{rate:.1f} Hz, the handout's is 10")
 
 
+def _silent(session: Session, seen: Talk, script: str, facts: PythonFacts) -> Wrong:
+    """Return the Wrong for a talker of which no message came."""
+    expected, ends = talks(session), seen.talker_ended
+    loops = ", and does it loop: while not rospy.is_shutdown()" if facts.has_main else ""
+    hint = f"does the last line call talker(){loops}?"
+    wrong = ended(crash(session, PACKAGE, seen.talker, expected, hint), facts, script)
+    if "Traceback" in seen.talker.output or seen.talker.spins:
+        return wrong
+    hint = with_import("rospy.Publisher('chatter', String, queue_size=10)", "String", facts)
+    hint += f"; and {LOOP}" if ends else ""
+    so = ", and it ends by itself" if ends else ""
+    made = facts.first("Publisher")
+    where = f"{script}:{made.line if made else 1}"
+    kind, refused = seen.published.get(TOPIC, ""), any("datatype" in w for w in seen.warnings)
+    if kind and (kind != KIND or refused):
+        return Wrong(expected, f"/chatter carries {kind}{so}", where, hint, sure=True)
+    sent_on = other_topic(seen.published, TOPIC, seen.published, KIND)
+    if sent_on:
+        return Wrong(expected, f"it publishes on {sent_on}{so}", where, hint)
+    hint = "is publish(...) called within the loop?"
+    return wrong if ends else Wrong(expected, "not one message", script, hint)
+
+
 @check("C7", "the listener displays what it receives", "3.1", "C5",
        look="rosrun beginner_tutorials listener.py")  # fmt: skip
 def listener(session: Session) -> Note | None:
-    half = Listener(session)
-    if half.talk.listener_ended:
-        raise half.crash(GOES_ON)
-    if half.found < len(STRINGS):
-        demand(DEAF_LISTENER, half, LISTENS)
-    if min(half.times) < 2:
+    seen, script, facts = _half(session, 1)
+    if seen.listener_ended:
+        raise ended(crash(session, PACKAGE, seen.listener, GOES_ON), facts, script)
+    lines = seen.listener.output.splitlines()  # with or without colours or a separator
+    times = [sum(text in line for line in lines) for text in STRINGS]
+    if not all(times):
+        raise _deaf(session, seen, script, facts, sum(map(bool, times)))
+    if min(times) < 2:
         return None
+    subscribers = [call.line for call in facts.calls.get("Subscriber", [])]
+    called = facts.called_back
+    shown = sorted(called.get("print", []) + called.get("loginfo", []))
+    second = next((each[1] for each in (subscribers, shown) if len(each) > 1), 0)
+    where = f"{script}:{second}" if second else script
     hint = "one Subscriber, and one rospy.loginfo in its callback, are enough"
-    return Note(f"each text is displayed {min(half.times)} times", half.second_line, hint)
+    return Note(f"each text is displayed {min(times)} times", where, hint)
+
+
+def _deaf(session: Session, seen: Talk, script: str, facts: PythonFacts, displayed: int) -> Wrong:
+    """Return the Wrong for a listener that does not display all texts."""
+    if "Traceback" in seen.listener.output or seen.listener.spins:
+        return crash(session, PACKAGE, seen.listener, LISTENS)
+    hint = with_import("rospy.Subscriber('chatter', String, callback)", "String", facts)
+    asked, lacking = facts.first("Subscriber"), facts.without_callback
+    where = f"{script}:{asked.line}" if asked else script
+    heard_on = other_topic(seen.subscribers, TOPIC, seen.types, KIND)
+    if TOPIC not in seen.subscribers and heard_on:
+        words, hint = f"it subscribes to {heard_on}", "the topic is called chatter"
+        return Wrong(LISTENS, words, where, hint, sure=True)
+    if TOPIC not in seen.subscribers:
+        return Wrong(LISTENS, "it subscribes to nothing", where, f"{hint}, before rospy.spin()")
+    if not displayed and lacking:
+        words = "its Subscriber has no callback"
+        return Wrong(LISTENS, words, f"{script}:{lacking.line}", hint, sure=True)
+    # The type that it asks for; rospy says whose types differ.
+    kind = asked.words[1].rpartition(".")[2] if asked and len(asked.words) > 1 else "String"
+    refused = any("datatype" in line and "chatter" in line for line in seen.warnings)
+    if kind != "String" or refused:
+        kind = "another type of message" if kind == "String" else kind
+        return Wrong(LISTENS, f"it wants {kind} on /chatter", where, hint)
+    hint = "does callback(data) display data.data, with rospy.loginfo?"
+    return Wrong(LISTENS, f"{displayed} of {len(STRINGS)} displayed", where, hint)
 
 
 @check("C8", "talker and listener are connected", "3.1", "C6 C7",
@@ -242,12 +192,11 @@ def anonymous(session: Session) -> Note | str:
         raise Wrong("the second talker of one name ends the first", "both go on", where)
     if not pair.both and not pair.first_ended:
         raise Wrong("a second talker publishes, or ends the first", "neither", script)
-    flipped = None
-    if given in ("True", "False"):
-        flipped = flipped_anonymous(session.text(PACKAGE, script), given == "False")
+    text, is_plain = session.text(PACKAGE, script), given in ("True", "False")
+    flipped = flipped_anonymous(text, given == "False") if is_plain else None
     if not flipped:
         return Note("anonymous cannot be changed by the checker here; try both yourself")
-    other = session.recording(second, script, flipped)
+    other = session.recording(record.second, script, flipped)
     if not other.talks:
         expected = "the talker runs with anonymous the other way round"
         raise crash(session, PACKAGE, other.first, expected)

@@ -54,8 +54,7 @@ def factor_of(values: Sequence[float], inputs: Sequence[float]) -> float | None:
     return None
 
 
-def rule_of(index: int, samples: Iterable[Sample]) -> Rule | None:
-    samples = list(samples)
+def rule_of(index: int, samples: Sequence[Sample]) -> Rule | None:
     values = [twist[index] for _, twist in samples]
     for axis in range(AXES):
         factor = factor_of(values, [axes[axis] for axes, _ in samples])
@@ -81,16 +80,16 @@ class Evidence:
         twists = [twist for _, twist in self.samples]
         self.rules = {index: rule_of(index, self.samples) for index in range(6)}
         self.moving = [i for i in range(6) if any(abs(twist[i]) > SMALL for twist in twists)]
+        self.strange = [index for index in self.moving if index not in RIGHT]  # should stay 0
 
     @property
     def extra(self) -> str:
         """Return what is said of a field that should stay 0; empty if all do."""
-        index = next((each for each in self.moving if each not in RIGHT), None)
-        if index is None:
-            return ""
-        rule = self.rules[index]
-        follows = rule and f"follows {self.task.names.axes[rule.axis]}"
-        return f"{FIELDS[index]} {follows or 'is not 0'}"
+        for index in self.strange:
+            rule = self.rules[index]
+            follows = rule and f"follows {self.task.names.axes[rule.axis]}"
+            return f"{FIELDS[index]} {follows or 'is not 0'}"
+        return ""
 
 
 class Field:
@@ -99,57 +98,26 @@ class Field:
     def __init__(self, evidence: Evidence, index: int, axis: int) -> None:
         self.evidence, self.index, self.name, self.axis = evidence, index, FIELDS[index], axis
         self.task, self.n, self.a = evidence.task, evidence.task.names, evidence.task.answers
+        self.n_axis, self.just = self.n.axes[axis], self.a.rules[axis]
+        self.sides = ("forwards", "backwards") if axis == 1 else ("left", "right")
         self.axes = [axes for axes, _ in evidence.samples]
         self.values = [twist[index] for _, twist in evidence.samples]
         self.given = [axes[axis] for axes in self.axes]
+        self.pairs = list(zip(self.given, self.values))
+        self.at_rest = evidence.at_rest[index] if evidence.at_rest else 0.0
+        self.is_still = index not in evidence.moving
         self.rule, self.wanted = evidence.rules[index], evidence.factors.get(index)
-
-    @property
-    def just(self) -> str:
-        return self.a.rules[self.axis]
-
-    @property
-    def n_axis(self) -> str:
-        return self.n.axes[self.axis]
-
-    @property
-    def sides(self) -> tuple[str, str]:
-        return ("forwards", "backwards") if self.axis == 1 else ("left", "right")
-
-    @property
-    def pairs(self) -> list[tuple[float, float]]:
-        return list(zip(self.given, self.values))
-
-    @property
-    def follows_its_axis(self) -> bool:
-        return bool(self.rule and self.rule.axis == self.axis and self.rule.factor > 0)
-
-    @property
-    def is_scaled(self) -> bool:
-        """Whether its factor is not the one that is asked for. Rounded to two decimals it is off by 0.005."""
+        self.product = self.task.product(self.rule.factor, axis) if self.rule else ""
+        self.follows_its_axis = bool(self.rule and self.rule.axis == axis and self.rule.factor > 0)
+        # Rounded to two decimals a factor is off by 0.005.
         near = self.rule and self.wanted and abs(self.rule.factor / self.wanted - 1) < 0.02
-        return self.follows_its_axis and bool(self.wanted and not near)
-
-    @property
-    def is_still(self) -> bool:
-        return self.index not in self.evidence.moving
-
-    @property
-    def is_swapped(self) -> bool:
-        other = self.evidence.rules[ANGULAR if self.index == LINEAR else LINEAR]
-        crossed = (1 - self.axis, self.axis)
-        return bool(self.rule and other and (self.rule.axis, other.axis) == crossed)
-
-    @property
-    def misplaced(self) -> str:
-        """The other field that follows its axis, or empty."""
-        strange = [each for each in self.evidence.moving if each not in RIGHT]
-        rules = ((FIELDS[each], self.evidence.rules[each]) for each in strange)
-        return next((name for name, rule in rules if rule and rule.axis == self.axis), "")
-
-    @property
-    def at_rest(self) -> float:
-        return self.evidence.at_rest[self.index] if self.evidence.at_rest else 0.0
+        self.is_scaled = self.follows_its_axis and bool(self.wanted and not near)
+        other = evidence.rules[ANGULAR if index == LINEAR else LINEAR]
+        axes = (self.rule.axis, other.axis) if self.rule and other else ()
+        self.is_swapped = axes == (1 - axis, axis)
+        # The other field that follows its axis, or empty.
+        rules = ((FIELDS[each], evidence.rules[each]) for each in evidence.strange)
+        self.misplaced = next((name for name, rule in rules if rule and rule.axis == axis), "")
 
     @property
     def other_answer(self) -> tuple[float, float] | None:
@@ -158,10 +126,6 @@ class Field:
         known = ((tuple(axes), value) for axes, value in zip(self.axes, self.values))
         both = ((earlier[axes], now) for axes, now in known if axes in earlier)
         return next((each for each in both if not is_near(*each)), None)
-
-    @property
-    def product(self) -> str:
-        return self.task.product(self.rule.factor, self.axis) if self.rule else ""
 
     def follows(self, inputs: Iterable[float]) -> bool:
         return bool(factor_of(self.values, list(inputs)))

@@ -15,7 +15,7 @@ from tutorial_check.handout.s5 import launch_text
 from tutorial_check.handout.s5.launch_facts import Node
 from tutorial_check.handout.s5.record import facts_of_files
 from tutorial_check.handout.task import PACKAGE
-from tutorial_check.judge.scripts import find_script, is_runnable
+from tutorial_check.judge.scripts import find_script
 from tutorial_check.model import Note, Wrong
 from tutorial_check.record.session import Session
 from tutorial_check.source.launch_xml import line_of, place_of, read, unclosed_node
@@ -98,13 +98,10 @@ def find_launch(session: Session, name: str) -> Path:
     if found:
         return found[0]
     paths = sorted(path for path in session.source.rglob("*launch*") if path.is_file())
-    others = {path.name: path for path in paths}
-    near = [other for other in others if other.lower() == name.lower()]
-    strange = [other for other in others if other not in ALL]
-    near = near or difflib.get_close_matches(name, strange, 1, 0.85)
+    others = {path.name.lower(): path for path in paths if path.name not in ALL}
     expected = f"{session.task.names.package}/launch/{name}"
-    if near:
-        other = os.path.relpath(others[near[0]], session.source)
+    for near in difflib.get_close_matches(name.lower(), others, 1, 0.85):
+        other = os.path.relpath(others[near], session.source)
         hint = f"its name must be {name}, and its place {own}/launch"
         raise Wrong(expected, f"a file {other}", other, hint)
     hint = f"write it: launch/{name} in YOUR package. ./tutorial shell without --in has one of OURS"
@@ -117,8 +114,6 @@ def _read(session: Session) -> dict[str, dict[str, Any]]:
     folder = session.package(PACKAGE).folder
     files = (path for name in ALL for path in sorted(folder.rglob(name))[::-1] if path.is_file())
     paths = {path.name: os.path.relpath(path, session.source) for path in files}  # the first ones
-    if not paths:
-        return {}
     facts = session.recording(facts_of_files, *paths.values()).files
     if facts is None:
         seen, hint = "reading them does not end", "roslaunch --nodes FILE"
@@ -142,20 +137,20 @@ def check_file(session: Session, name: str) -> LaunchFile:
 
 def _check_text(file: LaunchFile) -> None:
     one = file.facts
-    gap, hint = launch_text.space_hint(file.text)
-    if gap:
-        raise Wrong("names in one word", gap, file.at(gap), hint)
+    for gap in filter(None, (re.search(each, file.text) for each in launch_text.GAPS)):
+        whole = gap[0].replace(gap[1], "_".join(gap[1].split()))
+        hint = f"a name has no space, the PDF shows _ as a gap: {whole}"
+        raise Wrong("names in one word", gap[0], file.at(gap[0]), hint)
     if one["fault"]:
         raise _fault(file, launch_text.Fault(**one["fault"]))
     said = one["said"] + " ".join(one.get("errors", []))
     _check_words(file, said)
     inside = re.search(r"unrecognized '(\w+)' child tag", said)
-    tag = inside[1] if inside else ""
-    line = unclosed_node(file.text, tag) if tag else None
-    if line:
+    line = unclosed_node(file.text, inside[1]) if inside else None
+    if inside and line:
         expected = "no tag in a <node> but remap, param, rosparam and env"
         hint = "the <node> of this line goes on to its </node>: close it first, with /> or </node>"
-        seen = f"<{tag}> in it: ignored by roslaunch"
+        seen = f"<{inside[1]}> in it: ignored by roslaunch"
         raise Wrong(expected, seen, f"{file.where}:{line}", hint)
 
 
@@ -202,32 +197,25 @@ def _check_node(file: LaunchFile, node: Node) -> None:
     if kind.endswith(".launch"):
         hint = f'<include file="$(find {package})/launch/{kind}"/>'
         raise Wrong("programs in <node>", f'type="{kind}"', place, hint)
-    if package == file.package:
-        _check_own_node(file.session, kind, place)
-    elif not node["found"] and (package, kind) != ("rviz", "rviz"):
+    if node["found"] or (package, kind) == ("rviz", "rviz"):
+        return
+    session, seen = file.session, f"Cannot locate node of type [{kind}]"
+    if package != file.package:
         hint = "look at pkg= and type=: rosrun PACKAGE and Tab twice lists its programs"
         hint = launch_text.package_hint(package) if node["found"] is None else hint
         if difflib.get_close_matches(kind, ["joy_node"], 1, 0.8):
             hint = JOY_HINT
-        seen = f"Cannot locate node of type [{kind}] in package [{package}]"
-        raise Wrong("nodes that exist", seen, place, hint)
-
-
-def _check_own_node(session: Session, kind: str, place: str) -> None:
+        raise Wrong("nodes that exist", f"{seen} in package [{package}]", place, hint)
     files = [path for path in session.package(PACKAGE).folder.rglob("*") if path.is_file()]
-    found = [path for path in files if path.name == kind]
-    if not found and kind == NAME:
-        find_script(session, PACKAGE, NAME)  # which says what is there in its place
-    if not found:
-        near = difflib.get_close_matches(kind, sorted(path.name for path in files), 1, 0.7)
-        hint = f'type="{near[0]}"' if near else "type is the name of the file, with .py"
-        hint = JOY_HINT if kind == "joy_node" else hint
-        seen = f"Cannot locate node of type [{kind}]"
-        expected = f"a program {kind} in {session.task.names.package}"
-        raise Wrong(expected, seen, place, hint)
-    if not any(is_runnable(session, PACKAGE, path) for path in found):
-        hint = f"chmod +x {session.whole(found[0], PACKAGE)}"
+    for path in (path for path in files if path.name == kind):
+        hint = f"chmod +x {session.whole(path, PACKAGE)}"
         raise Wrong(f"{kind} may be run", "it is not executable", place, hint)
+    if kind == NAME:
+        find_script(session, PACKAGE, NAME)  # which says what is there in its place
+    near = difflib.get_close_matches(kind, sorted(path.name for path in files), 1, 0.7)
+    hint = f'type="{near[0]}"' if near else "type is the name of the file, with .py"
+    hint = JOY_HINT if kind == "joy_node" else hint
+    raise Wrong(f"a program {kind} in {session.task.names.package}", seen, place, hint)
 
 
 def _check_finds(file: LaunchFile) -> None:

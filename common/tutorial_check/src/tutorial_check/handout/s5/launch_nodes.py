@@ -1,4 +1,4 @@
-"""C22 and C25: which nodes the launch files of section 5 start."""
+"""C22 to C26: which nodes the launch files of section 5 start, and the files at work."""
 
 from __future__ import annotations
 
@@ -12,9 +12,13 @@ from tutorial_check.handout.s4_3.record import CMD_VEL, JOY
 from tutorial_check.handout.s5.launch_facts import Node
 from tutorial_check.handout.s5.launch_files import BAG, JOY_HINT, STICK, LaunchFile, copy_bag
 from tutorial_check.handout.s5.launch_text import attribute
+from tutorial_check.handout.s5.record import BAG_S, Plan, Run, bag_run, stick_run
 from tutorial_check.handout.task import PACKAGE
+from tutorial_check.judge.scripts import cause_of
 from tutorial_check.model import Note, Wrong
 from tutorial_check.record.session import Session
+from tutorial_check.record.simulated_robot import ODOM
+from tutorial_check.source.tracebacks import first_traceback
 
 ROBOT_HINT = '<include file="$(find rbx1_bringup)/launch/fake_turtlebot.launch"/>'
 # {} is the student's package.
@@ -23,6 +27,10 @@ BAG_HINT = '<node pkg="rosbag" type="play" name="rosbag" args="--loop $(find {})
 VIEWER_HINT = '<node pkg="rviz" type="rviz" name="my_rviz" args="-d $(find rbx1_nav)/sim.rviz"/>'
 # Of rosbag play; as letters after one hyphen none of these words makes sense.
 LONG_OPTIONS = "loop|clock|rate|quiet|delay|start|pause|immediate|queue|hz|keep-alive|topics"
+ONCE_S = 60.0  # a recording that is not repeated lasts until the others have started
+LOOP = re.compile(r"--l(oop|oo|o)?|-[a-z]*l[a-z]*")  # rosbag play's option, as it may be written
+ERRORS = re.compile(r"^(?!.*(?:rviz|INFO)).*(?:ERROR|died|Invalid|cannot|Unable)", re.MULTILINE)
+COLOUR = re.compile(r"\x1b\[[0-9;]*m|\x1b\][^\x07]*\x07")
 
 
 def is_viewer(node: Node) -> bool:
@@ -64,18 +72,17 @@ def check_viewer(file: LaunchFile) -> Note | None:
     return None
 
 
-def odd_name(file: LaunchFile) -> Note | None:
-    """Return a Note about a node whose name has a space; None if there is none."""
-    for name in (node["name"] for node in file.nodes if " " in node["name"]):
-        hint = f'the PDF shows _ as a gap: name="{name.replace(" ", "_")}"'
-        seen = f'name="{name}": the name of a node has no space'
-        return Note(seen, file.at(*attribute("name", name)), hint)
-    return None
-
-
 def check_one_driver(file: LaunchFile) -> None:
     """Raise Wrong if two programs of the student's send velocities to the same place."""
-    drivers = [node for node in file.own if _drives(file.session, node)]
+    programs, topic = file.session.scripts(PACKAGE).items(), file.session.task.topic(CMD_VEL)
+    of_twists = {
+        Path(script).name
+        for script, facts in programs
+        for call in facts.calls.get("Publisher", [])
+        if "Twist" in " ".join([*call.words, *call.names.values()])
+    }
+    drivers = [node for node in file.own if topic_of(node, topic) == CMD_VEL]
+    drivers = [node for node in drivers if node["type"] in of_twists]
     drivers = [node for node in drivers if node["namespace"] == drivers[0]["namespace"]]
     if len(drivers) > 1:
         names = " and ".join(node["type"] for node in drivers)
@@ -84,37 +91,11 @@ def check_one_driver(file: LaunchFile) -> None:
         raise Wrong("one joy2twist", f"{len(drivers)}, {names}: all would drive", where, hint)
 
 
-def _drives(session: Session, node: Node) -> bool:
-    """Return whether a program publishes Twist, and not on a topic of another name."""
-    if topic_of(node, session.task.topic(CMD_VEL)) != CMD_VEL:
-        return False
-    return any(
-        "Twist" in " ".join([*call.words, *call.names.values()])
-        for script, facts in session.scripts(PACKAGE).items()
-        for call in facts.calls.get("Publisher", [])
-        if Path(script).name == node["type"]
-    )
-
-
 def topic_of(node: Node, topic: str) -> str:
     """Return the name that a topic of a node has where a launch file starts it."""
     renamed = (*node["remaps"], *re.findall(r"(\S+):=(\S+)", node["args"]))
     names = {source.strip("/"): to for source, to in renamed}
     return f"/{names.get(topic.strip('/'), topic).strip('/')}"
-
-
-def check_joy(file: LaunchFile, sender: Node) -> None:
-    """Raise Wrong unless the sender, a node, sends its Joys where joy2twist listens."""
-    sends, own = topic_of(sender, JOY), file.session.task.topic(JOY)
-    listens = [topic_of(node, own) for node in file.own]
-    if sends not in listens:
-        first = file.own[0]
-        seen = f"{sender['type']} sends them on {sends}, {first['type']} listens to {listens[0]}"
-        remaps = (*sender["remaps"], *first["remaps"])
-        named = [to for source, to in remaps if source.strip("/") in ("joy", own.strip("/"))]
-        where = file.at(*(each for to in named for each in attribute("to", to)))
-        hint = "leave that <remap> out, or give both nodes the same"
-        raise Wrong("the Joys go to joy2twist, on /joy", seen, where, hint)
 
 
 def bag_of(session: Session) -> tuple[str, str]:
@@ -145,7 +126,12 @@ def bag_of(session: Session) -> tuple[str, str]:
 
 def _check_items(file: LaunchFile) -> Note | None:
     """Look at what both files start; return a Note about it, or None."""
-    note = check_viewer(file) or odd_name(file)
+    note = check_viewer(file)
+    odd = [node["name"] for node in file.nodes if " " in node["name"]]
+    if odd and not note:
+        hint = f'the PDF shows _ as a gap: name="{odd[0].replace(" ", "_")}"'
+        seen = f'name="{odd[0]}": the name of a node has no space'
+        note = Note(seen, file.at(*attribute("name", odd[0])), hint)
     file.demand("the simulated robot", is_simulator, ROBOT_HINT)
     file.demand("joy2twist", file.own.__contains__, OWN_HINT.format(file.package))
     check_one_driver(file)
@@ -173,8 +159,101 @@ def bag_nodes(session: Session) -> Note | str | None:
 def stick_nodes(session: Session) -> Note | str | None:
     file = LaunchFile(session, STICK)
     note = _check_items(file)
-    check_joy(file, file.demand("joy_node", is_joystick, JOY_HINT))
+    sender, first = file.demand("joy_node", is_joystick, JOY_HINT), file.own[0]
+    own, sends = session.task.topic(JOY), topic_of(sender, JOY)
+    listens = [topic_of(node, own) for node in file.own]
+    if sends not in listens:
+        seen = f"{sender['type']} sends them on {sends}, {first['type']} listens to {listens[0]}"
+        remaps = (*sender["remaps"], *first["remaps"])
+        named = [to for source, to in remaps if source.strip("/") in ("joy", own.strip("/"))]
+        where = file.at(*(each for to in named for each in attribute("to", to)))
+        hint = "leave that <remap> out, or give both nodes the same"
+        raise Wrong("the Joys go to joy2twist, on /joy", seen, where, hint)
     if any(map(is_player, file.nodes)):
         seen = "it plays a recording, too: both would drive"
         raise Wrong("a joystick only", seen, f"launch/{STICK}", "take the rosbag node out")
     return note
+
+
+def plan_of(file: LaunchFile, twists: str = CMD_VEL) -> Plan:
+    """Return how a launch file is run. twists: the topic on which the velocities should come."""
+    senders = [node for node in file.nodes if is_joystick(node) or is_player(node)]
+    sticks = list(filter(is_joystick, file.nodes))
+    devices = [node["device"] for node in sticks if node["device"].startswith("/dev/input/")]
+    return Plan(
+        os.path.relpath(file.path, file.session.source),
+        topic_of(senders[0], JOY) if senders else JOY,
+        twists,
+        tuple(node["namespace"] + node["name"] for node in file.nodes if not is_viewer(node)),
+        tuple(node["namespace"] + node["name"] for node in sticks),
+        next(iter(devices), ""),
+    )
+
+
+def traced(session: Session, run: Run, expected: str) -> Wrong | None:
+    """Return the Wrong for the first traceback that was printed, or None."""
+    output = COLOUR.sub("", run.program.output)
+    trace = first_traceback(output, str(session.package(PACKAGE).folder))
+    if not trace:
+        return None
+    return Wrong(expected, trace.error, *cause_of(session, PACKAGE, trace))
+
+
+def fault_of(file: LaunchFile, plan: Plan, run: Run, expected: str) -> Wrong:
+    """Return the Wrong for a launch that does not do what it should, with the first cause there is."""
+    hints = {
+        plan.joys: "does the recording, or joy_node, run? rostopic hz /joy",
+        plan.twists: f"does joy2twist run, and publish on {plan.twists}? rosnode list",
+        ODOM: f"does the simulated robot run? {ROBOT_HINT}",
+    }
+    silent = [topic for topic in hints if not run.counts[topic]]
+    seen, hint = f"the robot moved {run.moved_m:.2f} m", "rostopic echo /cmd_vel"
+    if silent:
+        seen, hint = f"nothing on {', '.join(silent)}", hints[silent[0]]
+    for error in (ERRORS.findall(run.program.output) or run.last_words)[:1]:
+        seen += f"; {error.strip()[:200]}"
+    found = traced(file.session, run, expected)
+    return found or Wrong(expected, seen, f"launch/{file.name}", hint)
+
+
+def _bag_run(session: Session) -> tuple[LaunchFile, Plan, Run]:
+    """Return launch_bag and what came of it, with a recording of the checker's own."""
+    bag, _ = bag_of(session)
+    file = LaunchFile(session, BAG)
+    plan = plan_of(file)
+    inside = os.path.relpath(bag, session.source) if bag.startswith(str(session.source)) else ""
+    player = next(filter(is_player, file.nodes))
+    is_looped = any(LOOP.fullmatch(word) for word in file.words_of(player))
+    length_s = BAG_S if is_looped or player["respawn"] else ONCE_S
+    return file, plan, session.recording(bag_run, plan, inside, length_s, is_looped)
+
+
+@check("C23", "launch_bag drives the robot", "5.1", "C22 C16",
+       look="roslaunch {n.package} launch_bag.launch")  # fmt: skip
+def bag_drives(session: Session) -> None:
+    file, plan, run = _bag_run(session)
+    if not run.drives or not run.counts[plan.joys]:
+        expected = "/joy, /cmd_vel and /odom flow, and the robot drives more than 0.3 m"
+        raise fault_of(file, plan, run, expected)
+
+
+@check("C24", "the recording begins again at its end", "5.1", "C23", look="rostopic hz /joy")
+def bag_loops(session: Session) -> None:
+    file, _, run = _bag_run(session)
+    player = next(filter(is_player, file.nodes))
+    if not run.loops and not player["respawn"]:
+        expected = "/joy flows on after the end of the recording"
+        hint = "rosbag play --loop: in args= of that node"
+        raise Wrong(expected, "it falls silent", bag_of(session)[1], hint)
+
+
+@check("C26", "launch_joy_node drives the robot", "5.1", "C25 C16",
+       look="roslaunch {n.package} launch_joy_node.launch")  # fmt: skip
+def stick_drives(session: Session) -> None:
+    file = LaunchFile(session, STICK)
+    plan = plan_of(file)
+    run = session.recording(stick_run, plan)
+    if not run.drives:
+        raise fault_of(file, plan, run, "the robot moves with the stick")
+    if not run.rests:
+        raise Wrong("released, the robot stands", "it drives on", f"launch/{STICK}")

@@ -1,4 +1,4 @@
-"""C29, C30 and C33: the program as a class."""
+"""C29 to C33: the program as a class, also ended while it drives."""
 
 from __future__ import annotations
 
@@ -7,39 +7,34 @@ from pathlib import Path
 
 from tutorial_check.course import check
 from tutorial_check.handout.changed_programs import without_name
-from tutorial_check.handout.s4_3 import diagnoses
+from tutorial_check.handout.s4_3 import judge
 from tutorial_check.handout.s4_3.judge import NAME, check_manifest
-from tutorial_check.handout.s4_3.record import drive
-from tutorial_check.handout.s6_2.record import alone
+from tutorial_check.handout.s6_2.record import LAUNCH, End, Endings, alone, endings
 from tutorial_check.handout.task import PACKAGE
-from tutorial_check.judge.rows import Row, demand
-from tutorial_check.judge.scripts import check_file, misnamed_init, must_be_one
+from tutorial_check.judge.scripts import cause_of, check_file, crash, must_be_one
 from tutorial_check.model import Note, Wrong
 from tutorial_check.record.session import Session
-from tutorial_check.source.python_facts import Call, ClassFacts, with_bases
-from tutorial_check.source.tracebacks import last_lines
+from tutorial_check.source.python_facts import ClassFacts, PythonFacts, with_bases
+from tutorial_check.source.tracebacks import first_traceback, last_lines
 
 NAMES_IT = re.compile(r"not defined|NameError")  # what the lack of the import leads to
+ARGUMENTS_HINT = "roslaunch gives it arguments such as __name:=...; rospy.myargv() leaves those out"
 REPORTS = re.compile(r"Traceback|Error\b|Exception|not defined|exceeded|\[(?:ERROR|FATAL|WARN)\]")
 
 
-def _class_files(session: Session) -> dict[str, ClassFacts]:
-    """Return {path: ClassFacts} of the classes that deal with ROS; of several the likeliest first."""
-    scripts = session.scripts(PACKAGE)
+def _class_of(session: Session) -> tuple[str, ClassFacts] | None:
+    """Return (path, ClassFacts) of the class that deals with ROS, of several the likeliest one."""
+    scripts, folder = session.scripts(PACKAGE), session.package(PACKAGE).folder
     owned = [(path, one) for path, facts in scripts.items() for one in facts.classes]
     bases = {base.rpartition(".")[2] for _, one in owned for base in one.bases}
-    found: dict[str, ClassFacts] = {}
-    for (path, _), one in zip(owned, with_bases([one for _, one in owned])):
-        better = path not in found or (found[path].name in bases and one.name not in bases)
-        if one.is_node and better and "checked_" not in path:
-            found[path] = one
-    folder = session.package(PACKAGE).folder
+    whole = zip(owned, with_bases([one for _, one in owned]))
 
-    def unlikely(path: str) -> tuple[bool | str, ...]:
+    def unlikely(found: tuple[str, ClassFacts]) -> tuple[bool | str, ...]:
         """Return a sort key: the step before, joy2twist.py, may be a class already; and there are old copies."""
+        path, one = found
         return (
-            found[path].name in bases,
-            not _fits(found[path].name + path),
+            one.name in bases,
+            not _fits(one.name + path),
             bool(re.search(r"(^|/)(old|backup|copy)[^/]*/", path, re.IGNORECASE)),
             "on_shutdown" not in scripts[path].calls,
             not (folder / path).stat().st_mode & 0o100,
@@ -47,7 +42,8 @@ def _class_files(session: Session) -> dict[str, ClassFacts]:
             path,
         )
 
-    return {path: found[path] for path in sorted(found, key=unlikely)}
+    nodes = [(path, one) for (path, _), one in whole if one.is_node]
+    return min(nodes, key=unlikely, default=None)
 
 
 def _fits(words: str) -> bool:
@@ -56,8 +52,8 @@ def _fits(words: str) -> bool:
 
 def program(session: Session) -> tuple[str, str, ClassFacts]:
     """Return (the program to start, the file with the class, its ClassFacts). Raises Wrong."""
-    scripts, files = session.scripts(PACKAGE), _class_files(session)
-    if not files:
+    scripts, found = session.scripts(PACKAGE), _class_of(session)
+    if not found:
         for path in (path for path, facts in scripts.items() if facts.error and _fits(path)):
             check_file(session, PACKAGE, path)
         named = [path for path in scripts if re.search(r"new|class", path, re.IGNORECASE)]
@@ -66,7 +62,7 @@ def program(session: Session) -> tuple[str, str, ClassFacts]:
         hint = "class NewJoy2Twist: with __init__(self), callback(self, data), shutdown(self)"
         seen = f"no class in any program of {names.package}"
         raise Wrong(expected, seen, next(iter(named), ""), hint)
-    path, one = next(iter(files.items()))
+    path, one = found
     file = session.package(PACKAGE).folder / path
     if scripts[path].has_main or file.stat().st_mode & 0o100 or "src/" not in path:
         return path, path, one
@@ -75,91 +71,26 @@ def program(session: Session) -> tuple[str, str, ClassFacts]:
     return next(users, path), path, one
 
 
-class Form:
-    """A class beside its program: the facts of the rows below."""
-
-    def __init__(self, session: Session, script: str, path: str, one: ClassFacts) -> None:
-        self.path, self.one = path, one
-        self.facts = session.scripts(PACKAGE)[path]
-        self.where = f"{path}:{one.line}"
-        others = session.scripts(PACKAGE).values()
-        is_made = one.instantiated or any(one.name in each.calls for each in others)
-        self.is_made = is_made or script != path
-        self.methods = ", ".join(one.methods)
-
-    @property
-    def odd_init(self) -> str:
-        """What was meant to be __init__, or "no __init__"; empty if there is one, maybe of a base."""
-        if "__init__" in self.one.methods:
-            return ""
-        odd = misnamed_init(self.one.methods)
-        if odd:
-            return f"`def {odd}`: Python calls `__init__`"
-        return "" if self.one.bases else f"{self.one.name} has no __init__"
-
-    @property
-    def place_of_name(self) -> str:
-        """Where its name stands alone, without (), or else the class."""
-        bare = (line for line, text in self.facts.bare_names if text == self.one.name)
-        return next((f"{self.path}:{line}" for line in bare), self.where)
-
-    @property
-    def early(self) -> int:
-        """The line of an on_shutdown before the Publisher, or 0."""
-        early, made = map(self.facts.first, ("on_shutdown", "Publisher"))
-        return early.line if early and made and early.line < made.line else 0
-
-
-class Given:
-    """What ROS is given in place of a method."""
-
-    def __init__(self, form: Form, call: Call, taker: str) -> None:
-        self.form, self.taker = form, taker
-        word = call.words[0] if call.words else ""
-        if taker == "the Subscriber":
-            word = call.words[2] if len(call.words) > 2 else call.names.get("callback", "")
-        self.word, self.name = word, word.rsplit(".", 1)[-1]
-        self.without = word[:-2]
-        self.where = f"{form.path}:{call.line}"
-        self.line = form.facts.functions.get(self.name, 0)
-
-    @property
-    def is_called(self) -> bool:
-        return self.name.endswith("()") and self.name[:-2] in self.form.facts.functions
-
-    @property
-    def is_unknown(self) -> bool:
-        """Return whether the object has no such method, as far as the text shows."""
-        classes = self.form.facts.classes
-        known = any(self.name in {*one.methods, *one.attributes} or one.bases for one in classes)
-        return self.word == f"self.{self.name}" and not self.name.endswith("()") and not known
-
-
-EXPECTED = "a class with __init__, its callback bound to self, made under __main__"
-FORM = (
-    Row(lambda f: f.odd_init, "{found}", "def __init__(self): with two underscores on either side",
-        "{f.where}"),
-    Row(lambda f: not f.is_made, "{f.one.name} is never made",
-        "{f.one.name}() with (), under if __name__ == '__main__':", "{f.place_of_name}"),
-)  # fmt: skip
-METHODS = (
-    Row(lambda g: g.taker == "the Subscriber" and g.word in g.form.one.methods,
-        "{f.word} alone: within a class that is no name", "self.{f.word}", "{f.where}"),
-    Row(lambda g: g.is_called, "{f.word} is called at once", "without (): {f.without}",
-        "{f.where}"),
-    Row(lambda g: g.is_unknown and g.line, "`def {f.name}` in line {found} is no method of the class",
-        "indent it like `def __init__`: neither further, nor less", "{f.where}"),
-    Row(lambda g: g.is_unknown, "the class has no {f.name}",
-        "one name: def {f.name}(self), or one of {f.form.methods}", "{f.where}"),
-)  # fmt: skip
-RIGHT_FORM = (
-    Row(lambda f: f.facts.globals, "a class needs no `global`: self. keeps what its methods share",
-        "", "{f.path}:{found[0]}", note=True),
-    Row(lambda f: f.early,
-        "on_shutdown comes before the publisher: a Ctrl-C in between finds none to stop the robot"
-        " with (the handout has it so)", "first the Publisher, then rospy.on_shutdown",
-        "{f.path}:{found}", note=True),
-)  # fmt: skip
+def _check_given(path: str, one: ClassFacts, facts: PythonFacts, name: str, place: int) -> None:
+    """Raise Wrong for what ROS is given in place of a method, by the calls of that name."""
+    expected = f"{'the Subscriber' if place else 'rospy.on_shutdown'} gets a method of the object"
+    for call in facts.calls.get(name, []):
+        word = (call.words[place:] or [call.names.get("callback", "")])[0]
+        bare, where = word.rsplit(".", 1)[-1], f"{path}:{call.line}"
+        if place and word in one.methods:
+            seen = f"{word} alone: within a class that is no name"
+            raise Wrong(expected, seen, where, f"self.{word}")
+        if bare.endswith("()") and bare[:-2] in facts.functions:
+            raise Wrong(expected, f"{word} is called at once", where, f"without (): {word[:-2]}")
+        known = (bare in {*each.methods, *each.attributes} or each.bases for each in facts.classes)
+        if word != f"self.{bare}" or bare.endswith("()") or any(known):
+            continue
+        hint = f"one name: def {bare}(self), or one of {', '.join(one.methods)}"
+        seen, line = f"the class has no {bare}", facts.functions.get(bare)
+        if line:
+            seen = f"`def {bare}` in line {line} is no method of the class"
+            hint = "indent it like `def __init__`: neither further, nor less"
+        raise Wrong(expected, seen, where, hint)
 
 
 @check("C29", "the program is a class", "6.2", "C12", look="rosrun {n.package} THE_CLASS",
@@ -169,27 +100,113 @@ def is_class(session: Session) -> Note | str | None:
     must_be_one(session.package(PACKAGE).folder, Path(script).name)
     check_file(session, PACKAGE, script)
     check_manifest(session, script)
-    form = Form(session, script, path, one)
-    demand(FORM, form, EXPECTED)
-    for name, taker in (("on_shutdown", "rospy.on_shutdown"), ("Subscriber", "the Subscriber")):
-        for call in form.facts.calls.get(name, []):
-            demand(METHODS, Given(form, call, taker), f"{taker} gets a method of the object")
-    return demand(RIGHT_FORM, form, EXPECTED) or f"{one.name} in {path}"
+    facts, scripts = session.scripts(PACKAGE)[path], session.scripts(PACKAGE).values()
+    expected = "a class with __init__, its callback bound to self, made under __main__"
+    odd = [each for each in one.methods if re.fullmatch(r"_*init_*", each)]
+    if "__init__" not in odd and (odd or not one.bases):
+        seen = f"`def {odd[0]}`: Python calls `__init__`" if odd else f"{one.name} has no __init__"
+        hint = "def __init__(self): with two underscores on either side"
+        raise Wrong(expected, seen, f"{path}:{one.line}", hint)
+    if not (one.instantiated or script != path or any(one.name in each.calls for each in scripts)):
+        bare = (line for line, text in facts.bare_names if text == one.name)
+        hint = f"{one.name}() with (), under if __name__ == '__main__':"
+        raise Wrong(expected, f"{one.name} is never made", f"{path}:{next(bare, one.line)}", hint)
+    _check_given(path, one, facts, "on_shutdown", 0)
+    _check_given(path, one, facts, "Subscriber", 2)
+    if facts.globals:
+        seen = "a class needs no `global`: self. keeps what its methods share"
+        return Note(seen, f"{path}:{facts.globals[0]}")
+    early, made = map(facts.first, ("on_shutdown", "Publisher"))
+    if early and made and early.line < made.line:
+        seen = "on_shutdown comes before the publisher: a Ctrl-C in between finds none to stop the robot"
+        hint = "first the Publisher, then rospy.on_shutdown"
+        return Note(f"{seen} with (the handout has it so)", f"{path}:{early.line}", hint)
+    return f"{one.name} in {path}"
 
 
-@check(
-    "C30", "the class does what the functions did", "6.2", "C29", look="rostopic echo {n.cmd_vel}"
-)
+@check("C30", "the class does what the functions did", "6.2", "C29",
+       look="rostopic echo {n.cmd_vel}")  # fmt: skip
 def behaves(session: Session) -> Note | str | None:
     script, _, _ = program(session)
-    seen = session.recording(drive, script)
     notes = [
-        diagnoses.check_displays(session, seen, few_are_enough=True),
-        diagnoses.check_topics(session, seen),
-        diagnoses.check_mapping(session, seen),
-        diagnoses.check_rate(session, seen),
+        judge.displays(session, script, few_are_enough=True),
+        judge.topics(session, script),
+        judge.mapping(session, script),
+        judge.rate(session, script),
     ]
     return next((note for note in notes if isinstance(note, Note)), None)
+
+
+def _endings(session: Session) -> Endings:
+    session.must_be_launchable()
+    found = session.recording(endings, program(session)[0])
+    if found.program:
+        how = "by a launch file" if found.failed == LAUNCH else "under another name"
+        expected = f"the class drives, started {how} as well"
+        raise crash(session, PACKAGE, found.program, expected, ARGUMENTS_HINT)
+    return found
+
+
+@check("C31", "ended, it stops the robot", "6.2", "C30",
+       look="rostopic echo {n.cmd_vel}; Ctrl-C in the node's terminal")  # fmt: skip
+def stops(session: Session) -> Note | str | None:
+    _, path, _ = program(session)
+    seen, facts = _endings(session), session.scripts(PACKAGE)[path]
+    call = facts.first("on_shutdown")
+    where = f"{path}:{call.line}" if call else path
+    expected = "ended while it drives, it sends an all-zero Twist and is gone within 3 s"
+    for way, end in seen.ends.items():
+        words, hint = _complaint(end, bool(call))
+        if not words:
+            continue
+        no_zero = end.zero_after_s is None
+        # One that has gone, and whose text knows no shutdown, will not send a zero another time.
+        sure = no_zero and end.took_s is not None and not call
+        if no_zero or not end.in_time:
+            sleep, publish = (min(facts.at_end.get(name, [0])) for name in ("sleep", "publish"))
+            if 0 < sleep < publish:
+                where, hint = f"{path}:{sleep}", "in shutdown first the zero, then the sleep"
+            trace = first_traceback(end.output, str(session.package(PACKAGE).folder))
+            if trace:
+                place, hint = cause_of(session, PACKAGE, trace, Path(path).name)
+                words, where = trace.error, place or where
+                sure = sure or trace.error.startswith(("NameError", "TypeError"))
+        raise Wrong(expected, f"after {way}: {words}", where, hint, sure)
+    if not seen.robot_rests:
+        expected = "the robot stands within a second of the end of the node"
+        hint = "what the program has started ends with it; who publishes? rostopic info "
+        hint += session.task.answers.cmd_vel
+        raise Wrong(expected, "the node is gone, and the robot still drives", where, hint)
+    return ", ".join(
+        f"{way}: zero after {1000 * (end.zero_after_s or 0.0):.0f} ms, gone after {end.took_s:.1f} s"
+        for way, end in seen.ends.items()
+    )
+
+
+def _complaint(end: End, is_registered: bool) -> tuple[str, str]:
+    """Return (what is wrong with an end, what to do); empty if nothing is."""
+    if end.zero_after_s is None:
+        hint = "rospy.on_shutdown(self.shutdown), and self.cmd_vel.publish(Twist()) in shutdown"
+        if is_registered:
+            hint = "shutdown has to publish Twist(), all zero, with the publisher of the callback"
+        return "no zero comes: the robot drives on", hint
+    if not end.in_time:
+        return "the zero comes more than 2 s late", "in shutdown first the zero, then the rest"
+    if end.took_s is None:
+        hint = "does shutdown come to an end? one second of rest is enough"
+        return "it still runs 3 s later", hint
+    return "", ""
+
+
+@check("C32", "nothing follows the zero", "6.2", "C31", look="rostopic echo {n.cmd_vel}")
+def nothing_after(session: Session) -> Note | str | None:
+    """Note moving Twists after the zero; no failure, as the handout's listing sends some."""
+    most = max(end.after_zero for end in _endings(session).ends.values())
+    if not most:
+        return None
+    seen = f"{most} moving Twists followed the zero: the callback goes on during shutdown (the handout's does, too)"
+    hint = "self.sub = rospy.Subscriber(...) in __init__; in shutdown self.sub.unregister() first, then the zero"
+    return Note(seen, program(session)[1], hint)
 
 
 @check("C33", "its errors are seen", "6.2", "C30",

@@ -9,17 +9,8 @@ from typing import Sequence
 from tutorial_check.course import check
 from tutorial_check.handout.s3.record import PACKAGE
 from tutorial_check.handout.s4_3.record import CMD_VEL
-from tutorial_check.handout.s7.record import (
-    LONGEST_PUSH_S,
-    SIDES,
-    WANDER_S,
-    Drive,
-    longest_push_s,
-    presses,
-    towards_the_wall,
-    wandering,
-    wanted,
-)
+from tutorial_check.handout.s7 import record
+from tutorial_check.handout.s7.record import LONGEST_PUSH_S, SIDES, WANDER_S
 from tutorial_check.judge.scripts import crash, program_of
 from tutorial_check.model import Wrong
 from tutorial_check.record.recording import Topics
@@ -36,17 +27,15 @@ LEAST_WAY_M, LEAST_WIDTH_M = 3.0, 2.0
 @check("C35", "the bumper is read", "7", "C2", look="rosrun beginner_tutorials bumper.py")
 def reads_bumper(session: Session) -> str:
     script = program_of(session, PACKAGE, "bumper.py")
-    seen = session.recording(presses, script)
+    seen = session.recording(record.presses, script)
     if not seen.connected:
         hint = "rospy.Subscriber('mobile_base/events/bumper', BumperEvent, callback)"
-        wrong = crash(
-            session, PACKAGE, seen.program, f"it subscribes to {BUMPER}, until Ctrl-C", hint
-        )
-        kind = "kobuki_msgs/BumperEvent"
+        expected, kind = f"it subscribes to {BUMPER}, until Ctrl-C", "kobuki_msgs/BumperEvent"
+        wrong = crash(session, PACKAGE, seen.program, expected, hint)
         raise _elsewhere(wrong, "subscribes to", BUMPER, kind, seen.subscribers, seen.types)
     for number, (side, shown) in enumerate(zip(SIDES, seen.shown)):
         # The paths of a traceback may have the number, too.
-        if not re.search(wanted(number), re.split("bad callback|Traceback", shown)[0]):
+        if not re.search(record.wanted(number), re.split("bad callback|Traceback", shown)[0]):
             expected = f"the {side} bumper on the screen when it is pressed"
             hint = f"event.bumper is {number} (BumperEvent.{side.upper()}), event.state 1"
             if seen.program.ended or "Traceback" in shown:
@@ -80,7 +69,7 @@ def stops(session: Session) -> str:
 
 def _gap_m(session: Session, script: str, speed: float) -> float:
     """Return how far [m] before the wall it stops. Raises Wrong."""
-    drive = session.recording(towards_the_wall, script, speed)
+    drive = session.recording(record.towards_the_wall, script, speed)
     path = drive.path
     if not has_moved(path):
         expected = f"the robot drives towards the wall with _speed:={speed}"
@@ -111,17 +100,19 @@ def _gap_m(session: Session, script: str, speed: float) -> float:
        " rosrun beginner_tutorials wander.py")  # fmt: skip
 def wanders(session: Session) -> str:
     script = program_of(session, PACKAGE, "wander.py")
-    drive = session.recording(wandering, script)
+    drive = session.recording(record.wandering, script)
     expected = f"it drives about for {WANDER_S:.0f} s and never pushes for {LONGEST_PUSH_S:.0f} s or longer"
     if drive.program.ended:
         hint = "does it loop, or rospy.spin()?"
         raise crash(session, PACKAGE, drive.program, expected, hint)
-    push_s = longest_push_s(drive.bumps, drive.ended_s)
+    push_s = record.longest_push_s(drive.bumps, drive.ended_s)
     if push_s > LONGEST_PUSH_S:
         hint = "with BumperEvent.PRESSED go back: linear.x < 0; what is beside it no scan shows"
         seen = f"it pushed for {push_s:.1f} s at ({drive.path[-1].x:.1f}, {drive.path[-1].y:.1f})"
         raise Wrong(expected, seen, script, hint)
-    way_m, width_m = way_and_width_m(drive)
+    path = [(sample.x, sample.y) for sample in drive.path]
+    way_m = sum(math.dist(a, b) for a, b in zip(path, path[1:]))
+    width_m = max(max(places) - min(places) for places in zip(*path))
     if way_m < LEAST_WAY_M or width_m < LEAST_WIDTH_M:
         hint = "ahead while min(scan.ranges) is large enough, else turn until it is"
         raise Wrong(expected, f"{way_m:.1f} m in a place {width_m:.1f} m wide", script, hint)
@@ -130,13 +121,6 @@ def wanders(session: Session) -> str:
         hint = "where nothing is free ahead, turn until min(scan.ranges) is large again"
         raise Wrong(expected, f"it did not move for {stand_s:.0f} s", script, hint)
     return f"{way_m:.1f} m"
-
-
-def way_and_width_m(drive: Drive) -> tuple[float, float]:
-    """Return the length [m] of a path, and the larger side of the rectangle around it."""
-    path = [(sample.x, sample.y) for sample in drive.path]
-    width_m = max(max(places) - min(places) for places in zip(*path))
-    return sum(math.dist(a, b) for a, b in zip(path, path[1:])), width_m
 
 
 def longest_stand_s(samples: Sequence[Sample]) -> float:
