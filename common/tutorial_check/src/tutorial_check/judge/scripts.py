@@ -250,10 +250,20 @@ def silent_end(facts: PythonFacts, script: str) -> tuple[str, str]:
     for line, text in facts.bare_names:
         if text.endswith(("spin", "listener")):
             return f"{script}:{line}", f"{text} needs its (): {text}()"
+    for one in (one for one in facts.classes if one.is_node):
+        odd = next((each for each in one.methods if re.fullmatch(r"_*init_*", each)), "__init__")
+        if odd != "__init__" and "__init__" not in one.methods:
+            hint = f"`def {odd}`: Python calls `__init__`, two underscores on either side"
+            return f"{script}:{one.line}", hint
+        if not one.instantiated:
+            hint = f"it is never made: {one.name}() under if __name__ == '__main__':"
+            return f"{script}:{one.line}", hint
     if facts.sunken_main:
         line, function = facts.sunken_main
         hint = f"line {line} stands within {function}(): move it, and what is below it, to the left"
         return f"{script}:{line}", f"{hint} margin"
     if "spin" not in facts.calls:
         return script, "rospy.spin() is missing: without it the program comes to its end"
+    if not facts.has_main:
+        return script, "listener() is never called: if __name__ == '__main__': listener()"
     return script, "is listener() called, in the last line, and with ()?"
