@@ -36,6 +36,7 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     what = parser.add_mutually_exclusive_group()
     what.add_argument("--script", metavar="FILE", help="follow a YAML file of timed moves")
     what.add_argument("--bag", metavar="FILE", help="follow the recorded /joy of a bag")
+    parser.add_argument("--topic", default="/joy", help="topic in the bag (/joy)")
     parser.add_argument("--loop", action="store_true", help="begin again at the end")
     return parser.parse_args([word for word in arguments if ":=" not in word])
 
@@ -49,14 +50,14 @@ def read_script(path: str) -> Script:
             raise ValueError(" ".join(str(error).split())) from None
 
 
-def read_bag(path: str) -> list[tuple[float, Position]]:
-    """Return (time [s], position) of /joy of a bag. Raises ValueError, OSError."""
+def read_bag(path: str, topic: str) -> list[tuple[float, Position]]:
+    """Return (time [s], position) of a topic of a bag. Raises ValueError, OSError."""
     from gamepad.bags import BagError, opened  # noqa: PLC0415  nothing else needs ROS
 
     with opened(path) as bag:
-        recorded = list(bag.read_messages(topics=["/joy"]))
+        recorded = list(bag.read_messages(topics=[topic]))
         if not all(hasattr(message, "axes") for _, message, _ in recorded):
-            raise BagError(f"{path}: /joy is no sensor_msgs/Joy")
+            raise BagError(f"{path}: {topic} is no sensor_msgs/Joy")
         return [(stamp.to_sec(), (joy.axes, joy.buttons)) for _, joy, stamp in recorded]
 
 
@@ -68,7 +69,8 @@ def make_source(options: argparse.Namespace) -> tuple[Gamepad, KeySource | Timed
         return gamepad, script_source(gamepad, script, options.loop)
     gamepad = F710[options.mode or "D"]
     if options.bag:
-        return gamepad, recording_source(gamepad, read_bag(options.bag), options.loop)
+        recorded = read_bag(options.bag, options.topic)
+        return gamepad, recording_source(gamepad, recorded, options.loop)
     return gamepad, KeySource(gamepad, Keyboard())
 
 
