@@ -27,6 +27,7 @@ class Recorder(Source):
     def __init__(self) -> None:
         self._name = ""  # It names the file while something is recorded.
         self._process: Popen[bytes] | None = None
+        self._is_over = False  # It was stopped, maybe before there was a process.
         rospy.on_shutdown(self._stop)
 
     def send_to(self, client: Client, now: float) -> None:
@@ -40,18 +41,20 @@ class Recorder(Source):
         elif self._name:
             raise RefusedError(f"{self._name} is being recorded")
         else:
-            self._name = time.strftime("page_%Y-%m-%d-%H-%M-%S.bag")
+            self._name, self._is_over = time.strftime("page_%Y-%m-%d-%H-%M-%S.bag"), False
             threading.Thread(target=self._record, daemon=True).start()
 
     def _record(self) -> None:
         command = [*COMMAND, self._name]
         self._process = Popen(command, start_new_session=True, stdin=DEVNULL, stdout=DEVNULL)
+        if self._is_over:
+            self._stop()
         if self._process.wait() and not os.path.exists(self._name):
             rospy.logwarn("cockpit: rosbag record cannot write %s here", self._name)
         self._process, self._name = None, ""
 
     def _stop(self) -> None:
-        process = self._process
+        self._is_over, process = True, self._process
         if process and process.poll() is None:
             with suppress(ProcessLookupError):  # it has just ended
                 os.killpg(process.pid, signal.SIGINT)
