@@ -36,6 +36,7 @@ velocities = st.tuples(
 @example([WALL], (0.622, 0.0, 1.6), [((0.6, -1.1), (0.6, -0.2), 1.0)])  # at first away from it
 @example([WALL], (0.422, 0.0, 0.0), [((0.3, 0.9), (0.3, 0.3), 3.0)])  # towards it, then along
 @example([WALL], (0.4, 0.0, 0.0), [((0.7, 2.5), (0.7, 2.5), 3.0)])  # towards it, then away
+@example([WALL], (0.8, 0.0, 1.0), [((0.5, 0.5), (0.5, 0.5), 4.0)])  # it turns there for a moment
 @given(
     st.lists(walls | posts, min_size=1, max_size=8),
     st.tuples(places, places, st.floats(-pi, pi)),
