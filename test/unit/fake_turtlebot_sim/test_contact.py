@@ -3,7 +3,7 @@
 from math import cos, pi
 
 import pytest
-from hypothesis import assume, example, given, settings
+from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 from fake_turtlebot_sim.simulator.contact import Piece, direction_to, drive_among, gap
@@ -27,12 +27,16 @@ velocities = st.tuples(
 )
 
 
-@settings(max_examples=100, deadline=None)
 @example(  # a circle of 0.1 um beside the end of a wall, whose gap is a rounding
     [post(0.0, 0.0, 0.0), (0.0, 0.0, 0.0, -1.0, 0.0)], (-1.0, 0.0, 0.0),
     [((1.0, 0.0), (1.0, 0.0), 1.0), ((-1.4901161193847696e-07, pi),) * 2 + (2.0,)],
 )  # fmt: skip
 @example([WALL], (1 - R - 1e-11, 0.0, pi / 2), [((0.0, 0.0), (0.7, 0.0), 1.0)])  # along it
+@example([WALL], (0.7, 0.0, 1.0), [((-0.4, 3.0), (-0.4, -0.5), 5.0)])  # turning there and back
+@example([WALL], (0.622, 0.0, 1.6), [((0.6, -1.1), (0.6, -0.2), 1.0)])  # at first away from it
+@example([WALL], (0.422, 0.0, 0.0), [((0.3, 0.9), (0.3, 0.3), 3.0)])  # towards it, then along
+@example([WALL], (0.4, 0.0, 0.0), [((0.7, 2.5), (0.7, 2.5), 3.0)])  # towards it, then away
+@example([WALL], (0.8, 0.0, 1.0), [((0.5, 0.5), (0.5, 0.5), 4.0)])  # it turns there for a moment
 @given(
     st.lists(walls | posts, min_size=1, max_size=8),
     st.tuples(places, places, st.floats(-pi, pi)),

@@ -44,7 +44,6 @@ def test_twenty_thousand_random_beams(view):
 
 
 def test_a_wall_in_line_with_a_beam_is_met_at_its_end_and_nothing_is_far():
-    found = Scanner(0.0, 0.1, 2).ranges(
-        (0, 0, 0), np.array([[5.0, 0.0, 2.0, 0.0]]), np.empty((0, 3))
-    )
+    wall, nothing = np.array([[5.0, 0.0, 2.0, 0.0]]), np.empty((0, 3))
+    found = Scanner(0.0, 0.1, 2).ranges((0, 0, 0), wall, nothing)
     assert list(found) == [2.0, math.inf]

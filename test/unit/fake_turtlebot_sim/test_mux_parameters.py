@@ -41,10 +41,7 @@ def test_a_turtlebots_own_file_works_as_it_is():
         (with_teleop(topic="input teleop"), ["entry 1: topic: 'input teleop'"]),
         (with_teleop(priority=-1), ["entry 1: priority: -1", "whole number"]),
         ({"subscribers": [TELEOP], "publisher": ""}, ["~publisher: ''", "name of a topic"]),
-        (
-            {"subscribers": [TELEOP], "publisher": "input/teleop"},
-            ["~publisher: 'input/teleop'", "topic of an input"],
-        ),
+        (with_teleop(topic="output"), ["~publisher: 'output'", "topic of an input"]),
         (with_teleop(timeout=0.01), ["entry 1: timeout: 0.01", "from 0.02 to 60 s"]),
     ],
 )
