@@ -103,8 +103,8 @@ def test_a_viewer_may_not_drive_and_long_messages_close_the_connection(resting):
         page.say("reset", robot="")
         page.say("bag_play", topic="/joy", rate=1.0, loop=False, robot="")
         twist = {"topic": "/cmd_vel", "type": "geometry_msgs/Twist", "values": {}}
-        page.say("repeat", **twist, period=0.1)
-        for what in ("drive", "reset", "bag_play", "repeat"):
+        page.say("publish", **twist, period=0.1)
+        for what in ("drive", "reset", "bag_play", "publish"):
             why = page.wait_for("refused", lambda no, what=what: no["what"] == what)["why"]
             assert "may only look" in why
         assert not [session for session in page.of("session") if session["yours"]]
