@@ -1,10 +1,12 @@
 """Bodies and names of a classroom's robots: which there are, from the transforms."""
 
 import pytest
+from geometry_msgs.msg import TransformStamped
+from tf2_msgs.msg import TFMessage
 
 pytest.importorskip("visualization_msgs", reason="no ROS for this Python: ./tutorial setup")
 
-from cockpit_server.classroom.node import base_frames, markers, robots
+from cockpit_server.classroom.node import MOST_PAIRS, base_frames, joined, markers, robots
 
 STATIC = {
     ("world", "ada/odom"),
@@ -21,6 +23,8 @@ def test_a_robot_has_a_base_once_it_was_seen_to_move():
     assert base_frames(STATIC, MOVING) == {"ada": "ada/base_footprint"}
     both = base_frames(STATIC, MOVING | {("robot_2/odom", "robot_2/base")})
     assert both == {"ada": "ada/base_footprint", "robot_2": "robot_2/base"}
+    many = [TransformStamped(child_frame_id=f"link_{n}") for n in range(MOST_PAIRS + 1)]
+    assert joined(STATIC, TFMessage(many)) == STATIC  # what is kept has a bound
 
 
 def test_a_body_and_the_name_above_it():

@@ -106,7 +106,7 @@ class Room:
         return self.session.robot if self.session.driver is not None else None
 
     def look(self):
-        look(self.drives, self.page)
+        return look(self.drives, self.page)[0]
 
 
 def test_robot_is_not_reset_while_another_drives_it():
@@ -115,7 +115,7 @@ def test_robot_is_not_reset_while_another_drives_it():
     resets = Resets(room, graphs, room.drives)
     room.report, room.senders = MOVING, PLAYS
     room.session.why, room.session.stopped = "hidden", "ada"
-    room.look()
+    assert [len(room.look()) for _ in range(3)] == [1, 1, 0]  # the words, when they change
     assert room.session.stopped is None  # it stands no longer
     with pytest.raises(RefusedError, match="/rosbag_play drives this robot: stop it"):
         resets.on_reset(room.client, 0.0, "ada")

@@ -8,6 +8,7 @@ import pytest
 from cockpit_server import hub as hub_module
 from cockpit_server.access import DRIVER, VIEWER
 from cockpit_server.clients import LOOKS_ONLY, Source
+from cockpit_server.driving_status import NO_ROBOT
 from cockpit_server.graph import JOY, Graph
 from cockpit_server.hub import CONNECT_S, Hub
 from tutorial_testing.session_room import DRIVE, REST, page
@@ -190,3 +191,14 @@ def test_page_is_told_beforehand_what_drive_would_be_refused_for(
     assert said.startswith(refusal) and bool(said) == bool(refusal)
     hub.say(client, "drive", **{**ROBOT, "robot": robot})
     assert [one["why"] for one in sent if one["kind"] == "refused"] == [said] * bool(refusal)
+    hub.graphs.graph = Graph()
+    assert hub.refusal(client, robot, 0.0) == NO_ROBOT
+
+
+def test_refusals_are_few_however_much_a_page_asks_for_and_all_that_is_sent_is_json():
+    client, sent = Made().opened()
+    for _ in range(100):
+        client.refuse("drive", "no", 9.0)
+    assert 1 < len(sent) < 15
+    with pytest.raises(ValueError, match="JSON"):
+        client.send("x", y=float("inf"))

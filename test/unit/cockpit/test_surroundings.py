@@ -14,6 +14,7 @@ from tf2_msgs.msg import TFMessage
 from cockpit_server.graph import ODOMETRY, Graph
 from cockpit_server.sources.surroundings import (
     MOST_CELLS,
+    MOST_FRAMES,
     MOST_POINTS,
     Surroundings,
     map_shown,
@@ -63,7 +64,7 @@ def test_a_page_gets_the_map_the_place_in_it_and_the_scan_when_they_change():
     seen = Seen()
     assert seen.look() == {}  # no map, as on an empty plane
     truth, mount = Odometry(), TransformStamped()
-    truth.pose.pose.position.x = truth.pose.pose.orientation.w = 1.0
+    truth.pose.pose.position.x = truth.pose.pose.orientation.z = 1.0
     mount.child_frame_id, mount.transform.translation.x = "ada/camera", -0.1
     seen.hear("/map", grid(1, 3, [0, 100, -1]))
     seen.hear("/ada/base_pose_ground_truth", truth)
@@ -72,15 +73,20 @@ def test_a_page_gets_the_map_the_place_in_it_and_the_scan_when_they_change():
     seen.hear("/ada/mobile_base/events/bumper", b"\1\1")
     got = seen.look()
     assert base64.b64decode(got["map"]["cells"]) == b"\0\1\2"
-    place = {"x": 1.0, "y": 0.0, "yaw": 0.0, "bumpers": [1]}
+    place = {"x": 1.0, "y": 0.0, "yaw": 3.1416, "bumpers": [1]}
     assert got["around"]["robots"] == {"ada": place}
     assert (got["scan"]["robot"], got["scan"]["points"]) == ("ada", [[1.9, 0.0]])
     assert seen.look() == {}
     for event in (b"", b"\1", b"\3\1", b"\0\1\1"):  # malformed
         seen.hear("/ada/mobile_base/events/bumper", event)
+    seen.hear("/ada/scan", scan([inf, 2.0, nan]))  # the same again
     assert seen.look() == {}
     seen.hear("/ada/mobile_base/events/bumper", b"\1\0")
     assert list(seen.look()) == ["around"]
+    others = (TransformStamped(child_frame_id=f"link_{n}") for n in range(MOST_FRAMES))
+    seen.hear("/tf_static", TFMessage([*others]))  # only so many are kept, the newest
+    seen.hear("/ada/scan", scan([inf, 3.0, nan]))
+    assert seen.look()["scan"]["points"] == [[3.0, 0.0]]
     seen.graphs.graph = Graph()
     assert seen.look()["map"] == {"kind": "map"}  # it goes with its last publisher
 
