@@ -64,8 +64,4 @@ def test_a_driver_who_is_handed_a_robot_looks_at_no_other(page):
     hear("session", {...session, driver: null, yours: false});
     rowOf("robot_1").click();
     done([before, driving, tab.look]);"""
-    assert run(page, "robot_tab.js", ROBOT_TAB + script) == [
-        "robot_1",
-        ["robot_2"] * 3,
-        "robot_1",
-    ]
+    assert run(page, "robot_tab.js", ROBOT_TAB + script) == ["robot_1", ["robot_2"] * 3, "robot_1"]

@@ -41,9 +41,7 @@ CREATING_A_PACKAGE = [
     ("1", "rospack depends beginner_tutorials", "^genmsg"),
     ("1", "roscd beginner_tutorials\ncat package.xml", "<name>beginner_tutorials"),
 ]
-WORKSPACES = [
-    ("1", f"cd {WS}\ncatkin_make install\nls", "^build +devel +install +src|^install$"),
-]
+WORKSPACES = [("1", f"cd {WS}\ncatkin_make install\nls", "^build +devel +install +src|^install$")]
 NODES = [
     ("core", "roscore", "started core service"),
     ("1", "roscd log && pwd", "/.ros/log/.+-.+-"),
@@ -181,9 +179,7 @@ RECORDING = [
     ("sim", CTRL_C, ""),
     ("1", "rosbag info subset.bag", r"/turtle1/cmd_vel +\d+ msgs? "),
 ]
-ROSWTF = [
-    ("1", "roscd rosmaster && roswtf", "rosdep2 --[^E]*Beginning tests"),
-]
+ROSWTF = [("1", "roscd rosmaster && roswtf", "rosdep2 --[^E]*Beginning tests")]
 
 
 def uncomment_messages(package):

@@ -112,3 +112,8 @@ def test_a_malformed_message_is_refused():
     client, sent = hub.opened()
     hub.hear(client, json.dumps({"kind": "watch", "none": 1}))
     assert sent[-1]["why"] == "watch has no field 'none'"
+
+
+def test_all_that_is_sent_is_json():
+    with pytest.raises(ValueError, match="JSON"):
+        page()[0].send("x", y=float("inf"))

@@ -32,6 +32,7 @@ def taken(kind, name, value):
 @pytest.mark.parametrize("kind", SCHEMA.messages)
 def test_each_field_is_required_and_others_are_refused(kind):
     assert SCHEMA.check(say(kind, **GOOD[kind]))[0] == kind
+    assert not any(vars(SCHEMA.watch()).values())  # what a page does not ask for
     with pytest.raises(ValueError, match=f"has no field '{LONG[:40]}'$"):
         SCHEMA.check(say(kind, **GOOD[kind], **{LONG: 1}))
     for name in SCHEMA.messages[kind] if kind != "watch" else ():

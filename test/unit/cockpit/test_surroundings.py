@@ -14,6 +14,7 @@ from tf2_msgs.msg import TFMessage
 from cockpit_server.graph import ODOMETRY, Graph
 from cockpit_server.sources.surroundings import (
     MOST_CELLS,
+    MOST_FRAMES,
     MOST_POINTS,
     Surroundings,
     map_shown,
@@ -69,6 +70,10 @@ def test_a_page_gets_the_map_and_the_scan_when_they_change():
     assert base64.b64decode(got["map"]["cells"]) == b"\0\1\2"
     assert (got["scan"]["robot"], got["scan"]["points"]) == ("ada", [[1.9, 0.0]])
     assert seen.look() == {}
+    others = (TransformStamped(child_frame_id=f"link_{n}") for n in range(MOST_FRAMES))
+    seen.hear("/tf_static", TFMessage([*others]))  # only so many are kept, the newest
+    seen.hear("/ada/scan", scan([inf, 3.0, nan]))
+    assert seen.look()["scan"]["points"] == [[3.0, 0.0]]
     seen.graphs.graph = Graph()
     assert seen.look()["map"] == {"kind": "map"}  # it goes with its last publisher
 

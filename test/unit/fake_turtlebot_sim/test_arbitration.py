@@ -15,9 +15,8 @@ def test_the_highest_input_that_is_not_silent_drives():
     assert arbiter.active(0.0) == IDLE and not arbiter.must_stop(0.0)
     for name, now in (("navi", 0.0), ("safety", 0.1), ("teleop", 0.2)):
         arbiter.command(name, (0.1,), now)
-    assert [arbiter.active(now) for now in (0.25, 0.35, 1.15, 1.25)] == [
-        "safety", "teleop", "teleop", IDLE,
-    ]  # fmt: skip
+    active = [arbiter.active(now) for now in (0.25, 0.35, 1.15, 1.25)]
+    assert active == ["safety", "teleop", "teleop", IDLE]
 
 
 class Running:

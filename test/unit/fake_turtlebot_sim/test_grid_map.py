@@ -22,13 +22,9 @@ CLEAR = Image.fromarray(
     np.array([[[0, 0, 0, 0], [255, 255, 255, 0], [128, 128, 128, 255]]], np.uint8)
 )
 PICTURE = Image.fromarray(GREY)
-
-
-def indexed(*numbers):
-    image = Image.new("P", (len(numbers), 1))
-    image.putpalette([200, 255, 255, 0, 0, 0])
-    image.putdata(numbers)
-    return image
+INDEXED = Image.new("P", (2, 1))
+INDEXED.putpalette([200, 255, 255, 0, 0, 0])
+INDEXED.putdata((0, 1))
 
 
 @pytest.mark.parametrize(
@@ -40,7 +36,7 @@ def indexed(*numbers):
         (Image.fromarray(GREY.astype(np.uint16) << 8 | 255), {}, [100, -1, 0]),
         (COLOURS, {"mode": "scale"}, [-1, 66]),
         (CLEAR, {"mode": "scale"}, [100, 0, 66]),
-        (indexed(0, 1), {}, [100, 100]),  # the number of the colour, as SDL gives it
+        (INDEXED, {}, [100, 100]),  # the number of the colour, as SDL gives it
         (b"P5 4 1 255\n" + bytes([0, 100, 255, 200]), {"mode": "raw", **PNM}, [0, 100, -1, -56]),
         (b"P2 3 1 255\n0 50 # a comment\n100", {"mode": "raw", **PNM}, [0, 50, 100]),
         (b"P2 1 2 255 0 254", PNM, [0, 100]),  # the lowest row first
@@ -110,7 +106,8 @@ def test_a_start_that_is_given_counts_also_at_zero(tmp_path):
     start = "{x: 1.0, y: 0.9, yaw: 0.5}"
     path = write_map(tmp_path, building(), origin=[-0.5, -0.5, 0], start=start)
     assert start_of(path, initial_x="") == (1.0, 0.9, 0.5)
+    wall = np.zeros((80, 80), np.uint8)  # 4 m thick
     with pytest.raises(ValueError, match=r"\(0, 0\) would be inside of a wall"):
-        start_of(write_map(tmp_path, building(), origin=[-1.02, -1.02, 0]), initial_x=0.0)
+        start_of(write_map(tmp_path, wall, origin=[-2, -2, 0]), initial_x=0.0)
     with pytest.raises(ValueError, match="no free place where a robot has room; give another"):
-        start_of(write_map(tmp_path, np.zeros((80, 80), np.uint8), origin=[-2, -2, 0]))
+        start_of(write_map(tmp_path, wall, origin=[-2, -2, 0]))

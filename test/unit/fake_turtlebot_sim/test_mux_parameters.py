@@ -1,10 +1,13 @@
 """The parameters of cmd_vel_mux: a TurtleBot's own file works, every mistake is one clear line."""
 
+from pathlib import Path
+
 import pytest
 import yaml
 
 from fake_turtlebot_sim.mux.parameters import Input, parse_mux_parameters
 
+OURS = Path(__file__).resolve().parents[3] / "fake_turtlebot_sim/config/cmd_vel_mux.yaml"
 TELEOP = {"name": "teleop", "topic": "input/teleop", "timeout": 1.0, "priority": 7}
 NAVI = {"name": "navi", "topic": "input/navi", "timeout": 1.0, "priority": 5}
 
@@ -25,7 +28,10 @@ def test_a_turtlebots_own_file_works_as_it_is():
     parameters = parse_mux_parameters(yaml.safe_load(OF_A_TURTLEBOT))
     assert parameters.publisher == "output"
     assert parameters.subscribers[1] == Input("Teleoperation", "input/teleop", 1.0, 7)
-    assert [one.timeout for one in parameters.subscribers] == [0.2, 1.0, 1.0]
+    numbers = {one.topic: (one.timeout, one.priority) for one in parameters.subscribers}
+    ours = parse_mux_parameters(yaml.safe_load(OURS.read_text())).subscribers
+    numbers["input/switch"] = (1.0, 6)  # which a TurtleBot lacks
+    assert {one.topic: (one.timeout, one.priority) for one in ours} == numbers
     assert hash(parse_mux_parameters(with_teleop(priority=0, timeout=60.0)))  # all of it is frozen
 
 

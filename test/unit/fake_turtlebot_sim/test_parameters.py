@@ -24,7 +24,7 @@ BOUNDS = re.findall(
 def test_nothing_given_is_a_turtlebot_2():
     parameters = parse_parameters({})
     assert parameters == Parameters()
-    assert (parameters.period_ns(), Parameters(rate=14.0).period_ns()) == (20_000_000, 71_428_571)
+    assert (parameters.period_ns(), Parameters(rate=6.0).period_ns()) == (20_000_000, 166_666_667)
     assert parameters.start_poses() == {"": (0.0, 0.0, 0.0)}
     with pytest.raises(FrozenInstanceError):
         parameters.rate = 1.0

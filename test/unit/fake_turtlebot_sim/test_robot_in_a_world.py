@@ -145,8 +145,7 @@ def test_robots_stop_each_other():
 
 def test_a_reset_of_the_odometry_leaves_the_robot_where_it_is():
     robot = SimulatedRobot(Parameters(world=World((SQUARE,))), (0.5, 0.5, 1.0))
-    driven(robot, (0.2, 0.3), 2)
-    at = robot.true_pose
+    at = driven(robot, (0.2, 0.3), 2).true_pose
     robot.reset_odometry()
     assert (robot.true_pose, robot.state()[:3]) == (at, (0.0, 0.0, 0.0))
     odometry_in_map = between_frames(at, robot.state()[:3])
@@ -224,14 +223,10 @@ def test_places_are_around_the_start_and_not_behind_a_wall(side):
     ahead, left = NEAR[side]
     world = World((wall(0.6, ahead, left), wall(0.7, -ahead, -left)), start=start)
     free = [(0, 0), *(one for one in NEAR if one != (ahead, left))]
-    assert [pose[2] for pose in world.places(4)] == [pi / 6] * 4
-    assert [pose[:2] for pose in world.places(4)] == [
-        pytest.approx(at(0.5 * ahead, 0.5 * left)) for ahead, left in free
-    ]
-    assert [pose[:2] for pose in World(start=start).places(9)[5:]] == [
-        pytest.approx(at(0.5 * ahead, 0.5 * left))
-        for ahead, left in [(0, -2), (-1, -1), (1, -1), (-2, 0)]
-    ]
+    further = [(0, -2), (-1, -1), (1, -1), (-2, 0)]
+    for poses, ways in ((world.places(4), free), (World(start=start).places(9)[5:], further)):
+        expected = [(*at(0.5 * ahead, 0.5 * left), pi / 6) for ahead, left in ways]
+        assert np.array(poses) == pytest.approx(np.array(expected))
     corridor = World(tuple(((-2.0, y), (2.0, y)) for y in (-0.2, 0.2)))  # hardly wider than a robot
     assert [x for x, *_ in corridor.places(3)] == [0.0, -0.5, 0.5]
 

@@ -25,7 +25,7 @@ def pose_message(frame="odom", yaw=0.0, x=1.0, length=1.0):
     return message
 
 
-def told(parameters, prefix="", pose=(1.0, 2.0, 0.5)):
+def told(parameters, prefix="", pose=(1 / 3, 2 / 3, 0.5)):
     """The messages of a robot that drives, and the robot."""
     robot = SimulatedRobot(parameters, pose)
     robot.command((0.3, -0.4), 0)
@@ -44,7 +44,7 @@ def test_one_stamp_the_right_frames_the_executed_twist_and_the_wheels():
     place, moved = odometry.pose.pose, transform.transform
     assert (place.position.x, place.position.y) == (moved.translation.x, moved.translation.y)
     assert 2 * np.arctan2(moved.rotation.z, moved.rotation.w) == pytest.approx(0.5, abs=1e-12)
-    assert (place.position.x, place.position.y, place.orientation) == (1.0, 2.0, moved.rotation)
+    assert (place.position.x, place.position.y, place.orientation) == (1 / 3, 2 / 3, moved.rotation)
     assert (odometry.twist.twist.linear.x, odometry.twist.twist.angular.z) == (0.3, -0.4)
     assert joints.name == ["left", "right"]
     assert joints.velocity == pytest.approx((0.346 / 0.035, 0.254 / 0.035))

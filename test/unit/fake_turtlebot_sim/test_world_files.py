@@ -3,6 +3,7 @@
 import os
 import sys
 
+import PIL
 import pytest
 
 from fake_turtlebot_sim.simulator.parameters import parse_parameters
@@ -75,9 +76,11 @@ def test_a_mistake_is_one_line(tmp_path, text, said):
         (b"P5 2 1 65535\n\0\xff\0\0", "map_server reads the higher 8, which are all 0"),
         (b"P5 20 10 255\n" + bytes(200), "reaches farther than 10000 m"),
         (b"P5 4096 4097 255\n", "more than 16777216 cells"),
+        (b"P5 1 1 255\n\0", "takes Pillow: apt install python3-pil"),  # where that is missing
     ],
 )  # fmt: skip
-def test_an_image_that_is_no_map_is_one_line(tmp_path, data, said):
+def test_an_image_that_is_no_map_is_one_line(tmp_path, monkeypatch, data, said):
+    monkeypatch.setitem(sys.modules, "PIL", None if "Pillow" in said else PIL)
     (tmp_path / "map.pgm").write_bytes(data)
     resolution = 100 if "farther" in said else 0.5
     with pytest.raises(WorldError, match=said):

@@ -11,6 +11,7 @@ import pytest
 from gamepad.driver.container import INITIAL, in_container
 from gamepad.driver.device import Finder
 from gamepad.driver.device_choice import DeviceError, choose_by_name, explain
+from gamepad.driver.parameters import load
 
 JS0 = "/dev/input/js0"
 NAMES = {JS0: "Pad F710", "/dev/input/js1": "Pad F310", "/dev/input/js2": "Pad"}
@@ -54,6 +55,8 @@ def test_each_case_is_told_apart_and_says_what_to_do(path, number, container, ws
 def test_what_is_no_joystick_is_refused():
     with pytest.raises(DeviceError, match="joystick"):
         Finder("/dev/null", "").open()
+    with pytest.raises(ValueError, match="~dev: 'js0': must be a whole path, such as /dev/input"):
+        load({"dev": "js0"})
 
 
 @pytest.mark.parametrize(

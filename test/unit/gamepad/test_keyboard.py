@@ -9,7 +9,7 @@ from gamepad.virtual.keyboard import FIRST_HOLD_S, REPEAT_HOLD_S, Keyboard
 
 # A row: what is pressed at once; then where the left stick is, and the buttons that are held.
 PRESSED = [
-    ("", (0, 0), []),
+    ("bcefghijklnopvxyz-+", (0, 0), []),  # all other keys do nothing
     *[(key, (0, 1), []) for key in ("w", "W", "\x1b[A", "\x1bOA")],
     *[(key, (0, -1), []) for key in ("s", "S", "\x1b[B", "\x1bOB")],
     *[(key, (1, 0), []) for key in ("a", "A", "\x1b[D", "\x1bOD")],
@@ -35,13 +35,11 @@ def test_what_each_key_does_to_the_gamepad(keys, stick, held):
     assert not keyboard.quit
 
 
-@pytest.mark.parametrize(
-    ("keys", "controls", "quits"),
-    [
-        ("mUm", Controls(plugged=False), False),
-        *[(key, Controls(), True) for key in ("Q", "\x03", "\x04", "xyz\x1b[9~q")],
-    ],
-)
+SWITCHES = ("mUm", Controls(plugged=False), False)
+QUITS = [(key, Controls(), True) for key in ("Q", "\x03", "\x04", "xyz\x1b[9~q")]
+
+
+@pytest.mark.parametrize(("keys", "controls", "quits"), [SWITCHES, *QUITS])
 def test_mode_and_plug_are_switched_and_some_keys_quit(keys, controls, quits):
     keyboard = Keyboard()
     keyboard.press(keys, 0.0)

@@ -67,9 +67,10 @@ def test_what_is_sent_at_once_and_the_state(name):
     ("given", "acts", "sent"),
     [
         ({}, ["forward"], [(t, ZERO) for t in (0.5, 0.55, 0.6, 0.65, 0.7)]),
-        ({"stop_messages": 1, "joy_timeout": 0.3}, ["forward"], [(0.3, ZERO)]),
         ({"joy_timeout": 0}, ["forward"], []),
-        ({}, ["middle"], []),  # a robot that stands needs no stop
+        ({}, ["middle"], []),  # a robot that stands needs no stop, but one on its way through zero
+        ({"stop_messages": 1, "joy_timeout": 0.15, **LIMITS}, ["forward", "backward"],
+         [(0.1, ZERO), (0.15, ZERO)]),
         ({"stop_messages": 3, "output_rate": 10, **DEAD_MAN}, ["forward", "release"],
          [(0.1, ZERO), (0.2, ZERO)]),
         ({"stop_messages": 2, **DEAD_MAN}, ["forward", "bad"], [(0.05, ZERO)]),

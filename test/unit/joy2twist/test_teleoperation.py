@@ -100,11 +100,10 @@ def test_the_stop_button_is_named_until_it_is_reset_and_sends_zeros_meanwhile():
 
 
 def test_diagnostics_tell_the_state_the_rate_and_the_age():
-    machine, _ = teleoperation(enable_button=0, joy_timeout=0.5)
+    machine, warnings = teleoperation(enable_button=0, joy_timeout=0.5)
     rate, age, deadman = "Joy rate [Hz]", "Age of the last Joy [s]", "Dead-man button"
-    well, state, details = machine.summary(100.0)
-    assert (well, state) == (False, "waiting for the joystick")
-    assert details == {rate: "0.0", age: "none yet", deadman: "0"}
+    details = {rate: "0.0", age: "none yet", deadman: "0"}
+    assert machine.summary(100.0) == (False, "waiting for the joystick", details)
     for i in range(101):
         machine.joy((0.0, 1.0), (1,), 100.0 + i * 0.02)
     details = {rate: "42.1", age: "0.400", deadman: "0"}
@@ -112,3 +111,4 @@ def test_diagnostics_tell_the_state_the_rate_and_the_age():
     assert machine.summary(102.4)[2][rate] == "0.0"  # asked for twice at once
     machine.safety.tick(105.0)
     assert machine.summary(105.5)[:2] == (False, "stopped: no message for 0.5 s")
+    assert machine.suspended(1, 106.0) is None and "suspended" in warnings[-1]

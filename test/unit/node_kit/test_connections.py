@@ -40,8 +40,7 @@ def test_unreadable_messages_are_reported_once_a_second(read):
     for number in range(25):
         lines, messages = read(WRONG_LENGTH, 0.1 * number)
         assert messages is None
-    assert len(lines) == 3
-    assert "/joy cannot be read" in lines[0]
+    assert len(lines) == 3 and "/joy cannot be read" in lines[0]
 
 
 def test_a_message_that_does_not_end_is_reported(read):
@@ -50,8 +49,12 @@ def test_a_message_that_does_not_end_is_reported(read):
     assert read(started, 0.0, buffer) == ([], [])
     assert read(b".", 0.4, buffer) == ([], [])
     lines, messages = read(b".", 0.6, buffer)
-    assert messages is None
-    assert "65536 bytes" in lines[0]
+    assert messages is None and "65536 bytes" in lines[0]
+
+
+def test_one_thread_at_a_time_connects_to_a_publisher(monkeypatch):
+    monkeypatch.setattr(connections, "_connect", lambda *way: connections._turns[way[1:]].locked())
+    assert connections._connect_in_turn(None, "/joy", "http://ada:1/")
 
 
 def test_a_long_message_may_take_its_time_while_its_bytes_come(read):

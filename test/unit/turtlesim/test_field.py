@@ -57,10 +57,11 @@ def test_names_are_chosen_or_given_once(field):
 
 
 def test_velocities_are_published_without_a_sign_and_end_after_a_second(field):
+    turtle = field.turtles["turtle1"]
     drive(field, -3.0, 4.0, -1.0)
     for now_s, velocities in ((0.5, (5.0, -1.0)), (1.0, (0.0, 0.0))):
         field.step(now_s)
-        assert field.turtles["turtle1"].pose[3:] == velocities
+        assert (turtle.pose[3:], turtle.seen) == (velocities, BLUE)  # it sees before it draws
 
 
 def test_a_teleport_draws_the_way_and_the_drive_before_it(field):

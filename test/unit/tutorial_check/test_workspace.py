@@ -36,8 +36,7 @@ def copied(folder, tmp_path):
 
 
 @pytest.mark.parametrize(
-    "place",
-    ["", "src/joy2twist", "joy2twist", "a/joy2twist", "ros/hydro/catkin_ws/src/joy2twist"],
+    "place", ["", "src/joy2twist", "joy2twist", "a/joy2twist", "ros/hydro/catkin_ws/src/joy2twist"]
 )
 def test_a_package_is_found_at_any_depth(tmp_path, place):
     package(tmp_path / "ws" / place)

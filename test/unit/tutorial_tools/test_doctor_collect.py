@@ -4,6 +4,7 @@ import os
 from pathlib import Path
 
 import pytest
+from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import TransformStamped
 from sensor_msgs.msg import JointState
 from tf2_msgs.msg import TFMessage
@@ -11,7 +12,7 @@ from tf2_msgs.msg import TFMessage
 from node_kit.ros_api import Answer
 from tutorial_testing.nodes import serialised
 from tutorial_tools.doctor import collect
-from tutorial_tools.doctor.facts import Joystick, Offset, Transform
+from tutorial_tools.doctor.facts import Joystick, Mux, Offset, Transform
 from tutorial_tools.doctor.transforms import of_messages
 from tutorial_tools.hidden import hidden_stand_ins
 
@@ -43,6 +44,12 @@ def test_a_fifo_is_not_opened_in_vain(tmp_path, monkeypatch):
     os.mkfifo(fifo)  # which keeps its reader
     monkeypatch.setattr(os, "open", lambda *_: pytest.fail("it was opened"))
     assert collect.joystick(str(fifo)) == Joystick(str(fifo))
+
+
+def test_what_is_malformed_is_left_out(monkeypatch):
+    assert collect.statuses([wire(DiagnosticArray()), (ARRIVED_S, b"nonsense")]) == []
+    monkeypatch.setattr(collect, "parameter", lambda *_: [7])  # of a mux of another kind
+    assert collect.mux("", "/mux", [(ARRIVED_S, b"\x09")]) == Mux(None, [])
 
 
 @pytest.mark.parametrize("uri", ["moon", "https://localhost:1"])
@@ -81,18 +88,13 @@ def test_only_what_lacks_a_package_is_reported(tmp_path):
     package(src / "kobuki_msgs")  # whole
     package(src / "joy2twist", '<node pkg="nowhere"/>')  # no stand-in
     assert hidden_stand_ins(tmp_path, SUITE, share) == []
-    package(
-        src / "clone" / "rbx1_bringup",
-        """<!-- $(find commented_out) --> <param command="$(find xacro)/x $(find description)"/>
-        <node pkg="arbotix_python"/><node pkg='rviz'/><node pkg="fake_turtlebot_sim"/>""",
-    )
+    needs = """<!-- $(find commented_out) --> <param command="$(find xacro)/x $(find description)"/>
+        <node pkg="arbotix_python"/><node pkg='rviz'/><node pkg="fake_turtlebot_sim"/>"""
     folder = src / "clone" / "rbx1_bringup"
-    assert hidden_stand_ins(tmp_path, SUITE, share) == [
-        (
-            f"{folder} hides the suite's own rbx1_bringup, and needs arbotix_python, xacro, "
-            "which is not installed",
-            f"touch {folder}/CATKIN_IGNORE",
-        )
-    ]
+    package(folder, needs)
+    ((seen, todo),) = hidden_stand_ins(tmp_path, SUITE, share)
+    assert seen.startswith(f"{folder} hides the suite's own rbx1_bringup")
+    assert seen.endswith("needs arbotix_python, xacro, which is not installed")
+    assert todo == f"touch {folder}/CATKIN_IGNORE"
     (folder / "CATKIN_IGNORE").touch()
     assert hidden_stand_ins(tmp_path, SUITE, share) == []

@@ -67,6 +67,7 @@ def test_whatever_answers_the_doctor_goes_on(server, answer, expected):
 def test_a_look_up_without_an_end_has_one(monkeypatch):
     monkeypatch.setattr(socket, "getaddrinfo", lambda *_: threading.Event().wait())
     assert network.addresses("robot") == []
+    assert [network.is_here(one) for one in ("127.0.0.1", "0.0.0.0")] == [True, False]
 
 
 def block(data):

@@ -25,9 +25,7 @@ def test_a_host_that_cannot_be_one(monkeypatch, host, line):
 ROBOT, DRIVEN = "/robot_1/cmd_vel", "/robot_2/cmd_vel"
 DRIVER = "/robot_2/myjoystick2twist"
 STATE = [[[DRIVEN, [DRIVER]]], [[ROBOT, ["/classroom"]], [DRIVEN, ["/classroom"]]], []]
-NONSENSE = (
-    5, [[], [[ROBOT, 5]], []], [[[ROBOT, ["\x1b[2J"]]], [[ROBOT, []]], []],
-)  # fmt: skip
+NONSENSE = 5, [[], [[ROBOT, 5]], []], [[[ROBOT, ["\x1b[2J"]]], [[ROBOT, []]], []]
 RUN_IDS = ("../../tmp", "..", 5, "a\x1b[2J")
 
 
