@@ -60,7 +60,12 @@ TOPICS = [
     ("echo", "rostopic echo /turtle1/cmd_vel", ""),
     ("1", "cd; rosrun rqt_graph rqt_graph", "wrote .*rosgraph.png"),
     ("1", "rostopic -h", "rostopic bw"),
-    ("1", "rostopic list -v", r"/turtle1/cmd_vel \[geometry_msgs/Twist\] 2 subscribers"),
+    # rostopic echo says nothing once it subscribes.
+    (
+        "1",
+        "until rostopic list -v | grep '2 subscribers'; do sleep 0.1; done",
+        r"/turtle1/cmd_vel \[geometry_msgs/Twist\] 2 subscribers",
+    ),
     ("keys", "\x1b[A", ""),
     ("echo", "", r"^  x: 2.0\n"),
     ("echo", CTRL_C, ""),
