@@ -110,6 +110,12 @@ def test_what_is_wrong_is_named_now_and_then(given, messages, pause, times, noti
     assert warnings == notices
 
 
+def test_a_held_joystick_that_is_silent_is_stopped_as_one_that_does_not_change():
+    machine = safety(**{**ARMS, "joy_timeout": 0, "vigilance_timeout": 1.0})
+    sent = [ACTS["release"](machine, 0.0), ACTS["forward"](machine, 0.0), machine.tick(0.9)]
+    assert [*sent, machine.tick(1.0)] == [ZERO, FORWARD, None, ZERO]
+
+
 def test_the_node_is_woken_where_something_is_due_sooner():
     woken = []
     machine = Safety(load({}), lambda: woken.append(True))

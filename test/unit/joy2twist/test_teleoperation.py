@@ -73,7 +73,7 @@ def test_a_stick_held_for_eight_seconds_is_stopped_unless_it_trembles(step):
         now = i * 0.05
         sent += [machine.safety.tick(now), machine.joy((0.0, 1.0 - step * (i % 2)), (1, 0, 0), now)]
         if now == 2.6:  # half a second before the stop
-            assert machine.summary(now)[1].startswith("driving: ") is (step == 0)
+            assert machine.summary(now)[1].startswith("driving: ") is (step == 0), "no warning"
     assert sent[2:].count((0,) * 6) == 5 * (step == 0)  # ~stop_messages
     said = ["The joystick does not change", "Stopped"] if step == 0 else []
     assert [line.split(":")[0] for line in warnings] == said
