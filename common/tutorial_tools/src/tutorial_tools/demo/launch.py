@@ -122,14 +122,13 @@ class Launch:
         self.wait(deadline, lambda: self.report.pose is not None)
         if self.report.pose is None:
             raise DemoError(f"no /odom within {START_TIMEOUT_S:.0f} s")
-        # A new report: on a busy machine seconds of /joy may precede the first /odom.
-        pose, self.report = self.report.pose, DriveReport(TOPICS)
-        self.report.pose = pose
         self.summary = self.report.line(0.0)
 
     def watch(self, duration_s: float) -> None:
         """Count the messages for a time; however that ends, summary has the result."""
-        began = time.monotonic()
+        # A new report: on a busy machine seconds of /joy may precede the first /odom.
+        pose, self.report = self.report.pose, DriveReport(TOPICS)
+        self.report.pose, began = pose, time.monotonic()
         try:
             self.wait(began + duration_s)
         finally:
