@@ -89,11 +89,11 @@ def test_a_page_that_is_behind_gets_the_newest_once_it_has_read(clock):
         assert ("well" in kinds(sent)) != is_behind
 
 
-def test_many_requests_wait():
+def test_many_requests_wait_and_hold_up_others_for_a_while_only():
     hub = Made()
     waits = [hub.request_wait_s() for _ in range(1000)]
     assert waits[25] == 0.0  # a page loads as many files
-    assert waits[-1] > 5.0
+    assert 1.0 < waits[-1] < 4.0
 
 
 def test_only_a_viewer_makes_room_and_only_for_a_driver():

@@ -36,7 +36,9 @@ class Hub:
         self._numbers = itertools.count(1)
         self._messages = limits.Budget(limits.MESSAGES_BURST_S, limits.MESSAGE_S)
         self._sending = limits.Budget(limits.SENDING_BURST_S, 0.0)
-        self._requests = limits.Budget(limits.REQUESTS_BURST_S, limits.REQUEST_S)  # HTTP
+        self._requests = limits.Budget(  # HTTP
+            limits.REQUESTS_BURST_S, limits.REQUEST_S, limits.REQUESTS_DEBT_S
+        )
         self._due: deque[int] = deque()  # pages whose turn it is to be sent something
         self._may_beat = Throttle(1 / BEAT_S, burst=1.5)  # even, though the ticks are not
 

@@ -1,5 +1,6 @@
 """What pages may cost: their number, what they send, and seconds of the one thread (pure)."""
 
+from math import inf
 from typing import Optional
 
 MOST_PAGES = 64  # a class, each with a page and a phone
@@ -16,26 +17,29 @@ SEND_BUFFER = 65536
 
 # [part of the thread] each of: messages of pages that do not drive, what pages are sent, HTTP.
 SHARE = 0.15
-SENDING_BURST_S = 0.003  # that what is sent to pages, one after the other, may use at once
+SENDING_BURST_S = 0.003  # The driver waits so long for what is sent to pages, one after the other.
 MESSAGE_S = 0.0005  # paid before a message is read: those that wait do not come all at once
-MESSAGES_BURST_S = 0.005  # that messages may use at once, while the driver waits
+MESSAGES_BURST_S = 0.005  # The driver waits so long for messages of others.
 REQUEST_S = 0.002  # answering an HTTP request; measured: 1 to 2 ms
-REQUESTS_BURST_S = 0.5  # that requests may use at once: ten pages load, each 25 files
+REQUESTS_BURST_S = 0.5  # Ten pages load at once, each 25 files.
+# As many wait as there are connections: one page that asks without end holds up others for 3.4 s.
+REQUESTS_DEBT_S = MOST_CONNECTIONS * REQUEST_S
 
 
 class Budget:
     """Refills at SHARE, up to burst_s. A cost is known afterwards: there may be debt."""
 
-    def __init__(self, burst_s: float, each_s: float) -> None:
+    def __init__(self, burst_s: float, each_s: float, most_debt_s: float = inf) -> None:
+        """most_debt_s: by those that wait."""
         self._burst_s = self._left_s = burst_s
-        self._each_s = each_s
+        self._each_s, self._least_s = each_s, -most_debt_s
         self._at: Optional[float] = None
 
     def wait_s(self, now: float) -> float:
         """Return how long [s] one more has to wait; it costs each_s."""
         gained = 0.0 if self._at is None else max(0.0, now - self._at) * SHARE
         left_s, self._at = min(self._burst_s, self._left_s + gained), now
-        self._left_s = left_s - self._each_s
+        self._left_s = max(self._least_s, left_s - self._each_s)
         return max(0.0, -left_s / SHARE)
 
     def spend(self, seconds: float) -> None:

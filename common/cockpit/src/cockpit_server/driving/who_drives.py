@@ -37,7 +37,7 @@ class Driving(Source):
         self._pages, self._graphs, self._joysticks = pages, graph_watch, joysticks
         self._teleop, self._moves = teleop, moves
         self.session = DriverSession(joysticks.send, self._on_lost)
-        self._player: Player | None = None  # of the recording that was played last
+        self._player: Player | None = None  # It plays a recording, or was the last one.
         self._modes: tuple[str, ...] = ()  # modes that the driving gamepad may have
         self._sat_at = 0.0
         self._beats = 0

@@ -102,9 +102,8 @@ class Bags(Source):
         if opened is None:
             client.refuse("bag_open", why)
             return
-        self.on_bag_pause(
-            client, time.monotonic()
-        )  # what was started meanwhile is not what is shown
+        # What was started meanwhile is not what is shown.
+        self.on_bag_pause(client, time.monotonic())
         self._opened[client.number] = opened
         client.seen.pop("bag_at", None)
 

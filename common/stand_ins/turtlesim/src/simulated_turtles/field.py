@@ -39,7 +39,7 @@ def pixel(place: complex) -> tuple[float, float]:
 class Turtle:
     """A turtle at a place and theta [rad]. Services and their fields are named as upstream's."""
 
-    color: Color = (179, 184, 255)  # of the pen, as upstream's
+    color: Color = (179, 184, 255)  # The pen has upstream's.
     width, is_down = 3, True  # [pixels], whether it draws
     seen: Color  # where it is, before it draws there, as upstream's sensor
 
