@@ -59,7 +59,8 @@ def again(given):
     """Run what failed of all once more, one by one: there may be less beside it."""
     if not (CACHES / ALL).exists():
         sys.exit("tutorial: test again: first run ./tutorial test to its end")
-    only = ["--last-failed", "--last-failed-no-failures", "none", "-n", "1"]
+    # Distributed as before, so that a test of a group has the same name, and nothing else runs.
+    only = ["--last-failed", "--last-failed-no-failures", "none", "-n", "1", "--dist", "loadgroup"]
     return tests(f"unit {TOGETHER}", given, *only, cache=ALL)
 
 

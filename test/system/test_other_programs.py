@@ -142,7 +142,7 @@ def test_a_program_drives_or_prints_what_it_does_on_a_robot(row, places):
         return enough and re.search(row.prints, it.output)
 
     with place.start(row.beside), place.start(f"rosrun others {row.command}") as it:
-        wait_for(done, f"effect of {row.command}", 60)
+        wait_for(done, f"effect of {row.command}", 60, lambda: it.output)
         assert "Traceback" not in it.output
     if row.robot == "rbx1":  # obeys the last command until the next one
         place.run("rostopic pub -1 cmd_vel geometry_msgs/Twist '{}'")
