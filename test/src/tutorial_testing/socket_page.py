@@ -83,6 +83,7 @@ class SocketPage(Started):
         except HTTPClientError as error:
             self.refusal = error.code
             return
+        self._socket.protocol.set_nodelay(True)  # as browsers do
         self._tasks = [asyncio.ensure_future(self._read()), asyncio.ensure_future(self._send())]
 
     async def _read(self):

@@ -84,7 +84,7 @@ class Hub:
         except (ValueError, RefusedError) as error:
             client.refuse(kind, str(error))
         if not self._driving.is_driver(client):
-            self._messages.spend(time.thread_time() - began_s - limits.MESSAGE_S)
+            self._messages.spend(time.thread_time() - began_s)
 
     def _on_watch(self, client: Client, _now: float, **fields: Any) -> None:
         # What the page was sent it keeps, whichever tab it shows; a new connection is a new client.

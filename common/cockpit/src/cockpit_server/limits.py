@@ -18,7 +18,7 @@ SEND_BUFFER = 65536
 # [part of the thread] each of: messages of pages that do not drive, what pages are sent, HTTP.
 SHARE = 0.15
 SENDING_BURST_S = 0.003  # The driver waits so long for what is sent to pages, one after the other.
-MESSAGE_S = 0.0005  # paid before a message is read: those that wait do not come all at once
+MESSAGE_S = 0.0005  # reading a message, before it is known what it costs
 MESSAGES_BURST_S = 0.005  # The driver waits so long for messages of others.
 REQUEST_S = 0.002  # answering an HTTP request; measured: 1 to 2 ms
 REQUESTS_BURST_S = 0.5  # Ten pages load at once, each 25 files.
