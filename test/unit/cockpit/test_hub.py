@@ -79,6 +79,15 @@ def test_page_waits_for_what_messages_cost_unless_it_drives(clock, monkeypatch):
     assert (hub.wait_s(guest) > 1.0, hub.wait_s(driver)) == (True, 0.0)
 
 
+def test_page_waits_for_what_reading_its_messages_costs(clock):
+    hub = Made()
+    guest, _ = hub.opened()
+    for _ in range(300):  # in no time
+        wait_s = hub.wait_s(guest)
+        hub.hear(guest, "no message")
+    assert 0.9 < wait_s < 1.1
+
+
 def test_a_page_that_is_behind_gets_the_newest_once_it_has_read(clock):
     hub = Made(Well())
     client, sent = hub.opened()
