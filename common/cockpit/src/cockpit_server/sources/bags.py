@@ -18,11 +18,10 @@ LOOK_S = 2.0  # how often the folder is looked at for recordings, while a page s
 
 
 class Opened:
-    """What one page has opened. message: what it is sent of it."""
+    """What one page has opened."""
 
-    def __init__(self, name: str, recording: Recording, message: str) -> None:
-        self.name, self.recording, self.message = name, recording, message
-        self.position, self.topic = 0.0, ""
+    def __init__(self, recording: Recording) -> None:
+        self.recording, self.position, self.topic = recording, 0.0, ""
         self.player: Player | None = None
 
 
@@ -67,7 +66,7 @@ class Bags(Source):
         if opened is None:
             return
         if client.take_if_new("bag", opened):
-            client.write(opened.message)
+            client.write(opened.recording.message)
         if opened.player:
             opened.position = opened.player.position(now)
         if not self._driving.plays(opened.player):
@@ -90,7 +89,7 @@ class Bags(Source):
             path = recordings(client.drives).get(name)
             if path is None:
                 raise BagError(f"{name!r} is none of the recordings that may be opened here")
-            opened = Opened(name, *self._shelf.take(path))
+            opened = Opened(self._shelf.take(path))
         except BagError as error:
             why = str(error)
         except Exception as error:  # whatever is in the file, the page gets the reason
@@ -111,7 +110,7 @@ class Bags(Source):
         self, client: Client, now: float, *, topic: str, rate: float, loop: bool, robot: str
     ) -> None:
         opened = self._must_be_open(client)
-        kind = opened.recording.topics.get(topic, ("",))[0]
+        kind = opened.recording.types.get(topic)
         if not kind:
             raise RefusedError(f"the recording has no topic {topic!r}")
         if kind != JOY:

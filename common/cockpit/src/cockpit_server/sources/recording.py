@@ -22,20 +22,12 @@ MOST_KEPT = 20  # recordings
 
 
 class Recording(NamedTuple):
-    """What is in a bag; times are [s since 1970]."""
+    """What is in a bag."""
 
-    start: float
-    end: float
-    topics: dict[str, tuple[str, int]]  # name -> (type, number of messages)
+    duration: float  # [s]
+    types: dict[str, str]  # of topics
     joys: dict[str, list[Message]]  # topic -> [(time since the start [s], axes, buttons)]
-
-    @property
-    def duration(self) -> float:
-        return self.end - self.start
-
-    @property
-    def messages(self) -> int:
-        return sum(map(len, self.joys.values()))
+    message: str  # what pages get of it
 
 
 def read(path: Path) -> Recording:
@@ -45,23 +37,20 @@ def read(path: Path) -> Recording:
         if path.is_file() and path.stat().st_size > LARGEST:
             raise BagError(f"{name}: larger than {LARGEST // 1_000_000} MB: use rosbag play")
         with opened(path) as bag:
-            return _read(bag, name)
+            topics = sorted(bag.get_type_and_topic_info().topics.items())
+            if not topics:
+                raise BagError(f"{name}: is empty")
+            joys: dict[str, list[Message]] = {t: [] for t, one in topics if one.msg_type == JOY}
+            if sum(one.message_count for topic, one in topics if topic in joys) > MOST_MESSAGES:
+                raise BagError(f"{name}: too long: use rosbag play")
+            start, end = bag.get_start_time(), bag.get_end_time()
+            for topic, joy, stamp in bag.read_messages(topics=list(joys)) if joys else ():
+                joys[topic].append((stamp.to_sec() - start, joy.axes, joy.buttons))
     except BagError as error:
         raise BagError(str(error).replace(str(path), name)) from None
-
-
-def _read(bag: Any, name: str) -> Recording:
-    info = bag.get_type_and_topic_info().topics
-    topics = {topic: (one.msg_type, one.message_count) for topic, one in info.items()}
-    if not topics:
-        raise BagError(f"{name}: is empty")
-    joys: dict[str, list[Message]] = {t: [] for t in sorted(topics) if topics[t][0] == JOY}
-    if sum(topics[topic][1] for topic in joys) > MOST_MESSAGES:
-        raise BagError(f"{name}: too long: use rosbag play")
-    start = bag.get_start_time()
-    for topic, joy, stamp in bag.read_messages(topics=list(joys)) if joys else ():
-        joys[topic].append((stamp.to_sec() - start, joy.axes, joy.buttons))
-    return Recording(start, bag.get_end_time(), topics, joys)
+    rows = [{"name": t, "type": one.msg_type, "count": one.message_count} for t, one in topics]
+    message = encoded("bag", path=name, start=start, end=end, topics=rows, curves=curves(joys))
+    return Recording(end - start, {t: one.msg_type for t, one in topics}, joys, message)
 
 
 def curves(joys: dict[str, list[Message]]) -> dict[str, list[Point]]:
@@ -102,27 +91,24 @@ class Shelf:
     """The recordings that were read. Used by one thread, except in_use."""
 
     def __init__(self) -> None:
-        # what the file is -> (Recording, message of it to pages); the last one was taken last
-        self._read: dict[Any, tuple[Recording, str]] = {}
+        self._read: dict[Any, Recording] = {}  # by what the file is; the last one was taken last
         self.in_use: Sequence[Recording] = ()  # that pages have open; replaced, never changed
 
-    def take(self, path: Path) -> tuple[Recording, str]:
-        """Return (Recording, message) of a file. Raises BagError."""
+    def take(self, path: Path) -> Recording:
+        """Return the Recording of a file. Raises BagError."""
         try:
             about = path.stat()
         except OSError as error:
             raise BagError(f"{path.name}: cannot be read: {error.strerror}") from None
         key = (path, about.st_mtime_ns, about.st_size)
-        # Before anything changes: what cannot be shown is not opened.
-        taken = self._read.get(key) or _with_message(read(path), path.name)
-        self._read.pop(key, None)
+        taken = self._read.pop(key, None) or read(path)
         self._read[key] = taken
-        self._make_room(taken[0])
+        self._make_room(taken)
         return taken
 
     def _make_room(self, newest: Recording) -> None:
         used = {id(one) for one in (*self.in_use, newest)}
-        unused = [key for key, (one, _) in self._read.items() if id(one) not in used]
+        unused = [key for key, one in self._read.items() if id(one) not in used]
         while unused and (len(self._read) > MOST_KEPT or self._has_too_many()):
             del self._read[unused.pop(0)]
         if self._has_too_many() and len(self._read) > 1:
@@ -130,15 +116,5 @@ class Shelf:
             raise BagError("other pages have long recordings open: close one of them")
 
     def _has_too_many(self) -> bool:
-        return sum(one.messages for one, _ in self._read.values()) > MOST_MESSAGES
-
-
-def _with_message(recording: Recording, name: str) -> tuple[Recording, str]:
-    topics = [
-        {"name": topic, "type": kind, "count": count}
-        for topic, (kind, count) in sorted(recording.topics.items())
-    ]
-    return recording, encoded(
-        "bag", path=name, start=recording.start, end=recording.end, topics=topics,
-        curves=curves(recording.joys),
-    )  # fmt: skip
+        recorded = [joys for one in self._read.values() for joys in one.joys.values()]
+        return sum(map(len, recorded)) > MOST_MESSAGES
