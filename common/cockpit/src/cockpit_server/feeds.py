@@ -6,7 +6,6 @@ which each listener decodes as far as needed.
 
 from __future__ import annotations
 
-import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
@@ -14,13 +13,13 @@ from typing import Any, Callable, Hashable, Mapping
 
 import numpy as np
 import rospy
-from genpy import DeserializationError
 
 from cockpit_server.guard import Guard
 
 PERIOD_S = 0.05  # how often a topic is read of which only the newest message is wanted
 # One thread for all questions to the master that may wait: they are asked one after the other.
 _worker = ThreadPoolExecutor(1, thread_name_prefix="to_the_master")
+_queued: set[Callable[[], Any]] = set()  # by later_once()
 
 
 def later(action: Callable[..., Any], *arguments: Any) -> None:
@@ -35,32 +34,27 @@ def later(action: Callable[..., Any], *arguments: Any) -> None:
     _worker.submit(do)
 
 
+def later_once(action: Callable[[], Any]) -> None:
+    """Do it later, too, but queue the same action once, however often it is requested."""
+
+    def do() -> None:
+        _queued.discard(action)
+        action()
+
+    if action not in _queued:
+        _queued.add(action)
+        later(do)
+
+
 def read(kind: Any, data: bytes, longest: float = float("inf"), as_arrays: bool = False) -> Any:
     """Return a message of a kind from at most so many bytes; None if malformed.
 
     as_arrays: its lists of numbers are arrays of numpy, which is fast for a map or a scan.
     """
-    with suppress(DeserializationError, ValueError):
+    with suppress(Exception):  # whatever the bytes make a message class do
         if len(data) <= longest:
             return kind().deserialize_numpy(data, np) if as_arrays else kind().deserialize(data)
     return None
-
-
-class OnceLater:
-    """An action for later(), queued once however often it is requested."""
-
-    def __init__(self, action: Callable[[], Any]) -> None:
-        self._action = action
-        self._waits = threading.Event()
-
-    def __call__(self) -> None:
-        if not self._waits.is_set():
-            self._waits.set()
-            later(self._do)
-
-    def _do(self) -> None:
-        self._waits.clear()
-        self._action()
 
 
 class Raw(rospy.AnyMsg):
@@ -84,7 +78,6 @@ class Feeds:
         self._listeners: dict[str, list[Hear]] = {}
         self._wanted: frozenset[tuple[str, bool]] = frozenset()  # as in _wants
         self._subscribers: dict[tuple[str, bool], Any] = {}
-        self._adjust_later = OnceLater(self._adjust)
 
     def set_subscriptions(self, owner: Hashable, handlers: Mapping[str, Hear], every: bool) -> None:
         """Have hear(message, topic) called for these topics, {topic: hear}, and for no others that
@@ -101,7 +94,7 @@ class Feeds:
             complete |= set(wanted) if wants_all else set()
         self._listeners = listeners
         self._wanted = frozenset((topic, topic in complete) for topic in listeners)
-        self._adjust_later()
+        later_once(self._adjust)
 
     def _adjust(self) -> None:
         wanted = self._wanted

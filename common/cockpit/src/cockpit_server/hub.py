@@ -33,7 +33,7 @@ class Hub:
         self._handlers: dict[str, Callable[..., None]] = {WATCH: self._on_watch}
         for one in sources:
             self._handlers.update({kind: getattr(one, f"on_{kind}") for kind in one.messages})
-        self._numbers = itertools.count(1)
+        self.numbers = itertools.count(1)  # of pages
         self._messages = limits.Budget(limits.MESSAGES_BURST_S, limits.MESSAGE_S)
         self._sending = limits.Budget(limits.SENDING_BURST_S, 0.0)
         self._requests = limits.Budget(  # HTTP
@@ -41,9 +41,6 @@ class Hub:
         )
         self._due: deque[int] = deque()  # pages whose turn it is to be sent something
         self._may_beat = Throttle(1 / BEAT_S, burst=1.5)  # even, though the ticks are not
-
-    def number(self) -> int:
-        return next(self._numbers)
 
     def make_room(self, drives: bool) -> bool:
         """Return whether one more page may be opened; the oldest viewer makes room for a driver."""

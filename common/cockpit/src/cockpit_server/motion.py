@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import atan2, hypot, isfinite
+from math import atan2, hypot
 from typing import NamedTuple
 
 from nav_msgs.msg import Odometry
@@ -26,11 +26,6 @@ def motion(odometry: Odometry) -> Motion:
     at, q, twist = odometry.pose.pose.position, odometry.pose.pose.orientation, odometry.twist.twist
     yaw = atan2(2 * (q.w * q.z + q.x * q.y), q.w * q.w + q.x * q.x - q.y * q.y - q.z * q.z)
     return Motion(at.x, at.y, yaw, twist.linear.x, twist.angular.z)
-
-
-def is_somewhere(state: Motion) -> bool:
-    finite = isfinite(state.x) and isfinite(state.y) and isfinite(state.yaw)
-    return finite and max(abs(state.x), abs(state.y)) <= FARTHEST_M
 
 
 def covered(last: Motion, new: Motion, so_far: float) -> float:

@@ -86,11 +86,10 @@ def leave_to_other(port: int, lan: bool) -> NoReturn:
 
 
 def wait_for_master() -> None:
-    uri, is_reported = rosgraph.get_master_uri(), False
+    uri = rosgraph.get_master_uri()
+    if call(uri, "getPid")[0] is Answer.REFUSED:
+        report(f"waiting for a ROS master at {uri}: start roscore, or a launch file")
     while call(uri, "getPid")[0] is Answer.REFUSED:
-        if not is_reported:
-            report(f"waiting for a ROS master at {uri}: start roscore, or a launch file")
-            is_reported = True
         time.sleep(LOOK_S)
 
 

@@ -62,13 +62,11 @@ class _Guarded(RequestHandler):
 
     @property
     def hub(self) -> Hub:
-        hub: Hub = self.settings["hub"]
-        return hub
+        return self.settings["hub"]
 
     @property
     def access(self) -> Access:
-        access: Access = self.settings["access"]
-        return access
+        return self.settings["access"]
 
     @property
     def address(self) -> str:
@@ -141,7 +139,7 @@ class _Socket(_Guarded, WebSocketHandler):
         self.settings["pages"].add(self.stream)
         self.bound_reads()
         self.client = Client(
-            self.hub.number(), str(self.role), self.address, self.send, self.stream.writing,
+            next(self.hub.numbers), str(self.role), self.address, self.send, self.stream.writing,
             self.is_cut, self.stream.close,
         )  # fmt: skip
         self.hub.join(self.client)

@@ -11,7 +11,7 @@ from sensor_msgs.msg import Joy
 
 from cockpit_server.clients import Client, Source
 from cockpit_server.driving.driver_session import Axes, Buttons
-from cockpit_server.feeds import Feeds, OnceLater, Raw, read
+from cockpit_server.feeds import Feeds, Raw, later_once, read
 from cockpit_server.graph import topic_of
 from cockpit_server.graph_watch import GraphWatch
 from cockpit_server.schema import or_null, text
@@ -42,7 +42,6 @@ class Joysticks(Source):
         self._feeds, self._graphs, self._own_name = feeds, graph_watch, own_name
         self._driven: str | None = None  # the robot that is driven from a page
         self._publishers: dict[str, PromptPublisher] = {}  # by robot; at most one
-        self._keep_later = OnceLater(self._keep)
         self._trembling = Trembling()
         self._message = Joy()
         self._message.header.frame_id = FRAME
@@ -54,7 +53,7 @@ class Joysticks(Source):
         """Advertise the topic of this robot only (None: of none): the graph shows what drives."""
         if robot != self._driven:
             self._driven = robot
-            self._keep_later()
+            later_once(self._keep)
 
     def _keep(self) -> None:
         robot = self._driven

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 
-from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from diagnostic_msgs.msg import DiagnosticArray
 
 from cockpit_server.driving.words import Report
 from cockpit_server.feeds import Feeds, Raw, read
@@ -15,21 +15,6 @@ MARK = ": joystick"  # the end of the name of joy2twist's status; before it stan
 SILENT_S = 4.0  # it publishes once a second
 SILENT = Report("silent", "no report from joy2twist for 4 s")
 DEADMAN = "Dead-man button"  # key of the value that names it, or "none"
-
-
-def said(data: bytes) -> list[tuple[str, Report]]:
-    """Return [(robot, Report)] of the bytes of a DiagnosticArray."""
-    if MARK.encode() not in data:
-        return []
-    statuses = (read(DiagnosticArray, data) or DiagnosticArray()).status
-    found = [status for status in statuses if status.name.endswith(MARK)]
-    return [(robot_of(f"/{one.name[: -len(MARK)]}"), report_of(one)) for one in found]
-
-
-def report_of(status: DiagnosticStatus) -> Report:
-    state = status.message.partition(":")[0].partition(" ")[0]
-    button = {pair.key: pair.value for pair in status.values}.get(DEADMAN)
-    return Report(state, status.message, button)
 
 
 class Teleop:
@@ -51,5 +36,11 @@ class Teleop:
             self._reports[robot] = outdated, came
 
     def _hear(self, message: Raw, _topic: str) -> None:
-        for robot, report in said(message.data):
-            self._reports[robot] = report, time.monotonic()
+        found = read(DiagnosticArray, message.data) if MARK.encode() in message.data else None
+        for status in found.status if found else ():
+            if status.name.endswith(MARK):
+                robot = robot_of(f"/{status.name[: -len(MARK)]}")
+                state = status.message.partition(":")[0].partition(" ")[0]
+                button = {pair.key: pair.value for pair in status.values}.get(DEADMAN)
+                report = Report(state, status.message, button)
+                self._reports[robot] = report, time.monotonic()

@@ -8,7 +8,7 @@ import sys
 import threading
 import time
 from pathlib import Path
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import rospkg
 
@@ -34,38 +34,33 @@ class Doctor(Source):
     messages: ClassVar = {"doctor": {}}
 
     def __init__(self) -> None:
-        self._lines: list[dict[str, str]] = []
-        self._running, self._version = False, 0
+        self._said: dict[str, Any] = {}  # what pages get of the newest run
         self._ended_at = -math.inf  # [s] end of the last run
 
     def send_to(self, client: Client, now: float) -> None:
-        if self._version and client.take_if_new("doctor", self._version):
-            client.send("doctor", lines=self._lines, running=self._running)
+        if self._said and client.take_if_new("doctor", self._said):
+            client.send("doctor", **self._said)
 
     def on_doctor(self, client: Client, now: float) -> None:
+        client.seen.pop("doctor", None)  # It gets an answer even if that has not changed.
         may = client.drives or now - self._ended_at > FRESH_S
-        if not may:
-            client.seen.pop("doctor", None)
-        if may and not self._running:
-            self._running, self._lines = True, []
-            self._version += 1
+        if may and not self._said.get("running"):
+            self._said = {"lines": [], "running": True}
             threading.Thread(target=self._run, daemon=True).start()
 
     def _run(self) -> None:
         try:
-            self._listen()
+            script = Path(rospkg.RosPack().get_path("tutorial_tools")) / "scripts" / "doctor.py"
+            with subprocess.Popen(
+                [*COMMAND, sys.executable, str(script)], stdin=subprocess.DEVNULL,
+                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace",
+            ) as program:  # fmt: skip
+                for line in program.stdout or ():
+                    self._add(line)
         except Exception as error:  # whatever keeps it from running; the next run may go well
-            self._lines = [*self._lines, shown(f"wrong doctor {type(error).__name__}: {error}")]
+            self._add(f"wrong doctor {type(error).__name__}: {error}")
         finally:
-            self._running, self._ended_at = False, time.monotonic()
-            self._version += 1
+            self._said, self._ended_at = {**self._said, "running": False}, time.monotonic()
 
-    def _listen(self) -> None:
-        script = Path(rospkg.RosPack().get_path("tutorial_tools")) / "scripts" / "doctor.py"
-        with subprocess.Popen(
-            [*COMMAND, sys.executable, str(script)], stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace",
-        ) as program:  # fmt: skip
-            for line in program.stdout or ():
-                self._lines = [*self._lines, shown(line)]
-                self._version += 1
+    def _add(self, line: str) -> None:
+        self._said = {**self._said, "lines": [*self._said["lines"], shown(line)]}

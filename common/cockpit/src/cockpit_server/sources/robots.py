@@ -12,7 +12,7 @@ from cockpit_server.clients import Client, Source, encoded
 from cockpit_server.feeds import Feeds, Raw, read
 from cockpit_server.graph import ODOMETRY, topic_of
 from cockpit_server.graph_watch import GraphWatch
-from cockpit_server.motion import Motion, covered, is_somewhere, motion
+from cockpit_server.motion import FARTHEST_M, Motion, covered, motion
 from cockpit_server.schema import switch
 
 DIGITS = 4  # after the point [m]: a tenth of a millimetre
@@ -103,7 +103,9 @@ class Robots(Source):
 
 def place(state: Motion) -> dict[str, float]:
     """Return where a robot is [m, rad], as pages get it; {} if that is no place."""
-    at = {"x": state.x, "y": state.y, "yaw": state.yaw} if is_somewhere(state) else {}
+    at = {"x": state.x, "y": state.y, "yaw": state.yaw}
+    if not all(map(isfinite, at.values())) or max(abs(state.x), abs(state.y)) > FARTHEST_M:
+        return {}
     return {name: round(value, DIGITS) for name, value in at.items()}
 
 

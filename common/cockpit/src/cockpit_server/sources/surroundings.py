@@ -117,5 +117,4 @@ def scan_points(data: bytes, mounts: dict[str, tuple[float, float]]) -> list[lis
     is_seen = np.isfinite(ranges + angles) & (ranges >= scan.range_min) & (ranges <= scan.range_max)
     ranges, angles = ranges[is_seen], angles[is_seen]
     ends = np.stack((x + ranges * np.cos(angles), y + ranges * np.sin(angles)), axis=1)
-    points: list[list[float]] = ends[:: len(ends) // MOST_POINTS + 1].round(DIGITS).tolist()
-    return points
+    return ends[:: len(ends) // MOST_POINTS + 1].round(DIGITS).tolist()
