@@ -7,7 +7,6 @@ import pytest
 from cockpit_server import graph_watch
 from cockpit_server.clients import RefusedError
 from cockpit_server.graph import JOY, ODOMETRY, Graph, without
-from cockpit_server.sources.resets import reset_service
 from node_kit.ros_api import Answer
 
 GRAPH = Graph(
@@ -22,10 +21,10 @@ GRAPH = Graph(
 
 
 def test_reset_is_of_one_robot():
-    assert reset_service(GRAPH, "") == "/sim/reset"
-    assert reset_service(GRAPH, "robot_2") == "/robot_2/reset"
+    assert GRAPH.reset_service("") == "/sim/reset"
+    assert GRAPH.reset_service("robot_2") == "/robot_2/reset"
     with pytest.raises(RefusedError, match="robot_1 has no service"):
-        reset_service(GRAPH, "robot_1")  # the node's own would reset both
+        GRAPH.reset_service("robot_1")  # the node's own would reset both
 
 
 def test_robots_hear_a_joystick_or_have_an_odometry():

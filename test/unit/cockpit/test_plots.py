@@ -8,10 +8,9 @@ import rospy
 from sensor_msgs.msg import Joy
 from std_msgs.msg import Float64, Header
 
-from cockpit_server.fields import parts_of, split, value_at
 from cockpit_server.graph import Graph
 from cockpit_server.sources import plots
-from cockpit_server.sources.plots import fields_of
+from cockpit_server.sources.fields import numbers_of, parts_of, split, value_at
 from tutorial_testing.session_room import Topics, look, page
 
 NOW = 1000.0
@@ -47,13 +46,13 @@ def test_sample_has_its_stamp_or_now_where_that_is_missing_or_of_another_clock(
 
 
 def test_fields_are_all_numbers_of_a_type_seldom_drawn_ones_last():
-    fields = fields_of("nav_msgs/Odometry")
+    fields = numbers_of("nav_msgs/Odometry")
     assert fields[0] == "pose/pose/position/x"
     assert {"header/stamp", "pose/covariance"} < set(fields)
     assert not {"pose/covariance[0]", "header/frame_id"} & set(fields)
-    assert fields_of("sensor_msgs/Joy")[:2] == ("axes", "buttons")  # which may be empty
-    assert "transforms[0]/transform/rotation/w" in fields_of("tf2_msgs/TFMessage")
-    assert fields_of("no_such/Type") == fields_of("std_msgs/String") == ()
+    assert numbers_of("sensor_msgs/Joy")[:2] == ("axes", "buttons")  # which may be empty
+    assert "transforms[0]/transform/rotation/w" in numbers_of("tf2_msgs/TFMessage")
+    assert numbers_of("no_such/Type") == numbers_of("std_msgs/String") == ()
 
 
 @pytest.mark.parametrize(
@@ -81,15 +80,13 @@ def test_of_a_whole_array_pages_get_the_newest_with_a_gap_for_what_is_no_number(
     assert look(source, one) == [[]]
 
 
-@pytest.mark.parametrize("field", ["", "a//b", "a[-1]", "a.b", "/".join("a" * 9), "__class__"])
-def test_malformed_field_is_refused(field):
-    with pytest.raises(ValueError, match="is no field"):
-        parts_of(field)
+@pytest.mark.parametrize("field", ["", "a//b", "a[-1]", "a.b", "__class__"])
+def test_malformed_field_has_no_parts(field):
+    assert parts_of(field) == []
 
 
 def test_topic_of_a_field_is_the_longest_that_fits():
     topics = ["/a", "/a/b", "/c"]
     assert split("/a/b/x", topics) == ("/a/b", "x")
     assert split("/a/x", topics) == ("/a", "x")
-    with pytest.raises(ValueError, match="no topic"):
-        split("/d/x", topics)
+    assert split("/d/x", topics)[0] == ""

@@ -19,9 +19,9 @@ def test_rate_is_right_while_messages_come_and_0_once_they_do_not(monkeypatch, r
         topic.hear(message, "/x")
         if now - looked_at > topics.PERIOD_S:
             looked_at = now
-            topic.measure(now)
+            topic.look("", now)
     assert (topic.rate, topic.bytes_per_s) == pytest.approx((rate, 100 * rate), rel=0.001)
-    topic.measure(now + max(2.0, 3 / rate) + 0.1)
+    topic.look("", now + max(2.0, 3 / rate) + 0.1)
     assert topic.rate == 0
 
 

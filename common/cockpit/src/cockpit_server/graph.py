@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any, Container, Dict, FrozenSet, Iterable, Iterator
 
+from cockpit_server.clients import RefusedError
+
 Column = Dict[str, FrozenSet[str]]
 ODOMETRY, JOY = "nav_msgs/Odometry", "sensor_msgs/Joy"
 
@@ -39,6 +41,18 @@ class Graph:
     def _robots_with(self, end: str, kind: str, column: Column) -> set[str]:
         topics = [topic for topic, nodes in column.items() if nodes and topic.endswith(end)]
         return {robot_of(topic) for topic in topics if self.types.get(topic) == kind}
+
+    def reset_service(self, robot: str) -> str:
+        """Return the service that resets this robot and no other. Raises RefusedError."""
+        own, odometry = topic_of(robot, "reset"), topic_of(robot, "odom")
+        if own in self.services:
+            return own
+        all_of_them = [topic for topic in self.published if topic.endswith("/odom")]
+        for node in sorted(self.publishers.get(odometry, ())):
+            its = [topic for topic in all_of_them if node in self.publishers[topic]]
+            if its == [odometry] and f"{node}/reset" in self.services:
+                return f"{node}/reset"
+        raise RefusedError(f"{robot or 'this robot'} has no service that resets it")
 
     def parts(self) -> dict[str, Any]:
         """Return nodes, topics and edges as pages get them."""

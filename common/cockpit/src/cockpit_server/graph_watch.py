@@ -1,41 +1,47 @@
-"""Asks the master for the graph, once a second."""
+"""Asks the master for the graph, once a second, and sends it to the pages that show it."""
 
 from __future__ import annotations
 
 import threading
 import time
-from typing import Callable
+from typing import Callable, ClassVar
 from urllib.parse import urlsplit
 
 import rosgraph
 
-from cockpit_server.graph import JOY, Column, Graph, topic_of, without
+from cockpit_server.clients import Client, Source, encoded
+from cockpit_server.graph import JOY, Graph, topic_of, without
+from cockpit_server.schema import switch
 from node_kit.ros_api import Answer, call
 
 PERIOD_S = 1.0
 
 
-class GraphWatch:
+class GraphWatch(Source):
     """The newest Graph, without this node except as a joystick; another one after each change."""
+
+    watches: ClassVar = {"graph": (switch, False)}
 
     def __init__(self, own_name: str) -> None:
         self._own_name = own_name
         self._uri = rosgraph.get_master_uri()
-        self.graph = Graph()
+        self.graph, self._text = Graph(), ""  # and its message to pages
         self._is_lost = False
         self._pid: int | None = None  # the master's, once known
         self.look()
 
+    def send_to(self, client: Client, now: float) -> None:
+        if client.watch.graph and self._text and client.take_if_new("graph", self._text):
+            client.write(self._text)
+
     def joysticks(self, robot: str) -> tuple[str, ...]:
         """Return the names of the other nodes that publish a robot's joystick."""
-        return tuple(sorted(self._others(self.graph.publishers, robot)))
+        nodes = self.graph.publishers.get(topic_of(robot, "joy"), frozenset())
+        return tuple(sorted(nodes - {self._own_name}))
 
     def joystick_listeners(self, robot: str) -> frozenset[str]:
         """Return the names of the other nodes that subscribe to a robot's joystick."""
-        return self._others(self.graph.subscribers, robot)
-
-    def _others(self, column: Column, robot: str) -> frozenset[str]:
-        return column.get(topic_of(robot, "joy"), frozenset()) - {self._own_name}
+        return self.graph.subscribers.get(topic_of(robot, "joy"), frozenset())
 
     def start(self, lost: Callable[[], None]) -> None:
         """Look once a second, in a thread. lost: called when the master has gone."""
@@ -69,7 +75,7 @@ class GraphWatch:
         graph = Graph(publishers, subscribers, services, types, parameters=sorted(parameters or []))
         graph.machines.update({n: known.get(n) or self._machine(n) for n in graph.nodes})
         if graph != self.graph:
-            self.graph = graph
+            self.graph, self._text = graph, encoded("graph", **graph.parts())
 
     def _machine(self, node: str) -> str:
         answer, uri = call(self._uri, "lookupNode", node, caller=self._own_name)

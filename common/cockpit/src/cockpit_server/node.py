@@ -22,12 +22,10 @@ from cockpit_server.hub import TICK_S, Hub
 from cockpit_server.sources.bags import Bags
 from cockpit_server.sources.doctor import Doctor
 from cockpit_server.sources.forms import Forms
-from cockpit_server.sources.graph_view import GraphView
 from cockpit_server.sources.logs import Logs
 from cockpit_server.sources.plots import Plots
 from cockpit_server.sources.publishing import Publishing
 from cockpit_server.sources.recorder import Recorder
-from cockpit_server.sources.resets import Resets
 from cockpit_server.sources.robots import Robots
 from cockpit_server.sources.surroundings import Surroundings
 from cockpit_server.sources.topics import Topics
@@ -63,12 +61,10 @@ class Cockpit:
         robots, teleop = Robots(feeds, graphs), Teleop(feeds)
         joysticks = Joysticks(feeds, graphs, name)
         driving = self._driving = Driving(pages, graphs, joysticks, teleop, robots.moves)
-        forms = Forms(driving, self._soon, graphs)
         sources = (
-            robots, joysticks, driving, Resets(driving, forms, graphs), GraphView(graphs),
-            Topics(feeds, graphs), forms, Publishing(driving, graphs), Plots(feeds, graphs),
-            Logs(feeds), Doctor(), Bags(driving, self._soon), Recorder(),
-            Surroundings(feeds, graphs), Turtles(graphs),
+            robots, joysticks, driving, graphs, Topics(feeds, graphs), Plots(feeds, graphs),
+            Forms(driving, self._soon, graphs), Publishing(driving, graphs), Logs(feeds), Doctor(),
+            Bags(driving, self._soon), Recorder(), Surroundings(feeds, graphs), Turtles(graphs),
         )  # fmt: skip
         self._hub = Hub(pages, driving, sources, log.warn)
         self._server = server(self._hub, access)

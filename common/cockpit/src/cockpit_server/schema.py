@@ -11,7 +11,7 @@ from typing import Any, Callable, Mapping, Sequence
 
 from cockpit_server.limits import LONGEST_MESSAGE
 from gamepad.gamepads import F710
-from node_kit.parameters import is_number, is_whole
+from node_kit import parameters
 
 LONGEST_TEXT = 200
 MOST_FIELDS = 20
@@ -22,39 +22,24 @@ MOST_BUTTONS = max(len(pad.buttons) for pad in F710.values())
 WATCH = "watch"
 
 Check = Callable[[Any], Any]
-
-
-def require(fits: Callable[[Any], bool], must: str) -> Check:
-    """Return a check of one rule. must: the rule in words, such as "be 0 or 1"."""
-
-    def check(value: Any) -> Any:
-        if not fits(value):
-            raise ValueError(f"must {must}")
-        return value
-
-    return check
-
-
-whole = require(lambda v: is_whole(v) and 0 <= v <= LARGEST, "be a whole number from 0")
-pressed = require(lambda v: is_whole(v) and v in (0, 1), "be 0 or 1")
-switch = require(lambda v: isinstance(v, bool), "be true or false")
-text = require(
-    lambda v: isinstance(v, str) and len(v) <= LONGEST_TEXT and v.isprintable(),
-    f"be a text of at most {LONGEST_TEXT} characters",
+switch, number = parameters.switch, parameters.number
+whole = parameters.whole_number(0, LARGEST, "a whole number from 0")
+pressed = parameters.whole_number(0, 1, "0 or 1")
+text = parameters.text(
+    f"a text of at most {LONGEST_TEXT} characters",
+    lambda v: len(v) <= LONGEST_TEXT and v.isprintable(),
 )
-# A name of the graph: rospy would put a relative one beside the cockpit.
-full_name = require(lambda v: text(v).startswith("/"), "begin with /")
 
 
-def number(least: float, most: float) -> Check:
-    check = require(
-        lambda v: is_number(v) and least <= v <= most, f"be a number from {least:g} to {most:g}"
-    )
-    return lambda value: float(check(value))
+def full_name(value: Any) -> Any:
+    """Check a name of the graph: rospy would put a relative one beside the cockpit."""
+    if not text(value).startswith("/"):
+        raise ValueError("must begin with /")
+    return value
 
 
 def one_of(*values: str) -> Check:
-    return require(lambda v: isinstance(v, str) and v in values, f"be {', '.join(values)}")
+    return parameters.text(", ".join(values), values.__contains__)
 
 
 def or_null(check: Check) -> Check:
@@ -62,10 +47,11 @@ def or_null(check: Check) -> Check:
 
 
 def list_of(check: Check, most: int) -> Check:
-    is_list = require(
-        lambda v: isinstance(v, list) and len(v) <= most, f"be a list of at most {most}"
+    return parameters.Check(
+        f"a list of at most {most}",
+        lambda v: isinstance(v, list) and len(v) <= most,
+        lambda v: tuple([check(one) for one in v]),
     )
-    return lambda value: tuple([check(one) for one in is_list(value)])
 
 
 MILLISECONDS = number(0, 1e15)

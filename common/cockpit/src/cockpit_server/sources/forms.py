@@ -1,11 +1,11 @@
-"""Services that a driver calls, and parameters that one sets, from a form of the page."""
+"""Services that a driver calls, and parameters that one sets, from a form; resets of robots."""
 
 from __future__ import annotations
 
 import json
 import threading
 from io import BytesIO
-from typing import Any, Callable, ClassVar, Mapping, Sequence
+from typing import Any, Callable, ClassVar, Iterable, Mapping, Sequence
 
 import rospy
 import rosservice
@@ -13,20 +13,20 @@ from genpy.message import fill_message_args
 
 from cockpit_server.clients import Client, RefusedError, Soon, Source
 from cockpit_server.driving.who_drives import Driving
-from cockpit_server.fields import definition, form_fields
 from cockpit_server.graph_watch import GraphWatch
-from cockpit_server.schema import full_name, one_of, require, text
+from cockpit_server.schema import full_name, one_of, text
+from cockpit_server.sources.fields import class_of, definition, form_fields, numbers_of
 from cockpit_server.sources.logs import without_folders
-from cockpit_server.sources.plots import class_of, fields_of
+from node_kit.parameters import Check
 
 MOST_FIELDS = 60  # A form has no more.
 LONGEST_VALUE = 2000  # characters
 LONGEST_ANSWER, LONGEST_LINE = 4000, 200  # characters
 
-TEXTS = require(
+TEXTS = Check(
+    f"at most {MOST_FIELDS} texts of at most {LONGEST_VALUE} characters",
     lambda v: isinstance(v, dict) and len(v) <= MOST_FIELDS
     and all(isinstance(one, str) and len(one) <= LONGEST_VALUE for one in v.values()),
-    f"be at most {MOST_FIELDS} texts of at most {LONGEST_VALUE} characters",
 )  # fmt: skip
 
 
@@ -39,7 +39,7 @@ def filled(kind: Any, texts: Mapping[str, str]) -> Any:
 
     Raises ValueError, one line.
     """
-    types, message = dict(form_fields(kind, class_of)), kind()
+    types, message = dict(form_fields(kind)), kind()
     tree: dict[str, Any] = {}
     for name, written in texts.items():
         if name not in types:
@@ -74,6 +74,7 @@ class Forms(Source):
         "describe": {"what": one_of("message", "service", "parameter"), "name": text},
         "call": {"service": full_name, "values": TEXTS},
         "set": {"parameter": full_name, "values": TEXTS},
+        "reset": {"robot": text},
     }
 
     def __init__(self, driving: Driving, soon: Soon, graph_watch: GraphWatch) -> None:
@@ -87,7 +88,8 @@ class Forms(Source):
             self._ask_master(client, lambda: describe_parameter(name))
         # Of what is there: class_of() remembers each name.
         elif name in self._graphs.graph.types.values() and class_of(name):
-            client.send(**form(name, class_of(name), numbers=fields_of(name)))
+            kind = class_of(name)
+            client.send(**form(name, definition(kind), form_fields(kind), numbers_of(name)))
         else:
             raise RefusedError(f"the package of {name} is not installed here")
 
@@ -102,16 +104,21 @@ class Forms(Source):
             raise RefusedError('write a value, such as 0.5, [1, 2], a text, or "" for an empty one')
         self._ask_master(client, lambda: set_parameter(parameter, values["value"]))
 
+    def on_reset(self, client: Client, _now: float, robot: str) -> None:
+        self._driving.must_rest(client, robot)
+        service = self._graphs.graph.reset_service(robot)
+        self._ask(client, service, lambda: call(service, {}))
+
     def _ask_master(self, client: Client, ask: Callable[[], dict[str, Any]]) -> None:
-        self.ask(client, f"the master, for page {client.number},", ask)
+        self._ask(client, f"the master, for page {client.number},", ask)
 
     def _call(self, client: Client, service: str, ask: Callable[[], dict[str, Any]]) -> None:
         self._driving.must_be_free(client)
         if service not in self._graphs.graph.services:
             raise RefusedError(f"there is no service {service}")
-        self.ask(client, service, ask)
+        self._ask(client, service, ask)
 
-    def ask(self, client: Client, asked: str, ask: Callable[[], dict[str, Any]]) -> None:
+    def _ask(self, client: Client, asked: str, ask: Callable[[], dict[str, Any]]) -> None:
         """Send a client what a service or the master answers. Raises RefusedError."""
         if asked in self._asked:
             raise RefusedError(f"{asked} was called and has not answered yet")
@@ -131,18 +138,17 @@ class Forms(Source):
 
 
 def form(
-    name: str, kind: Any, below: Sequence[str] = (), numbers: Sequence[str] = ()
+    name: str, lines: Iterable[str], fields: Iterable[tuple[str, str]], numbers: Sequence[str] = ()
 ) -> dict[str, Any]:
-    """Return a message with the form of a message class. below: more lines of the definition."""
-    lines, fields = [*definition(kind, class_of), *below], form_fields(kind, class_of)
+    """Return the message with a form. lines: of the definition. fields: (name, type)."""
     about = {"definition": "\n".join(lines), "fields": list(fields)[:MOST_FIELDS]}
     return {"kind": "form", "name": name, "numbers": numbers, **about}
 
 
 def describe_service(name: str) -> dict[str, Any]:
     kind = rosservice.get_service_class_by_name(name)
-    answer = ("---", *definition(kind._response_class, class_of))
-    return form(name, kind._request_class, answer)
+    asked, answer = kind._request_class, kind._response_class
+    return form(name, [*definition(asked), "---", *definition(answer)], form_fields(asked))
 
 
 def call(name: str, values: Mapping[str, str]) -> dict[str, Any]:
@@ -153,8 +159,7 @@ def call(name: str, values: Mapping[str, str]) -> dict[str, Any]:
 
 def describe_parameter(name: str) -> dict[str, Any]:
     value = json.dumps(rospy.get_param(name, None), default=str)[:LONGEST_ANSWER]
-    fields = [("value", "JSON, or a text")]
-    return {"kind": "form", "name": name, "definition": value, "fields": fields, "numbers": []}
+    return form(name, [value], [("value", "JSON, or a text")])
 
 
 def set_parameter(name: str, written: str) -> dict[str, Any]:

@@ -4,40 +4,21 @@ from __future__ import annotations
 
 import threading
 from collections import deque
-from functools import lru_cache
 from itertools import takewhile
 from typing import Any, ClassVar, Sequence, Tuple
 
-import roslib.message
 import rospy
 
 from cockpit_server.clients import Client, Source
-from cockpit_server.feeds import Feeds
-from cockpit_server.fields import numeric_fields, parts_of, split, value_at
+from cockpit_server.feeds import Feeds, read
 from cockpit_server.graph_watch import GraphWatch
 from cockpit_server.schema import MOST_FIELDS, list_of, switch, text
+from cockpit_server.sources.fields import class_of, numbers_of, parts_of, split, value_at
 
 NEAR_S = 1.0  # between a stamp and this clock: curves of two clocks are not side by side
 KEPT = 2000  # samples of a field for a page that is behind; of a whole array the newest
 LONGEST_MESSAGE = 1_000_000  # bytes; a longer one would hold up the driver
 Sample = Tuple[int, float, Any]  # number, time [s], value or values
-
-
-@lru_cache(maxsize=None)
-def class_of(type_name: str) -> Any:
-    """Return the class of a message type, or None if its package is not installed."""
-    try:
-        return roslib.message.get_message_class(type_name)
-    except Exception:  # whatever a package that is half there brings about
-        return None
-
-
-@lru_cache(maxsize=None)
-def fields_of(type_name: str) -> tuple[str, ...]:
-    """Return the names of all numbers in messages of a type, rarely drawn ones last."""
-    kind = class_of(type_name)
-    fields = numeric_fields(kind, class_of) if kind else ()
-    return tuple(sorted(fields, key=lambda field: "header/" in field or "covariance" in field))
 
 
 def newer(samples: deque[Sample], known: int) -> list[list[Any]]:
@@ -55,7 +36,6 @@ class Plots(Source):
         self._feeds, self._graphs = feeds, graph_watch
         self._lock = threading.Lock()
         self._wanted: dict[str, dict[str, Any]] = {}  # topic -> {field: parts}
-        self._classes: dict[str, Any] = {}  # topic -> class of its messages
         self._samples: dict[str, deque[Sample]] = {}
         self._number = 0
         self._fields: list[str] = []
@@ -66,20 +46,18 @@ class Plots(Source):
         wanted: dict[str, dict[str, Any]] = {}
         published, types = self._graphs.graph.published, self._graphs.graph.types
         for field in fields:
-            try:
-                topic, rest = split(field, published)
-                wanted.setdefault(topic, {})[field] = parts_of(rest)
-            except ValueError:
-                continue  # not now; a topic may come later
+            topic, rest = split(field, published)
+            parts = parts_of(rest)
+            if topic and parts:  # else not now; a topic may come later
+                wanted.setdefault(topic, {})[field] = parts
         self._wanted = wanted
         with self._lock:
             self._samples = {f: self._samples.get(f) or deque(maxlen=KEPT) for f in fields}
-        self._classes = {topic: class_of(types.get(topic, "")) for topic in wanted}
         self._feeds.set_subscriptions(self, dict.fromkeys(wanted, self._hear), every=True)
         topics = [(topic, types.get(topic, "")) for topic in published]
         if topics != self._fields_of and any(client.watch.field_list for client in clients):
             self._fields_of = topics
-            self._fields = [f"{topic}/{name}" for topic, kind in topics for name in fields_of(kind)]
+            self._fields = [f"{topic}/{one}" for topic, kind in topics for one in numbers_of(kind)]
 
     def send_to(self, client: Client, now: float) -> None:
         if client.watch.field_list and client.take_if_new("fields", self._fields_of):
@@ -93,12 +71,9 @@ class Plots(Source):
             client.send("plot", samples=new)
 
     def _hear(self, raw: Any, topic: str) -> None:
-        kind = self._classes.get(topic)
-        if kind is None or len(raw.data) > LONGEST_MESSAGE:
-            return
-        try:
-            message = kind().deserialize(raw.data)
-        except Exception:  # whatever the bytes made a message class do
+        kind = class_of(self._graphs.graph.types.get(topic, ""))
+        message = kind and read(kind, raw.data, LONGEST_MESSAGE)
+        if message is None:
             return
         now, header = rospy.get_time(), getattr(message, "header", None)
         stamp = header.stamp.to_sec() if header is not None else now

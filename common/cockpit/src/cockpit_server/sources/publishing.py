@@ -19,8 +19,8 @@ from cockpit_server.feeds import later
 from cockpit_server.graph import JOY
 from cockpit_server.graph_watch import GraphWatch
 from cockpit_server.schema import MILLISECONDS, full_name, number, or_null, text
+from cockpit_server.sources.fields import class_of
 from cockpit_server.sources.forms import TEXTS, filled
-from cockpit_server.sources.plots import class_of
 from node_kit.rospy_patches.prompt_publisher import PromptPublisher
 
 SHORTEST_S, LONGEST_S = 0.02, 10.0  # between two messages

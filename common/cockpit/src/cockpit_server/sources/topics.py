@@ -11,7 +11,7 @@ from cockpit_server.clients import Client, Source
 from cockpit_server.feeds import Feeds
 from cockpit_server.graph_watch import GraphWatch
 from cockpit_server.schema import full_name, list_of, or_null
-from cockpit_server.sources.plots import class_of
+from cockpit_server.sources.fields import class_of
 
 PERIOD_S = 0.25  # between two looks
 LONGEST_TEXT = 4000  # characters of a message
@@ -41,14 +41,12 @@ class Topic:
             self._newest.append((count + 1, message.data))
 
     def look(self, type_name: str, now: float) -> None:
-        """Count and write what has come; call about once in PERIOD_S."""
-        self.measure(now)
+        """Write what has come, and set the rate [Hz] and bytes per second from the times at which
+        messages came; call about once in PERIOD_S.
+        """
         newest, self._newest = self._newest, deque(maxlen=ECHOED)
         self.echo += [(number, text(data, type_name)) for number, data in newest]
         del self.echo[:-ECHOED]
-
-    def measure(self, now: float) -> None:
-        """Set the rate [Hz] and bytes per second from the times at which messages came."""
         last, marks = self._last, self._marks
         if last[1] and (not marks or marks[-1] != last):
             marks.append(last)
@@ -113,9 +111,9 @@ class Topics(Source):
             client.send("rates", rates=rates)
         name = client.watch.topic
         topic = self._topics.get(name)
-        known = client.seen.get("echo", (name, 0))
-        client.seen["echo"] = (name, known[1] if known[0] == name else 0)
-        echo = [one for one in topic.echo if one[0] > client.seen["echo"][1]] if topic else []
+        seen, last = client.seen.get("echo", (name, 0))
+        last = last if seen == name else 0
+        echo = [one for one in topic.echo if one[0] > last] if topic else []
+        client.seen["echo"] = (name, echo[-1][0] if echo else last)
         if echo:
-            client.seen["echo"] = (name, echo[-1][0])
             client.send("topic", name=name, echo=echo)

@@ -1,5 +1,5 @@
 """What is in messages of any type: their definitions, fields, and numbers, by names such as
-pose/position/x or axes[0] (pure).
+pose/position/x or axes[0].
 
 A message class is one that genpy made: __slots__ and _slot_types say what is in it.
 """
@@ -7,69 +7,76 @@ A message class is one that genpy made: __slots__ and _slot_types say what is in
 from __future__ import annotations
 
 import re
+from functools import lru_cache
 from math import isfinite
-from typing import Any, Callable, Iterable, Iterator, Sequence
+from typing import Any, Iterable, Iterator, Sequence
 
-NUMBERS = {
-    "bool", "byte", "char", "float32", "float64", "int16", "int32", "int64", "int8", "uint16",
-    "uint32", "uint64", "uint8", "time", "duration",
-}  # fmt: skip
+import roslib.message
+
 MOST_ENTRIES = 2000  # A longer array is cut.
-DEEPEST = 8
 _CONSTANT = re.compile(r"^\s*(\w+)\s+(\w+)\s*=\s*(.*?)\s*$", re.MULTILINE)
 _PART = re.compile(r"([A-Za-z]\w*)(?:\[(\d{1,6})\])?")
 
 
-def numeric_fields(
-    kind: Any, class_of: Callable[[str], Any], depth: int = DEEPEST
-) -> Iterator[str]:
-    """Yield the names of a class's numbers. class_of: type name -> class or None.
+@lru_cache(maxsize=None)
+def class_of(type_name: str) -> Any:
+    """Return the class of a message type; None of a number, a text, or what is not installed."""
+    try:
+        return roslib.message.get_message_class(type_name) if "/" in type_name else None
+    except Exception:  # whatever a package that is half there brings about
+        return None
+
+
+def slots_of(kind: Any) -> Iterator[tuple[str, str]]:
+    """Return the (name, type) of each field of a class."""
+    return zip(kind.__slots__, kind._slot_types)
+
+
+@lru_cache(maxsize=None)
+def numbers_of(type_name: str) -> tuple[str, ...]:
+    """Return the names of all numbers in messages of a type, rarely drawn ones last.
 
     An array is one name, as only messages have its length; of messages, the first one's numbers.
     """
-    if depth == 0:
-        return
-    for name, slot_type in zip(kind.__slots__, kind._slot_types):
+    names: list[str] = []
+    kind = class_of(type_name)
+    for name, slot_type in slots_of(kind) if kind else ():
         base, is_array, _ = slot_type.partition("[")
-        if base in NUMBERS:
-            yield name
-        elif base != "string":
-            inner, first = class_of(base), f"{name}[0]" if is_array else name
-            inside = numeric_fields(inner, class_of, depth - 1) if inner else ()
-            yield from (f"{first}/{one}" for one in inside)
+        first = f"{name}[0]" if is_array else name
+        names += [f"{first}/{one}" for one in numbers_of(base)]
+        if "/" not in base and base != "string":
+            names.append(name)
+    return tuple(sorted(names, key=lambda name: "header/" in name or "covariance" in name))
 
 
-def definition(kind: Any, class_of: Callable[[str], Any], indent: str = "") -> Iterator[str]:
+def definition(kind: Any, indent: str = "") -> Iterator[str]:
     """Yield the lines that rosmsg show prints."""
     for base, name, value in _CONSTANT.findall(kind._full_text.split("=" * 80)[0]):
         shown = value if base == "string" else value.partition("#")[0].strip()
         yield f"{indent}{base} {name}={shown}"
-    for name, slot_type in zip(kind.__slots__, kind._slot_types):
+    for name, slot_type in slots_of(kind):
         yield f"{indent}{slot_type} {name}"
-        base = slot_type.partition("[")[0]
-        inner = base not in NUMBERS and class_of(base)
+        inner = class_of(slot_type.partition("[")[0])
         if inner:
-            yield from definition(inner, class_of, f"{indent}  ")
+            yield from definition(inner, f"{indent}  ")
 
 
-def form_fields(
-    kind: Any, class_of: Callable[[str], Any], above: str = ""
-) -> Iterator[tuple[str, str]]:
+def form_fields(kind: Any, above: str = "") -> Iterator[tuple[str, str]]:
     """Yield (name, type) of what a form asks for; an array is one field."""
-    for name, slot_type in zip(kind.__slots__, kind._slot_types):
-        inner = slot_type not in NUMBERS and class_of(slot_type)
+    for name, slot_type in slots_of(kind):
+        inner = class_of(slot_type)
         if inner:
-            yield from form_fields(inner, class_of, f"{above}{name}/")
+            yield from form_fields(inner, f"{above}{name}/")
         elif f"{above}{name}" != "header/seq":  # rospy counts
             yield f"{above}{name}", slot_type
 
 
 def parts_of(field: str) -> list[tuple[str, int | None]]:
-    """Return [(name, index or None)] of a field's name. Raises ValueError."""
+    """Return [(name, index or None)] of a field's name, or [] if malformed."""
     words = field.split("/")
     parts = [part for part in map(_PART.fullmatch, words) if part]
-    if len(parts) < len(words) or len(parts) > DEEPEST:
-        raise ValueError(f"{field!r} is no field: write it as pose/position/x or axes[0]")
+    if len(parts) < len(words):
+        return []
     return [(part[1], None if part[2] is None else int(part[2])) for part in parts]
 
 
@@ -98,9 +105,6 @@ def finite(value: Any) -> float | None:
 
 
 def split(field: str, topics: Iterable[str]) -> tuple[str, str]:
-    """Return (topic, rest) of a field of one of the topics. Raises ValueError."""
-    fitting = [topic for topic in topics if field.startswith(f"{topic}/")]
-    if not fitting:
-        raise ValueError(f"{field!r} belongs to no topic that is published")
-    topic = max(fitting, key=len)
+    """Return (topic, rest) of a field of one of the topics; of none, the topic is ""."""
+    topic = max((one for one in topics if field.startswith(f"{one}/")), key=len, default="")
     return topic, field[len(topic) + 1 :]
