@@ -1,8 +1,14 @@
 """The tab Topics, and links to what a tab shows."""
 
 import re
+import signal
 
-from tutorial_testing.waiting import wait_for
+import pytest
+
+from tutorial_testing.cockpit.chromium import Chromium
+from tutorial_testing.waiting import tolerance, wait_for
+
+PERIOD_S, SILENCE_S = 0.05, 0.2  # of what is published, and the silence more that ends it
 
 
 def test_a_link_shows_what_it_names_reload_keeps_it_and_back_goes_back(world, page):
@@ -68,3 +74,25 @@ def test_topics_shows_rates_and_messages_publishes_calls_and_sets(world, page, r
     page.wait_for_text("#topics-definition", "roscpp/Logger[] loggers")
     page.click("Call")
     page.wait_for_text("#topics-answer", "ros.rosout")
+
+
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGSTOP])
+def test_a_page_that_is_killed_or_hangs_publishes_a_zero_and_nothing_more(world, number):
+    with Chromium() as page, world.run("rostopic", "echo", "-p", "/cmd_vel/linear/x") as echo:
+        page.open(f"{world.address}#topics/cmd_vel")
+        wait_for(lambda: page.all("[name='linear/x']"), "form")
+        page.one("[name='linear/x']").send_keys("0.1")
+        page.one("#topics-rate").send_keys(str(1 / PERIOD_S))
+
+        def is_heard():
+            if page.text("#topics-send") == "Publish":  # a busy machine ends it
+                page.press("#topics-send")
+            return echo.output.endswith(",0.1\n") and world.moves
+
+        wait_for(is_heard, "motion")
+        late_s, lost_at = tolerance(), page.signal(number)
+        world.wait_for_rest()
+        bound_s = PERIOD_S + SILENCE_S + late_s()
+        assert world.stays_at_rest()
+        published_at, speed = map(float, echo.output.split()[-1].split(","))
+        assert speed == 0.0 and published_at / 1e9 - lost_at < bound_s
