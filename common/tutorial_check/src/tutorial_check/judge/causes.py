@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Collection
 
 from tutorial_check.source.debian_packages import MODULES, advice, package_of_module
-from tutorial_check.source.python2 import porting
 from tutorial_check.source.python_facts import PythonFacts
 
 # The messages of the handout, and what else its packages are often asked for: the package of each.
@@ -22,6 +21,7 @@ HOMES = {
 FILE = Path(__file__).with_suffix(".txt")
 UNDEFINED = r"name '(\w+)' is not defined"
 NO_VECTOR = r"'(?:float|int)' object has no attribute '[xyz]'"  # where one should be
+ROW = re.compile(r"((?:\S.*\n)+)((?: .*\n)+)")  # of causes.txt: patterns, and what is said of each
 # Where a name is another module than was meant.
 NOT_MEANT = re.compile(
     r"module '(\w+)[\w.]*' has no attribute|from (?:partially initialized module )?'(\w+)[\w.]*'"
@@ -33,38 +33,36 @@ COMMON = [*MODULES.split(), *HOMES.values(), "nav_msgs", "rospy", "roslib", "mat
 
 def _table() -> dict[str, list[tuple[str, list[str]]]]:
     """Return {section: [(pattern, what is said)]} of causes.txt."""
-    found: dict[str, list[tuple[str, list[str]]]] = {}
-    for part in FILE.read_text(encoding="utf-8").strip().split("\n\n")[1:]:
-        head, *lines = part.replace("MESSAGE", "|".join(HOMES)).split("\n")
-        rows = found[head[1 : head.index("]")]] = []
-        for line in lines:
-            if line.startswith(" "):
-                rows[-1][1].append(line.strip())
-            else:
-                rows.append((line, []))
-    return found
+    text = FILE.read_text(encoding="utf-8").replace("MESSAGE", "|".join(HOMES))
+    parts = (part.partition("\n") for part in text.strip().split("\n\n")[1:])
+    return {
+        head[1 : head.index("]")]: [
+            (pattern, re.findall(r"\S.*", words))
+            for patterns, words in ROW.findall(f"{rows}\n")
+            for pattern in patterns.splitlines()
+        ]
+        for head, _, rows in parts
+    }
 
 
 TABLE = _table()
 
 
-def explained(section: str, text: str) -> list[str]:
+def explained(section: str, text: str, file: str = "") -> list[str]:
     """Return what is said of the first pattern of a section that is in a text; empty if none is."""
     for pattern, words in TABLE[section]:
         found = re.search(pattern, text)
         if found:
             about = {name: value for name, value in found.groupdict().items() if value}
             home = HOMES.get(about.get("m", ""))
-            return [each.format(home=home, **about) for each in words]
+            return [each.format(home=home, file=file, **about) for each in words]
     return []
 
 
 def explain(error: str, text: str = "", file: str = "FILE", section: str = "python") -> str:
-    """Return what an error most often means here, in a line of that text of a file; or empty.
-
-    section: syntax if Python cannot read the line.
-    """
-    hint = porting(error, text, file) or "".join(explained(section, f"{error}\n{text}"))
+    """Return what an error most often means, in a line of a file; or "". section: syntax, or python."""
+    both = f"{error}\n{text}"
+    hint = "".join(explained("python2", both, file) or explained(section, both))
     found = re.search(r"No module named '([^'.]+)'", error)
     if hint or not found:
         return hint
@@ -83,10 +81,7 @@ def with_import(line: str, message: str, facts: PythonFacts) -> str:
 
 
 def traced(error: str, line: int, facts: PythonFacts) -> tuple[int, str]:
-    """Return (line to blame, what to do) as far as the program's text shows it; else (line, "").
-
-    line: where the error came up, or 0.
-    """
+    """Return (line to blame, what to do) as far as the text shows it; line: of the error, or 0."""
     for name, (place, value) in facts.attributes.items():
         part = {"linear": "x", "angular": "z"}.get(name.rpartition(".")[2])
         if part and not value.endswith("()") and re.search(NO_VECTOR, error):
