@@ -51,15 +51,20 @@ class Wrong(Exception):
     look: str = ""  # a command that shows it, if not that of the check
 
 
-def master_gone(where: str = "") -> Wrong:
-    """Return the Wrong for a program that ends the master."""
-    seen = "it no longer answers: a program of yours has ended it"
-    hint = "a node ends itself (rospy.signal_shutdown), never the master"
-    return Wrong("the ROS master is left alone", seen, where, hint, sure=True)
-
-
 MASTER_GONE, MULTIPLIES, CANNOT_START = "master gone", "multiplies", "cannot start"
 UNREADABLE, NO_TYPE = "unreadable package.xml", "no such type"
+# {kind of a CutShort: what is expected, what was seen, what to do}; all but CANNOT_START are sure.
+CUT_SHORT = {
+    MASTER_GONE: ("the ROS master is left alone",
+        "it no longer answers: a program of yours has ended it",
+        "a node ends itself (rospy.signal_shutdown), never the master"),
+    MULTIPLIES: ("a program that is one process, or a few", "it starts itself again and again: {}",
+        "where does it call os.fork, or start programs?"),
+    NO_TYPE: ("messages and services as they are asked for", "{}",
+        "rosmsg show, or rossrv show, after catkin_make; CMakeLists.txt lists its file"),
+    CANNOT_START: ("a program that can be started", "{}",
+        "look at the first line of the file: #!/usr/bin/env python3"),
+}  # fmt: skip
 
 
 @dataclass
@@ -69,20 +74,11 @@ class CutShort(Exception):
     kind: str
     seen: str = ""
 
-    def as_wrong(self) -> Wrong:
+    def as_wrong(self, where: str = "") -> Wrong:
         """Return the Wrong for it."""
-        if self.kind == MASTER_GONE:
-            return master_gone()
-        if self.kind == MULTIPLIES:
-            seen = f"it starts itself again and again: {self.seen}"
-            hint = "where does it call os.fork, or start programs?"
-            return Wrong("a program that is one process, or a few", seen, hint=hint, sure=True)
-        if self.kind == NO_TYPE:
-            expected = "messages and services as they are asked for"
-            hint = "rosmsg show, or rossrv show, after catkin_make; CMakeLists.txt lists its file"
-            return Wrong(expected, self.seen, hint=hint, sure=True)
-        hint = "look at the first line of the file: #!/usr/bin/env python3"
-        return Wrong("a program that can be started", self.seen, hint=hint)
+        kind = self.kind if self.kind in CUT_SHORT else CANNOT_START
+        expected, seen, hint = CUT_SHORT[kind]
+        return Wrong(expected, seen.format(self.seen), where, hint, kind != CANNOT_START)
 
 
 class CannotCheck(Exception):
@@ -131,11 +127,10 @@ class Run:
         second_look: Callable[[bool], bool] = lambda explained: False,
         too_busy: Callable[[], bool] = lambda: False,
     ) -> None:
-        """session: what the functions of the checks, which are in order, take.
+        """checks: in order. session: what their functions take.
 
-        second_look(explained): whether to make a check that does not hold again; asked once.
-        explained: whether a line of the student's is to blame.
-        too_busy(): whether it says nothing if it does not hold then, either.
+        second_look(whether a line of the student's is to blame): whether to make a check that does
+        not hold again. too_busy(): whether it says nothing if it does not hold then, either.
         """
         self._checks = {check.id: check for check in checks}
         self._session = session
@@ -159,12 +154,9 @@ class Run:
         """
         is_wrong = False
         for check in self._of(exercise):
-            culprits = {
-                one.id: one
-                for one in self._culprits(check)
-                if one.id not in self._reported and self._checks[one.id].exercise != exercise
-            }
-            for result in (*culprits.values(), self.result(check.id)):
+            found = {one.id: one for one in self._culprits(check) if one.id not in self._reported}
+            others = [one for one in found.values() if self._checks[one.id].exercise != exercise]
+            for result in (*others, self.result(check.id)):
                 if result.id not in self._reported or result.status != WRONG:
                     is_wrong = is_wrong or result.status == WRONG
                     self._reported.add(result.id)
@@ -174,10 +166,8 @@ class Run:
 
     def trouble(self, exercise: str) -> str:
         """Return why a check of the exercise could not be made, though nothing is wrong with it."""
-        for check in self._of(exercise):
-            if check.id in self._troubles:
-                return f"{check.id}: {self._troubles[check.id]}"
-        return ""
+        troubles = (self._troubles.get(check.id, "") for check in self._of(exercise))
+        return next(filter(None, troubles), "")
 
     def _of(self, exercise: str) -> list[Check]:
         return [check for check in self._checks.values() if check.exercise == exercise]
@@ -198,8 +188,8 @@ class Run:
             culprits = self._same_cause(wrong)
             result = check.result(WRONG, wrong)
         except Exception as error:  # also a bug of ours: the other checks are made all the same
-            why = self._troubles[check.id] = fault(error)
-            result = check.result(UNREACHED, f"could not be checked: {why}")
+            self._troubles[check.id] = f"{check.id}: {fault(error)}"
+            result = check.result(UNREACHED, f"could not be checked: {fault(error)}")
         if culprits:
             first = culprits[0]
             todo = f"first fix {first.id}: {first.title}"

@@ -11,7 +11,7 @@ from tutorial_check.handout.s3 import record
 from tutorial_check.handout.s3.record import KIND, PACKAGE, STRINGS, TOPIC, Pair, Talk
 from tutorial_check.judge.causes import with_import
 from tutorial_check.judge.scripts import check_end, check_file, crash, ended, find_script, odd_node
-from tutorial_check.model import Note, Wrong, master_gone
+from tutorial_check.model import MASTER_GONE, CutShort, Note, Wrong
 from tutorial_check.record.session import Session
 from tutorial_check.source.python_facts import PythonFacts
 
@@ -55,7 +55,7 @@ def _half(session: Session, number: int) -> tuple[Talk, str, PythonFacts]:
     """Return what was recorded, and the talker (0) or listener (1). Raise Wrong if the master has gone."""
     seen, script = _talk(session), scripts(session)[number]
     if not seen.master_alive:
-        raise master_gone()
+        raise CutShort(MASTER_GONE).as_wrong()
     return seen, script, session.scripts(PACKAGE)[script]
 
 
