@@ -64,9 +64,8 @@ class Case(Session):
     def second_look(self, explained: bool) -> bool:
         """Return whether to look again at what programs do; then forget what they did.
 
-        It is worth it if the machine was busy, or if no line explains it: nodes of a launch file meet
-        in any order; and a Ctrl-C that meets rospy in the middle of a publish of the main thread may
-        wait without end for a lock of that thread.
+        It is worth it on a busy machine, or if no line explains it: nodes of a launch file meet in
+        any order, and rospy may never end that Ctrl-C meets in the middle of a publish.
         """
         if explained and not self._strained:
             return False

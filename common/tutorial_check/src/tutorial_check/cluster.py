@@ -69,10 +69,7 @@ def _key_of(address: str) -> str:
 
 
 def _connect(address: str) -> str:
-    """Return our address on the way to tcp://HOST:PORT, tls://HOST:PORT or HOST:PORT.
-
-    Raises CannotCheck if nothing listens there.
-    """
+    """Return our address on the way to a scheduler. Raises CannotCheck if nothing listens there."""
     try:
         place = urlsplit(address if "//" in address else f"//{address}")
         there = place.hostname or "", place.port or PORT

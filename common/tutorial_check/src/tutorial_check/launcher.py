@@ -85,9 +85,8 @@ def examine(
 ) -> list[Outcome]:
     """Return the Outcomes of a workspace; call report with each result as soon as it is there.
 
-    underlay: setup.bash of the devel space with what students use and never write. only_first: end
-    at the first check that is wrong. own: it is the caller's own workspace, whose links may lead
-    into the home folder. course: its folder. variant: of the task; see variants.Variant. Raises CannotCheck.
+    underlay: setup.bash of what students use and never write. own: the caller's own workspace, whose
+    links may lead into the home folder. course: its folder. Raises CannotCheck.
     """
     if not os.path.isfile(underlay):
         why = "no such file, or may not be read; ./tutorial setup builds it"

@@ -127,7 +127,7 @@ class Run:
         second_look: Callable[[bool], bool] = lambda explained: False,
         too_busy: Callable[[], bool] = lambda: False,
     ) -> None:
-        """checks: in order. session: what their functions take.
+        """Take checks, in order, and the session that their functions take.
 
         second_look(whether a line of the student's is to blame): whether to make a check that does
         not hold again. too_busy(): whether it says nothing if it does not hold then, either.
@@ -147,10 +147,9 @@ class Run:
         return self._done[check_id]
 
     def exercise(self, exercise: str, only_first: bool = False) -> Iterator[Result]:
-        """Yield the results of an exercise, each as soon as it is there.
+        """Yield the results of an exercise as they come; only_first: up to the first wrong one.
 
-        What is wrong in an earlier exercise and keeps this one from being checked comes first, unless
-        it was reported before. only_first: end at the first that is wrong.
+        What is wrong in an earlier exercise and keeps this one from being checked comes first, once.
         """
         is_wrong = False
         for check in self._of(exercise):

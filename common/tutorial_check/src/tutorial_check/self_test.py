@@ -22,8 +22,7 @@ HUNK = re.compile(r"^@@.*\n((?:[ +-].*\n|\n)*)", re.MULTILINE)
 def solutions(course: Course) -> Iterator[tuple[str, str, list[Path]]]:
     """Yield (name, the check that it fails at or "", what is put one over the other).
 
-    solutions/right, and right_WHAT, are packages; wrong_CHECK_WHAT has what differs from right, as
-    files or in a .patch. Raises CannotCheck.
+    solutions/right, and right_WHAT, are packages; wrong_CHECK_WHAT are files or a .patch of right.
     """
     folder = course.folder / SOLUTIONS
     right = folder / RIGHT
@@ -74,10 +73,7 @@ def _examined(course: Course, underlay: str, check: str, layers: list[Path]) -> 
 
 
 def patch(folder: Path, file: Path) -> None:
-    """Change files as a unified diff says, whatever its line numbers are. Raises CannotCheck.
-
-    The first part of each path, as a/ and b/ of git, does not count.
-    """
+    """Change files as a unified diff of git says, at any line. Raises CannotCheck."""
     for before, after, hunks in FILES.findall(file.read_text(encoding="utf-8")):
         path = folder / re.sub(r"^(\.\./)*[^/]*/", "", before if after == GONE else after)
         if ".." in path.parts or (before != GONE and not path.is_file()):

@@ -27,10 +27,7 @@ RESULTS = (".csv", ".html", ".txt", ".json")
 
 
 def find_students(folder: str | Path, out: str | Path, tasks: str = "") -> list[Student]:
-    """Return the Students of a folder: each folder, archive and link in it, but results and tasks.
-
-    Archives that are no zip, and links, are among them: the table says that they are not checked.
-    """
+    """Return the Students of a folder: folders, archives and links in it, but results and tasks."""
     try:
         entries = [path for path in sorted(Path(folder).iterdir()) if path.name[0] != "."]
     except OSError as error:
@@ -127,10 +124,7 @@ class Check:
                 self._show(is_last=True)
 
     def _show(self, is_last: bool = False) -> None:
-        """Write the page in one step, as it may be open in a browser, and what the next run needs.
-
-        That of a large class takes a while: at most a tenth of the time goes into it.
-        """
+        """Write the page in one step, as it may be open; and take a tenth of the time at most."""
         began_s = time.monotonic()
         if began_s < self._next_s and not is_last:
             return

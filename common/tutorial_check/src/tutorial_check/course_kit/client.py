@@ -39,9 +39,7 @@ class Transform:
 
 @dataclass(frozen=True)
 class Seen:
-    """A program beside a Client: what that heard of topics and services; what it was answered; the
-    type of each topic that there was.
-    """
+    """A program beside a Client: what that heard, of each topic and service, and was answered."""
 
     program: Ran
     heard: Dict[str, Tuple[Dict[str, Any], ...]]

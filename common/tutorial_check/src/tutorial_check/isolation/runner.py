@@ -38,9 +38,8 @@ class Runner:
         reader: int | None = None,
         ruleset: int | None = None,
     ) -> None:
-        """alone: whether they have a PID namespace of their own.
-
-        reader: a socket whose other end waits for what is found; ruleset: see landlock.
+        """alone: in a PID namespace of their own. reader: a socket whose other end waits for what is
+        found. ruleset: see landlock.
         """
         self.environment = environment
         self._alone, self._ruleset = alone, ruleset
@@ -92,11 +91,10 @@ class Runner:
     def wait(
         self, condition: Callable[[], Value], deadline_s: float, or_idle: bool = False
     ) -> Value:
-        """Return the first true value of condition(), or its value at the deadline.
+        """Return the first true value of condition(), or its value at the deadline, by CpuClock.
 
-        The deadline goes by the programs' time, see CpuClock. or_idle: no longer than until they
-        have done nothing for IDLE_S. Raises CutShort for a program that multiplies without end, and
-        SystemExit when nobody waits for what is found; clear() ends what was started.
+        or_idle: or when the programs have done nothing for IDLE_S. Raises CutShort for one that
+        multiplies without end, SystemExit when nobody waits; clear() ends what was started.
         """
         began_s = self.clock.now()
         while True:

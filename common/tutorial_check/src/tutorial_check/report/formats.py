@@ -150,10 +150,7 @@ def keep(folder: str | Path, name: str, outcomes: Sequence[Outcome]) -> None:
 
 
 def clear(path: str | Path) -> None:
-    """Remove a file of an earlier check. Raises CannotCheck if none can be written there.
-
-    Keep what is not a file, as a pipe, and what may be written but not removed.
-    """
+    """Remove a file of an earlier check, but nothing else, as a pipe. Raises CannotCheck."""
     if os.path.isfile(path) or os.path.isdir(path) or not os.path.exists(path):
         write(path, "")
         with contextlib.suppress(OSError):

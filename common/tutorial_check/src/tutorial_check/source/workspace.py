@@ -57,7 +57,7 @@ class Layout:
 
 
 def hand_in(given: str | Path, folder: Path) -> tuple[Layout, Path]:
-    """Return the Layout, and the folder it is in, of a workspace or a zip, which is unpacked in a folder.
+    """Return the Layout, and its folder, of a workspace or zip, which is unpacked in a folder.
 
     A folder with nothing but a zip, as Moodle has it, is that zip. Raises CannotCheck.
     """

@@ -227,10 +227,7 @@ def _not_found(session: Session, name: str) -> tuple[str, str, str]:
 
 
 def _cmake_error(output: str) -> tuple[str, str]:
-    """Return (message, FILE:LINE of the student's) of CMake's first error, each perhaps empty.
-
-    The error itself is often in a file of catkin's; the call stack names the student's line.
-    """
+    """Return (message, FILE:LINE of the student's, from its stack) of CMake's first error."""
     found = re.search(r"^CMake Error(?: at [^\n]*)?:\s(.*?)(?:\n\n\n|\Z)", output, re.M | re.S)
     if not found:
         return "", ""

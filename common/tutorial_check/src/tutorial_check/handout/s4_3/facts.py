@@ -130,8 +130,7 @@ class Facts:
 def repetition(answers: Sequence[Twist], twists: Sequence[Twist]) -> tuple[int, bool]:
     """Return (how many Twists came for each Joy, whether they differ); (1, False) if unclear.
 
-    answers: one Twist for each Joy; twists: all that came meanwhile. Which of them belong to one Joy
-    is not looked at, as one may come late: it is counted how often each came.
+    answers: one for each Joy; twists: all. One may come late: so it is counted how often each came.
     """
     count = round(len(twists) / len(answers))
     if count < 2 or abs(len(twists) - count * len(answers)) > 0.1 * len(answers):

@@ -53,7 +53,7 @@ def package_hint(name: str) -> str:
 
 
 def blamed(fault: Fault, is_own: Callable[[str], bool]) -> tuple[str, int]:
-    """Return (file, line) of the innermost tag in a file of the student's, which is at fault.
+    """Return (file, line) of the innermost tag in a file of the student's.
 
     An arg without a value is the fault of the <include>, where the included file declares it.
     """
@@ -69,10 +69,7 @@ def blamed(fault: Fault, is_own: Callable[[str], bool]) -> tuple[str, int]:
 def parse_error(
     fault: Fault, where: str, line: int, text: str, may_see: Callable[[Path], bool]
 ) -> Wrong:
-    """Return the Wrong for a file that roslaunch cannot read.
-
-    where, line: to blame. text: with its comments. may_see(path): whether to look at what it names.
-    """
+    """Return the Wrong for a file that roslaunch cannot read, at where:line; text: with comments."""
     expected, place = "a launch file that roslaunch can read", f"{where}:{line}"
     words = " ".join(fault.words.split())[:250]
     if fault.kind == "ExpatError":
