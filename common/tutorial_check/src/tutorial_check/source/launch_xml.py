@@ -93,10 +93,3 @@ def _not_closed(text: str) -> tuple[int | None, str]:
     if closing and closing not in dict(stack):
         return line, f"</{closing}> closes nothing: open is the <{tag}> of line {opened}"
     return opened, f"the <{tag}> of line {opened} is never closed: /> at its end, or </{tag}> below"
-
-
-def unclosed_node(text: str, child: str) -> int | None:
-    """Return the line of the first <node> with such a tag in it, which roslaunch ignores there; or None."""
-    node = rf"<node\b[^<>]*(?<!/)>(?:(?!</node>).)*?<{child}\b"
-    found = re.search(node, without_comments(text), re.DOTALL)
-    return line_of(text, found.start()) if found else None

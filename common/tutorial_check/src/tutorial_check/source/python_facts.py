@@ -52,9 +52,8 @@ class PythonFacts:
         except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
             self.error = getattr(error, "msg", None) or str(error) or "nested too deeply"
             self.error_line = getattr(error, "lineno", 0) or 0
-            lines = ["", *python_lines(text)]
-            if self.error_line < len(lines):
-                self.error_text = lines[self.error_line].strip(" \t")
+            lines = dict(enumerate(python_lines(text), 1))
+            self.error_text = lines.get(self.error_line, "").strip(" \t")
         self._nodes: list[Any] = list(ast.walk(tree))
         self._functions = self._of(ast.FunctionDef)
         self.functions = {node.name: node.lineno for node in self._functions}
@@ -87,11 +86,8 @@ class PythonFacts:
     @property
     def sunken_main(self) -> Place:
         """(line, function) of an `if __name__ == '__main__':` that stands within a function."""
-        for function in self._functions:
-            for node in ast.walk(function):
-                if isinstance(node, ast.If) and _is_main(node):
-                    return node.lineno, function.name
-        return ()
+        inner = ((node, each.name) for each in self._functions for node in ast.walk(each))
+        return next(((node.lineno, name) for node, name in inner if _is_main(node)), ())
 
     @property
     def odd_main(self) -> Place:
@@ -141,19 +137,21 @@ class PythonFacts:
     @cached_property
     def called_back(self) -> dict[str, list[int]]:
         """{name: lines} of what callbacks call, and what these call."""
-        subscribers = self.calls.get("Subscriber", [])
-        given = (one.words[2:3] or [one.names.get("callback", "")] for one in subscribers)
-        return self._called_by(words[0] for words in given)
+        return self._called_by("Subscriber", 2)
 
     @property
     def at_end(self) -> dict[str, list[int]]:
         """{name: lines} of what a function given to on_shutdown calls."""
-        given = [one.words[:1] for one in self.calls.get("on_shutdown", [])]
-        return self._called_by(words[0] for words in given if words)
+        return self._called_by("on_shutdown", 0)
 
-    def _called_by(self, given: Iterable[str]) -> dict[str, list[int]]:
+    def given(self, name: str, place: int) -> list[tuple[int, str]]:
+        """Return (line, what is called back) of each call of a name, which has that in a place."""
+        calls = self.calls.get(name, [])
+        return [(c.line, (c.words[place:] or [c.names.get("callback", "")])[0]) for c in calls]
+
+    def _called_by(self, name: str, place: int) -> dict[str, list[int]]:
         functions = {node.name: node for node in self._functions}
-        waiting = [name.rsplit(".", 1)[-1] for name in given]
+        waiting = [word.rsplit(".", 1)[-1] for _, word in self.given(name, place)]
         lines: dict[str, set[int]] = {}
         while waiting:
             function = functions.pop(waiting.pop(), None)
@@ -177,9 +175,8 @@ class PythonFacts:
     @property
     def keyboard(self) -> int:
         """The first line that reads the keyboard; 0 if none does."""
-        calls = (call.line for name in KEYBOARD for call in self.calls.get(name, []))
-        stdin = (node.lineno for node in self._of(ast.Attribute) if text_of(node) == "sys.stdin")
-        return min([*calls, *stdin], default=0)
+        stdin = [node.lineno for node in self._of(ast.Attribute) if text_of(node) == "sys.stdin"]
+        return min(sum(map(self.lines, KEYBOARD), stdin), default=0)
 
     def catcher(self, lines: Sequence[int]) -> ast.ExceptHandler | None:
         """Return what catches an error. lines: of the calls to it, the innermost last."""
@@ -193,6 +190,10 @@ class PythonFacts:
     def first(self, name: str) -> Call | None:
         return next(iter(self.calls.get(name, [])), None)
 
+    def lines(self, *names: str) -> list[int]:
+        """Return the lines of the calls of these names."""
+        return [call.line for name in names for call in self.calls.get(name, [])]
+
     @property
     def without_callback(self) -> Call | None:
         """The first Subscriber that is given no callback."""
@@ -202,9 +203,8 @@ class PythonFacts:
     @property
     def publishing_loops(self) -> list[int]:
         """Lines that publish within a loop, and not in a callback."""
-        inside = self.called_back.get("publish", [])
-        outside = (call.line for call in self.calls.get("publish", []) if call.line not in inside)
-        return [line for line in outside if any(loop <= line for loop in self.loops)]
+        outside = set(self.lines("publish")) - set(self.called_back.get("publish", []))
+        return [line for line in sorted(outside) if any(loop <= line for loop in self.loops)]
 
     @property
     def keeps_newest(self) -> bool:

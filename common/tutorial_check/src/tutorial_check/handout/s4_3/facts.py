@@ -36,15 +36,13 @@ class Facts:
         self.joy_line = with_import(line, "Joy", facts)
         line = f"rospy.Publisher('{self.a.cmd_vel}', Twist, queue_size=10)"
         self.twist_line = with_import(line, "Twist", facts)
-        lines = {name: [call.line for call in each] for name, each in facts.calls.items()}
         # {name of a function: where it is called first}
-        places = {name: self._first(each) for name, each in lines.items()}
+        places = {name: self._first(facts.lines(name)) for name in facts.calls}
         self.at = collections.defaultdict(lambda: self.script, places)
-        timers = [*lines.get("Timer", []), *lines.get("Rate", [])]
-        self.loop = self._first(facts.publishing_loops or timers)
+        self.loop = self._first(facts.publishing_loops or facts.lines("Timer", "Rate"))
         self.sleep = self._first(seen.sleep_lines)
         # Where a second Twist may come from: another publish in a callback, or another Subscriber.
-        several = (facts.called_back.get("publish", []), lines.get("Subscriber", []))
+        several = (facts.called_back.get("publish", []), facts.lines("Subscriber"))
         self.second = self._first([each[1] for each in several if len(each) > 1])
         types = seen.types
         self.heard_on = other_topic(seen.subscribers, self.joy, types, "sensor_msgs/Joy")

@@ -7,7 +7,7 @@ import os
 import re
 import shlex
 from pathlib import Path
-from typing import Any, Callable
+from typing import Any
 
 from tutorial_check.course import check
 from tutorial_check.handout.s4_3.judge import NAME
@@ -18,12 +18,19 @@ from tutorial_check.handout.task import PACKAGE
 from tutorial_check.judge.scripts import find_script
 from tutorial_check.model import Note, Wrong
 from tutorial_check.record.session import Session
-from tutorial_check.source.launch_xml import line_of, place_of, read, unclosed_node
+from tutorial_check.source.launch_xml import line_of, place_of, read
 from tutorial_check.source.manifests import is_stand_in
 
 BAG, STICK = "launch_bag.launch", "launch_joy_node.launch"
 TURTLEBOT, REAL = "joy2twist_turtlebot.launch", "launch_joy_node_realTurtlebot.launch"
 ALL = (BAG, STICK, TURTLEBOT, REAL)
+# {what a node is: a pattern of its PACKAGE/TYPE}
+ROLES = {
+    "viewer": r"[^/]*/(rviz|view_robot)",
+    "player": "rosbag/play",
+    "simulator": r"fake_turtlebot_sim/fake_turtlebot\.py|arbotix.*",
+    "joystick": r"(?!rosbag/)[^/]*/(joy_node|joy_node\.py|joystick\.py)",
+}
 JOY_HINT = '<node pkg="joy" type="joy_node" name="joy_node"/>'
 TAGS = "launch node include remap param rosparam arg group env machine test master"
 ATTRIBUTES = (
@@ -57,12 +64,18 @@ class LaunchFile:
         words = (*launch_text.attribute("type", node["type"]), Path(node["type"]).name)
         return place_of(shown(self.session, path), read(path), *words)
 
-    def demand(self, what: str, test: Callable[[Node], bool], hint: str) -> Node:
-        """Return the first node of which test() is true. Raises Wrong."""
-        found = next(filter(test, self.nodes), None)
-        if not found:
+    def of(self, *roles: str) -> list[Node]:
+        """Return the nodes that it starts of any of these ROLES."""
+        pattern = "|".join(ROLES[each] for each in roles)
+        return [
+            one for one in self.nodes if re.fullmatch(pattern, "{package}/{type}".format(**one))
+        ]
+
+    def demand(self, what: str, nodes: list[Node], hint: str) -> Node:
+        """Return the first of these nodes. Raises Wrong if there is none."""
+        if not nodes:
             raise Wrong(f"{self.name} starts {what}", "it does not", self.where, hint)
-        return found
+        return nodes[0]
 
     def words_of(self, node: Node) -> list[str]:
         """Return the arguments of a node, as a shell would part them. Raises Wrong."""
@@ -146,12 +159,13 @@ def _check_text(file: LaunchFile) -> None:
     said = one["said"] + " ".join(one.get("errors", []))
     _check_words(file, said)
     inside = re.search(r"unrecognized '(\w+)' child tag", said)
-    line = unclosed_node(file.text, inside[1]) if inside else None
-    if inside and line:
+    node = rf"<node\b[^<>]*(?<!/)>(?:(?!</node>).)*?<{inside[1]}\b" if inside else "(?!)"
+    found = re.search(node, file.text, re.DOTALL)
+    if inside and found:
         expected = "no tag in a <node> but remap, param, rosparam and env"
         hint = "the <node> of this line goes on to its </node>: close it first, with /> or </node>"
         seen = f"<{inside[1]}> in it: ignored by roslaunch"
-        raise Wrong(expected, seen, f"{file.where}:{line}", hint)
+        raise Wrong(expected, seen, f"{file.where}:{line_of(file.text, found.start())}", hint)
 
 
 def _fault(file: LaunchFile, fault: launch_text.Fault) -> Wrong:

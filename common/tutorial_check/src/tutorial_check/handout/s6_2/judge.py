@@ -74,9 +74,8 @@ def program(session: Session) -> tuple[str, str, ClassFacts]:
 def _check_given(path: str, one: ClassFacts, facts: PythonFacts, name: str, place: int) -> None:
     """Raise Wrong for what ROS is given in place of a method, by the calls of that name."""
     expected = f"{'the Subscriber' if place else 'rospy.on_shutdown'} gets a method of the object"
-    for call in facts.calls.get(name, []):
-        word = (call.words[place:] or [call.names.get("callback", "")])[0]
-        bare, where = word.rsplit(".", 1)[-1], f"{path}:{call.line}"
+    for number, word in facts.given(name, place):
+        bare, where = word.rsplit(".", 1)[-1], f"{path}:{number}"
         if place and word in one.methods:
             seen = f"{word} alone: within a class that is no name"
             raise Wrong(expected, seen, where, f"self.{word}")
