@@ -6,7 +6,6 @@ import statistics
 from typing import Iterable, Mapping
 
 from tutorial_check.course import check
-from tutorial_check.handout.changed_programs import flipped_anonymous
 from tutorial_check.handout.s3 import record
 from tutorial_check.handout.s3.record import KIND, PACKAGE, STRINGS, TOPIC, Pair, Talk
 from tutorial_check.judge.causes import with_import
@@ -14,6 +13,7 @@ from tutorial_check.judge.scripts import check_end, check_file, crash, ended, fi
 from tutorial_check.model import MASTER_GONE, CutShort, Note, Wrong
 from tutorial_check.record.session import Session
 from tutorial_check.source.python_facts import PythonFacts
+from tutorial_check.source.python_text import flipped_anonymous
 
 LISTENS = "every text sent on /chatter, displayed once"
 GOES_ON = "it goes on until Ctrl-C"

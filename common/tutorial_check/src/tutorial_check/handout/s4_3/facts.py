@@ -8,7 +8,6 @@ import functools
 import re
 from typing import Sequence
 
-from tutorial_check.handout.changed_programs import unmasked
 from tutorial_check.handout.s3.judge import other_topic
 from tutorial_check.handout.s4_3 import probes
 from tutorial_check.handout.s4_3.drive import Drive, Twist
@@ -19,7 +18,7 @@ from tutorial_check.judge.scripts import check_file, crash, ended
 from tutorial_check.model import Wrong
 from tutorial_check.record.session import Session
 from tutorial_check.source.python_facts import shows
-from tutorial_check.source.python_text import python_lines
+from tutorial_check.source.python_text import python_lines, unmasked
 from tutorial_check.source.tracebacks import first_traceback
 
 

@@ -6,7 +6,6 @@ import re
 from pathlib import Path
 
 from tutorial_check.course import check
-from tutorial_check.handout.changed_programs import without_name
 from tutorial_check.handout.s4_3 import judge
 from tutorial_check.handout.s4_3.judge import NAME, check_manifest
 from tutorial_check.handout.s6_2.record import LAUNCH, End, Endings, alone, endings
@@ -15,6 +14,7 @@ from tutorial_check.judge.scripts import cause_of, check_file, crash, must_be_on
 from tutorial_check.model import Note, Wrong
 from tutorial_check.record.session import Session
 from tutorial_check.source.python_facts import ClassFacts, PythonFacts, with_bases
+from tutorial_check.source.python_text import without_name
 from tutorial_check.source.tracebacks import first_traceback, last_lines
 
 NAMES_IT = re.compile(r"not defined|NameError")  # what the lack of the import leads to
