@@ -9,12 +9,12 @@ from pathlib import Path
 from typing import Iterator
 
 from tutorial_check.isolation.program import Ran
-from tutorial_check.judge.causes import explain, hider, traced
 from tutorial_check.judge.packages import package_of
 from tutorial_check.model import Note, Wrong
 from tutorial_check.record.build import built, installed
 from tutorial_check.record.session import Session
 from tutorial_check.source import student_files
+from tutorial_check.source.causes import explain, hider, traced
 from tutorial_check.source.python_facts import PythonFacts
 from tutorial_check.source.python_text import unreadable
 from tutorial_check.source.tracebacks import Traceback, first_traceback, last_lines

@@ -8,10 +8,10 @@ from typing import Iterable, Mapping
 from tutorial_check.course import check
 from tutorial_check.handout.s3 import record
 from tutorial_check.handout.s3.record import KIND, PACKAGE, STRINGS, TOPIC, Pair, Talk
-from tutorial_check.judge.causes import with_import
 from tutorial_check.judge.scripts import check_end, check_file, crash, ended, find_script, odd_node
 from tutorial_check.model import MASTER_GONE, CutShort, Note, Wrong
 from tutorial_check.record.session import Session
+from tutorial_check.source.causes import with_import
 from tutorial_check.source.python_facts import PythonFacts
 from tutorial_check.source.python_text import flipped_anonymous
 

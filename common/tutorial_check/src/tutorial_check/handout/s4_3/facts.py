@@ -13,10 +13,10 @@ from tutorial_check.handout.s4_3 import probes
 from tutorial_check.handout.s4_3.drive import Drive, Twist
 from tutorial_check.handout.s4_3.record import CMD_VEL, COLOUR, COUNT, JOY, drive
 from tutorial_check.handout.task import PACKAGE
-from tutorial_check.judge.causes import with_import
 from tutorial_check.judge.scripts import check_file, crash, ended
 from tutorial_check.model import Wrong
 from tutorial_check.record.session import Session
+from tutorial_check.source.causes import with_import
 from tutorial_check.source.python_facts import shows
 from tutorial_check.source.python_text import python_lines, unmasked
 from tutorial_check.source.tracebacks import first_traceback

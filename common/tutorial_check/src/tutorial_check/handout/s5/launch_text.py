@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Callable, Sequence
 
-from tutorial_check.judge.causes import explained
 from tutorial_check.model import Wrong
+from tutorial_check.source.causes import explained
 from tutorial_check.source.debian_packages import advice, packages_of_ros
 from tutorial_check.source.launch_xml import not_xml, place_of, read, without_comments
 
