@@ -11,13 +11,13 @@ from typing import Any
 
 from tutorial_check.course import check
 from tutorial_check.handout.s4_3.judge import NAME
-from tutorial_check.handout.s5 import launch_text
 from tutorial_check.handout.s5.launch_facts import Node
 from tutorial_check.handout.s5.record import facts_of_files
 from tutorial_check.handout.task import PACKAGE
 from tutorial_check.judge.scripts import find_script
 from tutorial_check.model import Note, Wrong
 from tutorial_check.record.session import Session
+from tutorial_check.source import launch_xml
 from tutorial_check.source.launch_xml import line_of, place_of, read
 from tutorial_check.source.manifests import is_stand_in
 
@@ -61,7 +61,7 @@ class LaunchFile:
         """Return FILE:LINE of a node, which may be in an included file."""
         path = Path(node["filename"])
         path = path if self.session.is_own(path) else self.path
-        words = (*launch_text.attribute("type", node["type"]), Path(node["type"]).name)
+        words = (*launch_xml.attribute("type", node["type"]), Path(node["type"]).name)
         return place_of(shown(self.session, path), read(path), *words)
 
     def of(self, *roles: str) -> list[Node]:
@@ -150,12 +150,12 @@ def check_file(session: Session, name: str) -> LaunchFile:
 
 def _check_text(file: LaunchFile) -> None:
     one = file.facts
-    for gap in filter(None, (re.search(each, file.text) for each in launch_text.GAPS)):
+    for gap in filter(None, (re.search(each, file.text) for each in launch_xml.GAPS)):
         whole = gap[0].replace(gap[1], "_".join(gap[1].split()))
         hint = f"a name has no space, the PDF shows _ as a gap: {whole}"
         raise Wrong("names in one word", gap[0], file.at(gap[0]), hint)
     if one["fault"]:
-        raise _fault(file, launch_text.Fault(**one["fault"]))
+        raise _fault(file, launch_xml.Fault(**one["fault"]))
     said = one["said"] + " ".join(one.get("errors", []))
     _check_words(file, said)
     inside = re.search(r"unrecognized '(\w+)' child tag", said)
@@ -168,14 +168,14 @@ def _check_text(file: LaunchFile) -> None:
         raise Wrong(expected, seen, f"{file.where}:{line_of(file.text, found.start())}", hint)
 
 
-def _fault(file: LaunchFile, fault: launch_text.Fault) -> Wrong:
+def _fault(file: LaunchFile, fault: launch_xml.Fault) -> Wrong:
     """Return the Wrong for what roslaunch cannot read, in this file or in an included one."""
     session = file.session
-    path, line = launch_text.blamed(fault, session.is_own)
+    path, line = launch_xml.blamed(fault, session.is_own)
     text = Path(path).read_text(errors="replace")
-    wrong = launch_text.parse_error(fault, shown(session, path), line, text, session.may_see)
+    wrong = launch_xml.parse_error(fault, shown(session, path), line, text, session.may_see)
     inner, number = fault.places[-1]
-    if not session.is_own(inner) and fault.kind != launch_text.UNSET:
+    if not session.is_own(inner) and fault.kind != launch_xml.UNSET:
         wrong.seen += f" (in {inner}:{number})"
     hiding = (each for each in session.packages if each.folder in Path(path).parents)
     for name in (each.name for each in hiding if is_stand_in(each.name)):
@@ -216,7 +216,7 @@ def _check_node(file: LaunchFile, node: Node) -> None:
     session, seen = file.session, f"Cannot locate node of type [{kind}]"
     if package != file.package:
         hint = "look at pkg= and type=: rosrun PACKAGE and Tab twice lists its programs"
-        hint = launch_text.package_hint(package) if node["found"] is None else hint
+        hint = launch_xml.package_hint(package) if node["found"] is None else hint
         if difflib.get_close_matches(kind, ["joy_node"], 1, 0.8):
             hint = JOY_HINT
         raise Wrong("nodes that exist", f"{seen} in package [{package}]", place, hint)

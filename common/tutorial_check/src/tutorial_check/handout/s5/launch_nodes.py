@@ -11,13 +11,13 @@ from tutorial_check.handout.s4.judge import check_recording
 from tutorial_check.handout.s4_3.record import CMD_VEL, JOY
 from tutorial_check.handout.s5.launch_facts import Node
 from tutorial_check.handout.s5.launch_files import BAG, JOY_HINT, STICK, LaunchFile, copy_bag
-from tutorial_check.handout.s5.launch_text import attribute
 from tutorial_check.handout.s5.record import BAG_S, Plan, Run, bag_run, stick_run
 from tutorial_check.handout.task import PACKAGE
 from tutorial_check.judge.scripts import cause_of
 from tutorial_check.model import Note, Wrong
 from tutorial_check.record.session import Session
 from tutorial_check.record.simulated_robot import ODOM
+from tutorial_check.source.launch_xml import attribute
 from tutorial_check.source.tracebacks import first_traceback
 
 ROBOT_HINT = '<include file="$(find rbx1_bringup)/launch/fake_turtlebot.launch"/>'
