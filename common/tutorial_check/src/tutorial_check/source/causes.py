@@ -1,24 +1,22 @@
-"""What an error most often means, and what to do. Pure."""
+"""What an error most often means, and what to do; which Debian package has what is missing. Pure."""
 
 from __future__ import annotations
 
 import difflib
+import fnmatch
 import re
 from pathlib import Path
 from typing import Collection
 
-from tutorial_check.source.debian_packages import MODULES, advice, package_of_module
+import yaml
+
 from tutorial_check.source.python_facts import PythonFacts
 
-# The messages of the handout, and what else its packages are often asked for: the package of each.
-HOMES = {
-    "Joy": "sensor_msgs",
-    "Twist": "geometry_msgs",
-    "Vector3": "geometry_msgs",
-    "String": "std_msgs",
-    "Float32": "std_msgs",
-}
 FILE = Path(__file__).with_suffix(".txt")
+TABLES: dict[str, str] = yaml.safe_load(FILE.with_name("debian_packages.yaml").read_text())
+MODULES, DEV_PACKAGES = TABLES["MODULES"], TABLES["DEV_PACKAGES"]
+OTHER_MODULES, OTHER_PACKAGES = TABLES["OTHER_MODULES"], TABLES["OTHER_PACKAGES"]
+HOMES = dict(row.split(": ") for row in TABLES["HOMES"].splitlines())
 UNDEFINED = r"name '(\w+)' is not defined"
 NO_VECTOR = r"'(?:float|int)' object has no attribute '[xyz]'"  # where one should be
 ROW = re.compile(r"((?:\S.*\n)+)((?: .*\n)+)")  # of causes.txt: patterns, and what is said of each
@@ -112,3 +110,36 @@ def hider(error: str, script: str, others: Collection[str]) -> tuple[str, str]:
     if beside == script:
         return "", f"{hint}give the program, or what it imports, another name"
     return beside, f"{hint}rename it"
+
+
+def _found(table: str, name: str) -> str:
+    """Return what a table has after the first pattern that fits a name, its {} filled in; or ""."""
+    for row in table.strip().splitlines():
+        names, _, words = row.partition(": ")
+        if any(fnmatch.fnmatchcase(name, each) for each in names.split()):
+            return words.replace("{}", name.lower().replace("_", "-"))
+    return ""
+
+
+def package_of_module(module: str) -> str:
+    """Return the Debian package that has a Python module, or ""."""
+    top = module.partition(".")[0]
+    return _found(f"{top}: python3-{{}}" if top in MODULES.split() else OTHER_MODULES, top)
+
+
+def packages_of_ros(name: str) -> str:
+    """Return the Debian packages, with blanks between, that have a ROS package; or ""."""
+    table = f"{name}: lib{{}}-dev" if name in DEV_PACKAGES.split() else OTHER_PACKAGES
+    return _found(table, name) or package_of_module(name)
+
+
+def in_place_of(name: str) -> str:
+    """Return what to do without a ROS package, or module, that Debian lacks; or ""."""
+    return _found(TABLES["LACKING"], name)
+
+
+def advice(name: str, packages: str) -> str:
+    """Return what to do about what is not installed, and is in these packages of Debian's; or ""."""
+    other = in_place_of(name)
+    lacks = f"Debian lacks {name}; {other}" if other else ""
+    return f"Debian has it: sudo apt install {packages}" if packages else lacks

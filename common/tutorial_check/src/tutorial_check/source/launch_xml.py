@@ -10,8 +10,7 @@ from typing import Callable, Sequence
 from xml.parsers import expat
 
 from tutorial_check.model import Wrong
-from tutorial_check.source.causes import explained
-from tutorial_check.source.debian_packages import advice, packages_of_ros
+from tutorial_check.source.causes import advice, explained, packages_of_ros
 
 CURLY = re.compile("[“”‘’]")
 COMMENT = re.compile(r"<!--(.*?)-->", re.DOTALL)

@@ -12,8 +12,7 @@ from tutorial_check.model import Note, Wrong
 from tutorial_check.record.build import built
 from tutorial_check.record.builder import Built
 from tutorial_check.record.session import Session
-from tutorial_check.source.causes import explained
-from tutorial_check.source.debian_packages import advice, packages_of_ros
+from tutorial_check.source.causes import advice, explained, packages_of_ros
 from tutorial_check.source.launch_xml import place_of, read
 from tutorial_check.source.manifests import must_be_one, unreadable
 from tutorial_check.source.workspace import Package, packages_beside
