@@ -30,7 +30,7 @@ class Case(Session):
         self._ask = ask
         self._runs: dict[object, Any] = {}  # what was recorded, or the Wrong in its place
         self.asked: list[Line] = []  # each question with its answer
-        self._strained = self._hopeless = False
+        self._strained = self.hopeless = False  # the machine was, as something was recorded last
 
     def recording(self, recorder: Recorder[Recorded], *arguments: object) -> Recorded:
         """Ask for a recording, at the first call. Raises CannotCheck, or Wrong if there can be none."""
@@ -40,10 +40,9 @@ class Case(Session):
                 self._runs[key] = self._asked(recorder, arguments)
             except Wrong as wrong:
                 self._runs[key] = wrong
-        found = self._runs[key]
-        if isinstance(found, Wrong):
-            raise found
-        return cast(Recorded, found)
+        if isinstance(self._runs[key], Wrong):
+            raise self._runs[key]
+        return cast(Recorded, self._runs[key])
 
     def _asked(self, recorder: Recorder[Recorded], arguments: tuple[object, ...]) -> Recorded:
         name = f"{recorder.__module__}:{recorder.__name__}"
@@ -51,7 +50,7 @@ class Case(Session):
         answer = self._ask(question)
         self.asked.append({**question, **answer})
         self._strained = bool(answer.get("strained"))
-        self._hopeless = bool(answer.get("hopeless"))
+        self.hopeless = bool(answer.get("hopeless"))
         if "cannot" in answer:
             raise CannotCheck(str(answer["cannot"]))
         if "cut_short" in answer:
@@ -71,10 +70,6 @@ class Case(Session):
             return False
         self._runs.clear()
         return True
-
-    def too_busy(self) -> bool:
-        """Return whether what was recorded last proves nothing: the programs had too little time."""
-        return self._hopeless
 
     def as_sent(self, result: Result) -> Result:
         """Return a result with the student's own paths."""

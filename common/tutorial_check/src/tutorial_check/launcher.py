@@ -203,7 +203,7 @@ def judge(
     task = task_of(course)(order.variant)  # its class is among the checks
     checks = [replace(one, title=task.fill(one.title), look=task.fill(one.look)) for one in checks]
     case = Case(order, task, ask)
-    run = Run(checks, case, case.second_look, case.too_busy)
+    run = Run(checks, case, case.second_look, lambda: case.hopeless)
     known = ((name, course.exercises[name]) for name in order.exercises)
     outcomes = [Outcome(name, title=one.title, points=one.points) for name, one in known]
     try:
