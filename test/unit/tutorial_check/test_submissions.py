@@ -29,9 +29,9 @@ class Group:
         self.come_to = lambda name: [WELL]
         folder.mkdir()
 
-    def examine(self, path, *_, **__):
-        self.started.append(path.name)
-        return self.come_to(path.name)
+    def examine(self, order):
+        self.started.append(order.workspace.name)
+        return self.come_to(order.workspace.name)
 
     def check_all(self, out=None, again=False, variant=None):
         """Return the exit code and the rows of the table."""

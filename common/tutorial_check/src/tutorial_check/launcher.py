@@ -12,8 +12,7 @@ import subprocess
 import time
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from types import MappingProxyType
-from typing import Any, Callable, Iterable, Mapping
+from typing import Any, Callable
 
 from tutorial_check.case import Ask, Case
 from tutorial_check.course import FILE, OURS, Course, checks_of, read_course
@@ -72,35 +71,18 @@ Report = Callable[[Outcome, Result], None]
 HANDED_IN = "{handed_in}"  # in recordings: the folder with the copy of the workspace
 
 
-def examine(
-    workspace: str | Path,
-    underlay: str | Path,
-    exercises: Iterable[str],
-    report: Report = lambda outcome, result: None,
-    *,
-    only_first: bool = False,
-    own: bool = True,
-    course: Path = OURS,
-    variant: Mapping[str, object] = MappingProxyType({}),
-) -> list[Outcome]:
-    """Return the Outcomes of a workspace; call report with each result as soon as it is there.
-
-    underlay: setup.bash of what students use and never write. own: the caller's own workspace, whose
-    links may lead into the home folder. course: its folder. Raises CannotCheck.
-    """
-    if not os.path.isfile(underlay):
+def examine(asked: Order, report: Report = lambda outcome, result: None) -> list[Outcome]:
+    """Return the Outcomes of a workspace; report each result as it comes. Raises CannotCheck."""
+    if not os.path.isfile(asked.underlay):
         why = "no such file, or may not be read; ./tutorial setup builds it"
-        raise CannotCheck(f"{underlay}: {why}")
+        raise CannotCheck(f"{asked.underlay}: {why}")
     user = privileges.unused_user(next(NUMBERS)) if os.geteuid() == 0 else None
     # Isolated, a worker does not reach the folder itself.
     folder, cleaner = privileges.folder_until_end("tutorial_check_")
     try:
         # A worker, which writes nothing, would compile our modules each time.
         compileall.compile_dir(str(Path(__file__).parent), quiet=2)
-        order = order_of(
-            workspace, underlay, exercises, Path(folder),
-            only_first=only_first, own=own, course=course, variant=variant,
-        )  # fmt: skip
+        order = prepared(asked, Path(folder))
         wrapper = bubblewrap.command(folder, order.shown, SUITE)
         order = replace(order, apart=bool(wrapper))
         must_start_programs(order, is_other=user is not None)
@@ -108,8 +90,8 @@ def examine(
             privileges.open_to(user, folder)
         with Worker(order, [*wrapper, *privileges.as_user(user)]) as worker:
             worker.begin()
-            outcomes = judge(order, read_course(course), worker.ask, report)
-        remark = "" if own else bubblewrap.instead()
+            outcomes = judge(order, read_course(asked.course), worker.ask, report)
+        remark = "" if order.own else bubblewrap.instead()
         return [replace(one, place=order.layout.place, remark=remark) for one in outcomes]
     except Ended as error:  # before a first result
         raise CannotCheck(str(error)) from None
@@ -120,43 +102,33 @@ def examine(
         cleaner.communicate()
 
 
-def order_of(
-    workspace: str | Path,
-    underlay: str | Path,
-    exercises: Iterable[str],
-    folder: Path,
-    *,
-    only_first: bool = False,
-    own: bool = True,
-    course: Path = OURS,
-    variant: Mapping[str, object] = MappingProxyType({}),
-) -> Order:
-    """Copy a workspace or zip into an empty folder; return the order. Raises CannotCheck."""
-    layout, inside = workspaces.hand_in(os.path.abspath(workspace), folder)
+def prepared(asked: Order, folder: Path) -> Order:
+    """Copy a workspace or zip into an empty folder; return the whole order. Raises CannotCheck."""
+    layout, inside = workspaces.hand_in(os.path.abspath(asked.workspace), folder)
     workspaces.must_be_ones_own(layout, SUITE)
-    copied = workspaces.copy(layout, folder / workspaces.COPY, None if own else inside)
+    copied = workspaces.copy(layout, folder / workspaces.COPY, None if asked.own else inside)
     shown = [inside, copied]
-    if own:
+    if asked.own:
         shown += [layout.source, *map(Path, workspaces.named_outside(copied))]
     # A home folder is no workspace, though one may be in it.
     home = Path(os.path.expanduser("~")).resolve()
     shown = [each for each in shown if each.resolve() not in (home, *home.parents)]
-    checks = course
+    course = asked.course
     if course != OURS:  # what a worker needs of it, and no solution
-        checks = folder / "course"
-        checks.mkdir()
-        for path in (course / FILE, *course.glob("*.py")):
-            shutil.copy(path, checks)
+        course = folder / "course"
+        course.mkdir()
+        for path in (asked.course / FILE, *asked.course.glob("*.py")):
+            shutil.copy(path, course)
     # What the programs need: the underlay and its sources, this package among them.
-    underlay = os.path.abspath(underlay)
+    underlay = os.path.abspath(asked.underlay)
     devel = Path(underlay).parent
     names = devel / ".catkin"
     sources = filter(None, names.read_text().split(";") if names.is_file() else [])
     links = [link for source in sources for link in Path(source).glob("*") if link.is_dir()]
     kept = (devel.parent, *(link.resolve() for link in links))
-    return Order(
-        folder, layout, own, tuple(exercises), only_first, checks, dict(variant), underlay,
-        _environment(underlay), kept, (*shown, checks, *kept),
+    return replace(
+        asked, underlay=underlay, course=course, folder=folder, layout=layout,
+        environment=_environment(underlay), kept=kept, shown=(*shown, course, *kept),
     )  # fmt: skip
 
 

@@ -8,10 +8,12 @@ import os
 import stat
 import sys
 import time
+from pathlib import Path
 from typing import NoReturn
 
 from tutorial_check.launcher import Outcome, examine
 from tutorial_check.model import CannotCheck
+from tutorial_check.order import Order
 from tutorial_check.report.formats import FORMATS, clear, keep, without_hints, write
 from tutorial_check.report.hints import Memory, show_solution
 from tutorial_check.report.text import Terminal, summary
@@ -49,11 +51,12 @@ def _look(options: argparse.Namespace, only_first: bool = False) -> list[Outcome
     terminal = Terminal(memory.hint_of, only_first)
     terminal.busy("copying and preparing ...")
     try:
-        outcomes = examine(
-            options.workspace, options.underlay, options.exercises, terminal.result,
-            only_first=only_first, own=not (options.gradescope or options.classroom),
+        order = Order(
+            Path(options.workspace), options.underlay, options.exercises, only_first,
+            own=not (options.gradescope or options.classroom),
             course=options.course.folder, variant=variant_of(options.course, options, ""),
         )  # fmt: skip
+        outcomes = examine(order, terminal.result)
     finally:
         terminal.busy("")
     for one in outcomes:

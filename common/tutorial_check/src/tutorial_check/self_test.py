@@ -12,6 +12,7 @@ from typing import Iterator
 from tutorial_check.course import Course, checks_of
 from tutorial_check.launcher import Outcome, examine
 from tutorial_check.model import CannotCheck
+from tutorial_check.order import Order
 
 SOLUTIONS, RIGHT, WRONG_OF, PATCH = "solutions", "right", "wrong_", ".patch"
 GONE = "/dev/null"
@@ -66,10 +67,8 @@ def _examined(course: Course, underlay: str, check: str, layers: list[Path]) -> 
                     patch(Path(scratch), layer)
             except CannotCheck as why:
                 return [Outcome(check, trouble=str(why))]
-        return examine(
-            scratch, underlay, exercises or list(course.exercises),
-            only_first=bool(check), own=False, course=course.folder,
-        )  # fmt: skip
+        wanted = tuple(exercises or course.exercises)
+        return examine(Order(Path(scratch), underlay, wanted, bool(check), False, course.folder))
 
 
 def patch(folder: Path, file: Path) -> None:

@@ -13,6 +13,7 @@ from pathlib import Path
 from tutorial_check.cluster import MOST_AT_ONCE, Cluster, Gone
 from tutorial_check.launcher import examine
 from tutorial_check.model import CannotCheck, fault
+from tutorial_check.order import Order
 from tutorial_check.report.class_page import Student, table_csv, table_html
 from tutorial_check.report.formats import as_json, clear, keep, without_hints, write
 from tutorial_check.report.last_run import LastRun, digest_of, digest_of_checks
@@ -171,11 +172,8 @@ class Check:
         if not options.again and self._last_run.is_same(student.name, digest):
             student.outcomes = student.before
             return "unchanged since the last check"
-        about = {"course": options.course.folder, "variant": variant}
-        path, exercises = student.path, options.exercises
-        if self._cluster:
-            outcomes = self._cluster.examine(path, exercises, **about)
-        else:
-            outcomes = examine(path, options.underlay, exercises, own=False, **about)
+        about = {"own": False, "course": options.course.folder, "variant": variant}
+        order = Order(student.path, options.underlay, options.exercises, **about)
+        outcomes = self._cluster.examine(order) if self._cluster else examine(order)
         student.outcomes = without_hints(outcomes) if options.hints == 0 else outcomes
         return ""

@@ -50,9 +50,9 @@ class Package:
 class Layout:
     """Where the sources of a workspace are."""
 
-    root: Path  # what the student handed in
-    source: Path  # its src folder, or the folder of packages itself
-    is_workspace: bool  # there is a src
+    root: Path = Path()  # what the student handed in
+    source: Path = Path()  # its src folder, or the folder of packages itself
+    is_workspace: bool = False  # there is a src
     place: str = ""  # root within what was handed in, if another folder
 
 
