@@ -15,7 +15,7 @@ from edits import JOY2TWIST, TALKER, apply, chmod, put
 from tutorial_check.course import read_course
 from tutorial_check.launcher import examine
 from tutorial_check.order import Order
-from tutorial_check.report.hints import LATER
+from tutorial_check.report.memory import LATER
 from tutorial_testing.processes import Program, command_line, descendants, lives
 from tutorial_testing.waiting import LONGEST_S, wait_for
 

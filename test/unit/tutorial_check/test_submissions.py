@@ -14,7 +14,7 @@ from tutorial_check import submissions
 from tutorial_check.course import read_course
 from tutorial_check.launcher import Outcome
 from tutorial_check.model import OK, UNREACHED, CannotCheck, Result
-from tutorial_check.report.last_run import digest_of_checks
+from tutorial_check.report.memory import digest_of_checks
 from tutorial_testing.waiting import wait_for
 
 WELL = Outcome("2", [Result("C1", OK, "one")], 1.0, True)

@@ -28,7 +28,7 @@ from tutorial_check.isolation import bubblewrap, landlock, privileges
 from tutorial_check.launcher import Outcome, examine
 from tutorial_check.model import CannotCheck
 from tutorial_check.order import Order
-from tutorial_check.report.last_run import digest_of_checks
+from tutorial_check.report.memory import digest_of_checks
 from tutorial_check.source.workspace import IGNORED, MOST_BYTES
 
 MOST_AT_ONCE = 1000  # submissions that the scheduler knows of

@@ -16,7 +16,7 @@ from tutorial_check.model import CannotCheck, fault
 from tutorial_check.one_workspace import check_one, watch
 from tutorial_check.package import package
 from tutorial_check.report.formats import FORMATS
-from tutorial_check.report.hints import AGAIN, ALWAYS
+from tutorial_check.report.memory import AGAIN, ALWAYS
 from tutorial_check.self_test import self_test
 from tutorial_check.variants import sheet, variant_of
 

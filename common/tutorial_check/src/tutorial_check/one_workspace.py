@@ -15,7 +15,7 @@ from tutorial_check.launcher import Outcome, examine
 from tutorial_check.model import CannotCheck
 from tutorial_check.order import Order
 from tutorial_check.report.formats import FORMATS, clear, keep, without_hints, write
-from tutorial_check.report.hints import Memory, show_solution
+from tutorial_check.report.memory import Memory, show_solution
 from tutorial_check.report.text import Terminal, summary
 from tutorial_check.source.workspace import all_below
 from tutorial_check.variants import variant_of

@@ -16,7 +16,7 @@ from tutorial_check.model import CannotCheck, fault
 from tutorial_check.order import Order
 from tutorial_check.report.class_page import Student, table_csv, table_html
 from tutorial_check.report.formats import as_json, clear, keep, without_hints, write
-from tutorial_check.report.last_run import LastRun, digest_of, digest_of_checks
+from tutorial_check.report.memory import LastRun, digest_of, digest_of_checks
 from tutorial_check.report.text import summary, text_of
 from tutorial_check.variants import variant_of
 from tutorial_check.worker_process import no_more

@@ -15,7 +15,6 @@ from urllib.parse import quote
 
 from tutorial_check.launcher import Outcome
 from tutorial_check.model import NOTE, Result
-from tutorial_check.report.hints import cause_of
 from tutorial_check.report.text import lines_of
 
 # Where a spreadsheet may see the start of a cell, with any separator, followed by a formula.
@@ -77,6 +76,11 @@ class Student:
     def wrong(self) -> list[Result]:
         """The checks that are wrong, in their order."""
         return [one for outcome in self.outcomes for one in outcome.wrong]
+
+
+def cause_of(result: Result) -> str:
+    """Return what makes two failures the same: the check and its words, without their numbers."""
+    return f"{result.id} {re.sub('[0-9.]+', '#', result.seen)}"
 
 
 def _short(text: str) -> str:

@@ -1,31 +1,32 @@
-"""Graded hints: what is wrong comes first; how to fix it, when the same is wrong again.
+"""What earlier checks found: for hints, graded, and so that --all checks only what has changed.
 
-What was wrong and what was done is remembered in the cache, for each workspace, and not in it.
+How to fix it is shown when the same is wrong again. What was wrong and what was done is remembered in
+the cache, for each workspace, and not in it; that of --all beside the table.
 """
 
 from __future__ import annotations
 
 import contextlib
+import dataclasses
+import hashlib
 import json
 import os
-import re
 import tempfile
 from pathlib import Path
-from typing import Any, Dict, Sequence
+from typing import Any, Dict, Iterable, Sequence
 
-from tutorial_check.course import OURS, Course
+from tutorial_check.course import FILE, OURS, Course
 from tutorial_check.launcher import SUITE, Outcome
 from tutorial_check.model import WRONG, CannotCheck, Result
+from tutorial_check.report.class_page import Student, cause_of
+from tutorial_check.source.workspace import all_below
 
 NEVER, AGAIN, ALWAYS = 0, 1, 2  # --hints
 CACHE = Path(os.environ.get("XDG_CACHE_HOME") or "~/.cache", "ros1_tutorial", "checked.json")
 State = Dict[str, Any]  # {workspace or student: what is kept of it}
+STATE = ".state.json"  # beside the table, out of reach of what is checked
+MOST_BYTES = 200_000_000  # per student; a larger one is not remembered
 LATER = "check once more, and it is here; or with --hints 2"
-
-
-def cause_of(result: Result) -> str:
-    """Return what makes two failures the same: the check and its words, without their numbers."""
-    return f"{result.id} {re.sub('[0-9.]+', '#', result.seen)}"
 
 
 def read_state(file: Path) -> State:
@@ -99,3 +100,72 @@ def show_solution(course: Course, exercises: Sequence[str], memory: Memory) -> N
             except OSError as error:
                 raise CannotCheck(f"{path}: {error.strerror}") from None
             print(f"# {name}: {path}\n{text}")
+
+
+class LastRun:
+    """The outcomes of the last run, by the name of the student. A file that is broken is empty."""
+
+    def __init__(self, out: Path) -> None:
+        """out: the folder of the results."""
+        self._file = out / STATE
+        self._found = read_state(self._file)
+
+    def outcomes(self, name: str) -> list[Outcome]:
+        """Return what came of a student in the last run; empty if there is nothing."""
+        with contextlib.suppress(KeyError, TypeError):
+            return [
+                Outcome(**{**one, "results": [Result(**each) for each in one["results"]]})
+                for one in self._found[name]["outcomes"]
+            ]
+        return []
+
+    def is_same(self, name: str, digest: str) -> bool:
+        """Return whether the last run checked the same, and came to a verdict."""
+        outcomes = self.outcomes(name)
+        same = bool(digest and outcomes) and self._found[name].get("digest") == digest
+        return same and not any(one.trouble for one in outcomes)
+
+    def keep(self, students: Iterable[tuple[Student, str]]) -> None:
+        """Write (student, digest) of all for the next run; students not checked yet keep what they had."""
+        found = {}
+        for student, digest in students:
+            if student.outcomes:
+                outcomes = [
+                    dataclasses.asdict(dataclasses.replace(one, recordings=[]))
+                    for one in student.outcomes
+                ]
+                found[student.name] = {"digest": digest, "outcomes": outcomes}
+            elif student.name in self._found and not student.trouble:
+                found[student.name] = self._found[student.name]
+        write_state(self._file, found)  # or all are checked again
+
+
+def digest_of_checks(course: Course, exercises: Iterable[str], hints: int) -> str:
+    """Return what makes two runs the same: the checker, the course, the exercises and the hints."""
+    package = Path(__file__).parents[1]
+    kinds = ("*.py", "*.yaml", "*.txt")
+    sources = [path for kind in kinds for path in sorted(package.rglob(kind))]
+    digest = hashlib.sha256(json.dumps([list(exercises), hints == 0]).encode())
+    for path in (*sources, course.folder / FILE, *sorted(course.folder.glob("*.py"))):
+        digest.update(path.read_bytes())
+    return digest.hexdigest()
+
+
+def digest_of(path: Path, checks: str) -> str:
+    """Return a digest of what a student handed in, and of what checks it; empty if it has none."""
+    digest, left = hashlib.sha256(checks.encode()), MOST_BYTES
+    try:
+        for file in all_below(path) if path.is_dir() else [str(path)]:
+            about = os.lstat(file)
+            name = f"{os.path.relpath(file, path)} {about.st_mode}\0"
+            digest.update(name.encode("utf-8", "replace"))
+            if os.path.islink(file):
+                digest.update(os.fsencode(os.readlink(file)))
+            elif os.path.isfile(file):  # no pipe, which would never end
+                left -= about.st_size
+                if left < 0:
+                    return ""
+                digest.update(Path(file).read_bytes())
+    except OSError:
+        return ""
+    return digest.hexdigest()
