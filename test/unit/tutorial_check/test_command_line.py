@@ -6,8 +6,7 @@ import pytest
 
 from tutorial_check import command_line, one_workspace
 from tutorial_check.command_line import parse
-from tutorial_check.launcher import Outcome
-from tutorial_check.model import OK, UNREACHED, WRONG, Result
+from tutorial_check.model import OK, UNREACHED, WRONG, Outcome, Result
 from tutorial_check.report.formats import FORMATS
 
 UNDERLAY = ["--underlay", "setup.bash"]

@@ -12,8 +12,7 @@ import pytest
 
 from tutorial_check import submissions
 from tutorial_check.course import read_course
-from tutorial_check.launcher import Outcome
-from tutorial_check.model import OK, UNREACHED, CannotCheck, Result
+from tutorial_check.model import OK, UNREACHED, CannotCheck, Outcome, Result
 from tutorial_check.report.memory import digest_of_checks
 from tutorial_testing.waiting import wait_for
 

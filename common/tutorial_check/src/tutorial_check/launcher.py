@@ -1,4 +1,4 @@
-"""Starts a worker isolated, and makes the checks from what it records."""
+"""Starts a worker isolated, and makes the checks from what it records and what files say."""
 
 from __future__ import annotations
 
@@ -7,21 +7,24 @@ import functools
 import itertools
 import json
 import os
+import shlex
 import shutil
 import subprocess
 import time
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from pathlib import Path
-from typing import Any, Callable
+from typing import Any, Callable, cast
 
-from tutorial_check.case import Ask, Case
 from tutorial_check.course import FILE, OURS, Course, checks_of, read_course
 from tutorial_check.isolation import bubblewrap, privileges
 from tutorial_check.isolation.environment import environment_of
-from tutorial_check.model import WRONG, CannotCheck, Result, Run, passed
-from tutorial_check.order import Order
+from tutorial_check.model import UNREADABLE, CannotCheck, CutShort, Outcome, Result, Run, Wrong
+from tutorial_check.order import Line, Order
+from tutorial_check.record.recording import as_json, from_json, recorded_by
+from tutorial_check.record.session import Recorded, Recorder, Session
 from tutorial_check.source import workspace as workspaces
-from tutorial_check.variants import task_of
+from tutorial_check.source.manifests import unreadable
+from tutorial_check.variants import Task, task_of
 from tutorial_check.worker_process import Ended, Worker, no_more
 
 # Of a shell of the suite: its roscore.xml, with which each roslaunch starts sooner, and what CMake 4
@@ -31,44 +34,76 @@ SUITE = Path(__file__).resolve().parents[4]
 NUMBERS = itertools.count(os.getpid() * 100)
 
 
-@dataclass
-class Outcome:
-    """What came of one exercise."""
-
-    id: str
-    results: list[Result] = field(default_factory=list)
-    seconds: float = 0.0
-    done: bool = False
-    trouble: str = ""  # why a check could not be made, through no fault of the student's
-    title: str = ""
-    points: float = 0.0  # for all of it; 0: one a check
-    place: str = ""  # the workspace within what was handed in, if another folder
-    remark: str = ""  # how well a program of someone else's was isolated, if not by bubblewrap
-    # What was asked for these results and not before, with the answers of the worker, which see.
-    recordings: list[dict[str, Any]] = field(default_factory=list)
-
-    @property
-    def passed(self) -> bool:
-        return self.done and passed(self.results)
-
-    @property
-    def empty(self) -> bool:
-        """Whether it passed because there was nothing to check."""
-        return self.passed and bool(self.results) and all(each.empty for each in self.results)
-
-    @property
-    def solved(self) -> bool:
-        """Whether it passed and there was something to check."""
-        return self.passed and not self.empty
-
-    @property
-    def wrong(self) -> list[Result]:
-        """The checks that are wrong, in their order."""
-        return [each for each in self.results if each.status == WRONG]
-
-
+Ask = Callable[[Line], Line]  # the worker: question -> answer
 Report = Callable[[Outcome, Result], None]
 HANDED_IN = "{handed_in}"  # in recordings: the folder with the copy of the workspace
+
+
+class Case(Session):
+    """What the files of a workspace say, as they were handed in, and what the worker records."""
+
+    def __init__(self, order: Order, task: Task, ask: Ask) -> None:
+        super().__init__(order, task)
+        self.source = self.folder / workspaces.COPY
+        visible = [self.source, *order.shown, *map(Path, bubblewrap.SYSTEM)]
+        self._visible = [Path(os.path.realpath(each)) for each in visible]
+        self._ask = ask
+        self._runs: dict[object, Any] = {}  # what was recorded, or the Wrong in its place
+        self.asked: list[Line] = []  # each question with its answer
+        self._strained = self.hopeless = False  # the machine was, as something was recorded last
+
+    def recording(self, recorder: Recorder[Recorded], *arguments: object) -> Recorded:
+        """Ask for a recording, at the first call. Raises CannotCheck, or Wrong if there can be none."""
+        key = recorder.__module__, recorder.__name__, *arguments
+        if key not in self._runs:
+            try:
+                self._runs[key] = self._asked(recorder, arguments)
+            except Wrong as wrong:
+                self._runs[key] = wrong
+        if isinstance(self._runs[key], Wrong):
+            raise self._runs[key]
+        return cast(Recorded, self._runs[key])
+
+    def _asked(self, recorder: Recorder[Recorded], arguments: tuple[object, ...]) -> Recorded:
+        name = f"{recorder.__module__}:{recorder.__name__}"
+        question = {"recorder": name, "arguments": as_json(arguments)}
+        answer = self._ask(question)
+        self.asked.append({**question, **answer})
+        self._strained = bool(answer.get("strained"))
+        self.hopeless = bool(answer.get("hopeless"))
+        if "cannot" in answer:
+            raise CannotCheck(str(answer["cannot"]))
+        if "cut_short" in answer:
+            end = CutShort(**answer["cut_short"])
+            if end.kind == UNREADABLE and self.broken:
+                raise unreadable(self.broken)
+            raise end.as_wrong()
+        return from_json(recorded_by(recorder), answer["recording"])
+
+    def second_look(self, explained: bool) -> bool:
+        """Return whether to look again at what programs do; then forget what they did.
+
+        It is worth it on a busy machine, or if no line explains it: nodes of a launch file meet in
+        any order, and rospy may never end that Ctrl-C meets in the middle of a publish.
+        """
+        if explained and not self._strained:
+            return False
+        self._runs.clear()
+        return True
+
+    def as_sent(self, result: Result) -> Result:
+        """Return a result with the student's own paths."""
+        layout = self.layout
+        copied = f"{self.source.parent}/" if layout.is_workspace else f"{self.source}/"
+        # Commands work in any folder, where the workspace is known.
+        is_known = self.order.own and self.folder not in layout.root.parents
+        root = f"{shlex.quote(str(layout.root))}/" if is_known else ""
+        roots = {"hint": root, "look": root}
+        found: dict[str, Any] = {
+            name: words.replace(copied, roots.get(name, "")) if isinstance(words, str) else words
+            for name, words in vars(result).items()
+        }
+        return Result(**found)
 
 
 def examine(asked: Order, report: Report = lambda outcome, result: None) -> list[Outcome]:
@@ -181,7 +216,7 @@ def judge(
     try:
         for outcome in outcomes:
             _make_checks(run, case, outcome, order.only_first, report)
-            if order.only_first and not passed(outcome.results):
+            if order.only_first and not outcome.passed:
                 break
     except Ended as error:
         if no_more.is_set() or not any(outcome.results for outcome in outcomes):

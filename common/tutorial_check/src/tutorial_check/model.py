@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import traceback
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Callable, Iterable, Iterator
 
@@ -227,6 +227,38 @@ class Run:
             raise CannotCheck(f"{check.id}: {why}") from None
 
 
-def passed(results: Iterable[Result]) -> bool:
-    """Return whether an exercise is done: nothing wrong, and everything reached."""
-    return all(result.status in (OK, NOTE) for result in results)
+@dataclass
+class Outcome:
+    """What came of one exercise."""
+
+    id: str
+    results: list[Result] = field(default_factory=list)
+    seconds: float = 0.0
+    done: bool = False
+    trouble: str = ""  # why a check could not be made, through no fault of the student's
+    title: str = ""
+    points: float = 0.0  # for all of it; 0: one a check
+    place: str = ""  # the workspace within what was handed in, if another folder
+    remark: str = ""  # how well a program of someone else's was isolated, if not by bubblewrap
+    # What was asked for these results and not before, with the answers of the worker, which see.
+    recordings: list[dict[str, Any]] = field(default_factory=list)
+
+    @property
+    def passed(self) -> bool:
+        """Whether nothing is wrong, and everything reached."""
+        return self.done and all(result.status in (OK, NOTE) for result in self.results)
+
+    @property
+    def empty(self) -> bool:
+        """Whether it passed because there was nothing to check."""
+        return self.passed and bool(self.results) and all(each.empty for each in self.results)
+
+    @property
+    def solved(self) -> bool:
+        """Whether it passed and there was something to check."""
+        return self.passed and not self.empty
+
+    @property
+    def wrong(self) -> list[Result]:
+        """The checks that are wrong, in their order."""
+        return [each for each in self.results if each.status == WRONG]

@@ -11,8 +11,8 @@ import time
 from pathlib import Path
 from typing import NoReturn
 
-from tutorial_check.launcher import Outcome, examine
-from tutorial_check.model import CannotCheck
+from tutorial_check.launcher import examine
+from tutorial_check.model import CannotCheck, Outcome
 from tutorial_check.order import Order
 from tutorial_check.report.formats import FORMATS, clear, keep, without_hints, write
 from tutorial_check.report.memory import Memory, show_solution

@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Iterator
 
 from tutorial_check.course import Course, checks_of
-from tutorial_check.launcher import Outcome, examine
-from tutorial_check.model import CannotCheck
+from tutorial_check.launcher import examine
+from tutorial_check.model import CannotCheck, Outcome
 from tutorial_check.order import Order
 
 SOLUTIONS, RIGHT, WRONG_OF, PATCH = "solutions", "right", "wrong_", ".patch"

@@ -11,8 +11,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, Callable, Mapping, Sequence
 
-from tutorial_check.launcher import Outcome
-from tutorial_check.model import NOTE, OK, UNREACHED, WRONG, CannotCheck
+from tutorial_check.model import NOTE, OK, UNREACHED, WRONG, CannotCheck, Outcome
 from tutorial_check.report.text import heading, lines_of
 
 FIELDS = ("id", "status", "title", "expected", "seen", "where", "hint")

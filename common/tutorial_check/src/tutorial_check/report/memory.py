@@ -16,8 +16,8 @@ from pathlib import Path
 from typing import Any, Dict, Iterable, Sequence
 
 from tutorial_check.course import FILE, OURS, Course
-from tutorial_check.launcher import SUITE, Outcome
-from tutorial_check.model import WRONG, CannotCheck, Result
+from tutorial_check.launcher import SUITE
+from tutorial_check.model import WRONG, CannotCheck, Outcome, Result
 from tutorial_check.report.class_page import Student, cause_of
 from tutorial_check.source.workspace import all_below
 
