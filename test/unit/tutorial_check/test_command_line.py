@@ -4,7 +4,7 @@ import sys
 
 import pytest
 
-from tutorial_check import command_line, one_workspace
+from tutorial_check import command_line
 from tutorial_check.command_line import parse
 from tutorial_check.model import OK, UNREACHED, WRONG, Outcome, Result
 from tutorial_check.report.formats import FORMATS
@@ -61,7 +61,7 @@ def test_words_that_are_refused(words, error, capsys, monkeypatch):
 @pytest.fixture
 def main(monkeypatch):
     def called(examine, *words):
-        monkeypatch.setattr(one_workspace, "examine", examine)
+        monkeypatch.setattr(command_line, "examine", examine)
         monkeypatch.setattr(sys, "argv", ["check", *BEFORE, "2", "5", *map(str, words)])
         with pytest.raises(SystemExit) as ended:
             command_line.main()

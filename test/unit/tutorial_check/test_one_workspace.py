@@ -4,8 +4,8 @@ from types import SimpleNamespace
 
 import pytest
 
+from tutorial_check.command_line import stamps, watch
 from tutorial_check.model import CannotCheck
-from tutorial_check.one_workspace import stamps, watch
 
 
 @pytest.mark.parametrize("folder", ["ws", "build/ws", "me~/devel"])
