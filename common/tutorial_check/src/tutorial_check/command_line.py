@@ -44,18 +44,13 @@ MODES = ("workspace", "all", "package", "self_test", "show_variant")
 
 
 def _parser() -> Parser:
-    parser = Parser(
-        prog="./tutorial check",
-        description="Checks the exercises of the tutorial in your own workspace.",
-        epilog="exercises: "
-        + ", ".join(f"{name} ({one.title})" for name, one in read_course().exercises.items()),
-    )
+    what = "Checks the exercises of the tutorial in your own workspace."
+    known = ", ".join(f"{name} ({one.title})" for name, one in read_course().exercises.items())
+    parser = Parser(prog="./tutorial check", description=what, epilog=f"exercises: {known}")
     where, add = parser.add_mutually_exclusive_group(), parser.add_argument
     what = "your catkin workspace, a folder of packages, or a zip; in a shell of it not needed"
-    own = os.environ.get(WORKSPACE) or None
-    where.add_argument(
-        "--in", dest="workspace", type=path, default=own, metavar="WORKSPACE", help=what
-    )
+    where.add_argument("--in", dest="workspace", type=path, metavar="WORKSPACE", help=what)
+    parser.set_defaults(workspace=os.environ.get(WORKSPACE) or None)
     what = "for the professor: every workspace, or zip, in a folder"
     where.add_argument("--all", type=path, metavar="FOLDER", help=what)
     what = "write what a service takes: gradescope, or github:OWNER/NAME (to --out)"

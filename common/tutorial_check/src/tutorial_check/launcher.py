@@ -196,10 +196,9 @@ def must_start_programs(order: Order, is_other: bool) -> None:
             # What is below a needed one is as closed; but a home folder is opened no further.
             is_needed = needed & {folder, *folder.parents}
             how = f"{'chmod -R o+rX' if is_needed else 'chmod o+x'} {folder}"
-            raise CannotCheck(
-                f"{folder} is closed to others, and the programs run as another user: {how},"
-                " or keep this suite, TUTORIAL_WORKSPACE and TMPDIR where others may enter"
-            )
+            how += ", or keep this suite, TUTORIAL_WORKSPACE and TMPDIR where others may enter"
+            why = "is closed to others, and the programs run as another user"
+            raise CannotCheck(f"{folder} {why}: {how}")
 
 
 def judge(

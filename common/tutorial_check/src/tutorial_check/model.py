@@ -199,13 +199,10 @@ class Run:
 
     def _same_cause(self, wrong: Wrong) -> list[Result]:
         """Return the wrong results about the same cause. "No such file" alone may be said of two files."""
-        return [
-            one
-            for one in self._done.values()
-            if one.status == WRONG
-            and (one.seen, one.where) == (wrong.seen, wrong.where)
-            and (LINE.search(wrong.where) or one.expected == wrong.expected)
-        ]
+        about, is_line = (wrong.seen, wrong.where), LINE.search(wrong.where)
+        same = [one for one in self._done.values() if (one.seen, one.where) == about]
+        wrongs = [one for one in same if one.status == WRONG]
+        return [one for one in wrongs if is_line or one.expected == wrong.expected]
 
     def _call(self, check: Check) -> Any:
         try:

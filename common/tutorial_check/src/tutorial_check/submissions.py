@@ -41,9 +41,8 @@ def find_students(folder: str | Path, out: str | Path, tasks: str = "") -> list[
         raise CannotCheck(f"{folder}: no workspace and no zip in it")
     short = [path.stem if path.suffix.lower() == ".zip" else path.name for path in paths]
     claims = Counter(word for path, name in zip(paths, short) for word in {name, path.name})
-    return [
-        Student(name if claims[name] == 1 else path.name, path) for name, path in zip(short, paths)
-    ]
+    names = (name if claims[name] == 1 else path.name for name, path in zip(short, paths))
+    return [Student(name, path) for name, path in zip(names, paths)]
 
 
 def _has_results(path: Path, out: str | Path) -> bool:
@@ -104,9 +103,8 @@ class Check:
 
         self._show()
         at_once = MOST_AT_ONCE if self._cluster else max(1, self._options.jobs)
-        with ThreadPoolExecutor(at_once) as pool, tqdm(
-            total=len(self._students), unit="student", disable=None
-        ) as bar:
+        bar = tqdm(total=len(self._students), unit="student", disable=None)
+        with ThreadPoolExecutor(at_once) as pool, bar:
             checks = [pool.submit(self._check, student) for student in self._students]
             try:
                 for student, remark in (done.result() for done in as_completed(checks)):

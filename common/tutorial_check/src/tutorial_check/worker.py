@@ -100,9 +100,8 @@ def _prepared(order: Order, reader: int) -> Ground:
     ruleset = landlock.ruleset(shown, own) if landlock.version() and not order.apart else None
     course = read_course(order.course)
     checks_of(course)  # its recorders
-    return Ground(
-        order, task_of(course)(order.variant), Runner(variables, order.apart, reader, ruleset)
-    )
+    runner = Runner(variables, order.apart, reader, ruleset)
+    return Ground(order, task_of(course)(order.variant), runner)
 
 
 if __name__ == "__main__":

@@ -30,9 +30,8 @@ SUBMISSION = {
 
 def without_hints(outcomes: Sequence[Outcome]) -> list[Outcome]:
     """Return the same outcomes without hints."""
-    return [
-        replace(one, results=[replace(each, hint="") for each in one.results]) for one in outcomes
-    ]
+    bare = ([replace(each, hint="") for each in one.results] for one in outcomes)
+    return [replace(one, results=results) for one, results in zip(outcomes, bare)]
 
 
 def as_json(outcomes: Sequence[Outcome], with_recordings: bool = True) -> str:

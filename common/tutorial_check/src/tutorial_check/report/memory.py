@@ -130,10 +130,8 @@ class LastRun:
         found = {}
         for student, digest in students:
             if student.outcomes:
-                outcomes = [
-                    dataclasses.asdict(dataclasses.replace(one, recordings=[]))
-                    for one in student.outcomes
-                ]
+                bare = (dataclasses.replace(one, recordings=[]) for one in student.outcomes)
+                outcomes = [dataclasses.asdict(one) for one in bare]
                 found[student.name] = {"digest": digest, "outcomes": outcomes}
             elif student.name in self._found and not student.trouble:
                 found[student.name] = self._found[student.name]

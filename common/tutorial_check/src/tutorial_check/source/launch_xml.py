@@ -74,12 +74,8 @@ def not_xml(error: str, text: str) -> tuple[int | None, str]:
 
 def _not_well_formed(text: str, line: int, index: int) -> tuple[int, str]:
     """Return the same for a file in which expat came as far as text[index], in that line."""
-    dashes = [
-        line_of(text, each.start(1) + f"{each[1]}-".index("--"))
-        for each in COMMENT.finditer(text)
-        if "--" in f"{each[1]}-"
-    ]
-    if line in dashes:
+    inner = [(each.start(1), f"{each[1]}-") for each in COMMENT.finditer(text)]
+    if line in [line_of(text, start + each.index("--")) for start, each in inner if "--" in each]:
         return line, "within <!-- --> there may be no --: delete it, or the whole line"
     if text.startswith("<!--", index):
         return line, "each <!-- needs its -->"

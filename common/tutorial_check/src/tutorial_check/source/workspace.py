@@ -125,10 +125,8 @@ def find_layout(folder: str | Path) -> Layout:
         raise CannotCheck(f"{error.filename}: may not be read") from None
     if not found:
         return Layout(folder, folder / "src", True)
-    ranked = sorted(
-        [each for each in found if found[each]] or found,
-        key=lambda one: (-len(found[one] & SOLUTIONS), len(one.root.parts), one.root),
-    )
+    ranked = [each for each in found if found[each]] or list(found)
+    ranked.sort(key=lambda one: (-len(found[one] & SOLUTIONS), len(one.root.parts), one.root))
     best, place = ranked[0], ", not ".join(os.path.relpath(one.root, folder) for one in ranked[:4])
     return replace(best, place="" if best.root in (folder, folder.parent) else place)
 
@@ -145,10 +143,7 @@ def _layout_of(folder: Path) -> Layout | None:
 def must_be_ones_own(layout: Layout, suite: Path) -> None:
     """Raise CannotCheck if a package, or what it is a link to, is one of the suite's solutions."""
     solutions = {os.path.realpath(suite / name) for name in SOLUTIONS}
-    inside = []
-    with contextlib.suppress(OSError):  # copy() reports it
-        inside = sorted(layout.source.iterdir())
-    for each in (layout.source, *inside):
+    for each in (layout.source, *sorted(layout.source.glob("*"))):
         if os.path.realpath(each) in solutions:
             raise CannotCheck(f"{each} is this suite's solution, not yours: name YOUR workspace")
 
@@ -249,10 +244,9 @@ def packages_below(folder: str | Path) -> list[Package]:
 
 def packages_beside(layout: Layout) -> list[Package]:
     """Return the packages in a workspace right beside its src; deeper ones may be another student's."""
-    root = layout.root  # a home folder is not shown to the examination
-    every = {*root.iterdir()} - {layout.source} if layout.is_workspace and root.is_dir() else ()
-    beside = [each for each in sorted(every) if os.path.isfile(each / "package.xml")]
-    return [read_package(each, layout.root) for each in beside]
+    manifests = sorted(layout.root.glob("*/package.xml")) if layout.is_workspace else []
+    beside = (each.parent for each in manifests if each.is_file())
+    return [read_package(each, layout.root) for each in beside if each != layout.source]
 
 
 def read_package(place: Path, root: str | Path) -> Package:

@@ -78,9 +78,6 @@ def _remark(fields: list[Field]) -> str:
     if curves:
         are = "are curves of their axes" if len(curves) > 1 else "is a curve of its axis"
         return f"{' and '.join(curves)} {are}, not a constant times it"
-    scaled = [
-        f"{f.name} = {f.product}"
-        for f in fields
-        if f.rule and abs(f.rule.factor - 1) > 0.02 and not f.wanted
-    ]
-    return f"{', '.join(scaled)}; the handout's has no factor" if scaled else ""
+    scaled = (f for f in fields if f.rule and abs(f.rule.factor - 1) > 0.02 and not f.wanted)
+    products = ", ".join(f"{f.name} = {f.product}" for f in scaled)
+    return f"{products}; the handout's has no factor" if products else ""

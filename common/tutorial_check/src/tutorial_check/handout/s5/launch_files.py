@@ -67,9 +67,8 @@ class LaunchFile:
     def of(self, *roles: str) -> list[Node]:
         """Return the nodes that it starts of any of these ROLES."""
         pattern = "|".join(ROLES[each] for each in roles)
-        return [
-            one for one in self.nodes if re.fullmatch(pattern, "{package}/{type}".format(**one))
-        ]
+        named = (("{package}/{type}".format(**one), one) for one in self.nodes)
+        return [one for name, one in named if re.fullmatch(pattern, name)]
 
     def demand(self, what: str, nodes: list[Node], hint: str) -> Node:
         """Return the first of these nodes. Raises Wrong if there is none."""

@@ -57,12 +57,9 @@ def check_viewer(file: LaunchFile) -> Note | None:
 def check_one_driver(file: LaunchFile) -> None:
     """Raise Wrong if two programs of the student's send velocities to the same place."""
     programs, topic = file.session.scripts(PACKAGE).items(), file.session.task.topic(CMD_VEL)
-    of_twists = {
-        Path(script).name
-        for script, facts in programs
-        for call in facts.calls.get("Publisher", [])
-        if "Twist" in " ".join([*call.words, *call.names.values()])
-    }
+    calls = ((path, one) for path, facts in programs for one in facts.calls.get("Publisher", []))
+    words = ((path, " ".join([*one.words, *one.names.values()])) for path, one in calls)
+    of_twists = {Path(path).name for path, each in words if "Twist" in each}
     drivers = [node for node in file.own if topic_of(node, topic) == CMD_VEL]
     drivers = [node for node in drivers if node["type"] in of_twists]
     drivers = [node for node in drivers if node["namespace"] == drivers[0]["namespace"]]

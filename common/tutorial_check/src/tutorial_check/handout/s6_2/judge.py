@@ -127,12 +127,8 @@ def is_class(session: Session) -> Note | str | None:
        look="rostopic echo {n.cmd_vel}")  # fmt: skip
 def behaves(session: Session) -> Note | str | None:
     script, _, _ = program(session)
-    notes = [
-        judge.displays(session, script, few_are_enough=True),
-        judge.topics(session, script),
-        judge.mapping(session, script),
-        judge.rate(session, script),
-    ]
+    notes: list[object] = [judge.displays(session, script, few_are_enough=True)]
+    notes += [each(session, script) for each in (judge.topics, judge.mapping, judge.rate)]
     return next((note for note in notes if isinstance(note, Note)), None)
 
 
