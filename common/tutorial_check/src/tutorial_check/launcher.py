@@ -132,8 +132,7 @@ def examine(asked: Order, report: Report = lambda outcome, result: None) -> list
         raise CannotCheck(str(error)) from None
     finally:
         if user is not None:
-            end_all = [*privileges.as_user(user), "sh", "-c", "kill -KILL -1"]
-            subprocess.run(end_all, check=False)
+            subprocess.run([*privileges.as_user(user), "sh", "-c", "kill -KILL -1"], check=False)
         cleaner.communicate()
 
 

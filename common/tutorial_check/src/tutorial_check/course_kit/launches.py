@@ -58,8 +58,7 @@ def launch_file(session: Session, package: str, name: str) -> LaunchFile:
             seen = f"Cannot locate node of type [{node['type']}] in package [{node['package']}]"
             hint = "look at pkg= and type=: the name of the program's file, which is executable"
             hint = package_hint(node["package"]) if node["found"] is None else hint
-            place = file.at(f'"{node["type"]}"', node["type"])
-            raise Wrong("nodes that exist", seen, place, hint)
+            raise Wrong("nodes that exist", seen, file.at(f'"{node["type"]}"', node["type"]), hint)
     return file
 
 

@@ -45,8 +45,7 @@ def find_script(session: Session, package: str, name: str) -> str:
         other = others[near[0]]
         paths = (session.whole(path, package) for path in (other, other.with_name(name)))
         hint = f"mv {' '.join(paths)}: capitals, underscores and the ending count"
-        where = str(other.relative_to(folder))
-        raise Wrong(f"a program {name}", f"a file {near[0]}", where, hint)
+        raise Wrong(f"a program {name}", f"a file {near[0]}", str(other.relative_to(folder)), hint)
     if compiled:
         seen = f"a program in C++, {compiled[0].name}"
         hint = f"the exercise asks for Python, rospy: write scripts/{name}; the C++ may stay"

@@ -78,9 +78,8 @@ class Memory:
         self.done += [one.id for one in outcomes if one.solved]
         known = read_state(self._cache)
         there = {key: known[key] for key in known if os.path.exists(key.split("\n")[0])}
-        about = {"wrong": self._wrong, "done": self.done}
         # Without a memory each failure is a first one.
-        write_state(self._cache, {**there, self._key: about})
+        write_state(self._cache, {**there, self._key: {"wrong": self._wrong, "done": self.done}})
 
 
 def show_solution(course: Course, exercises: Sequence[str], memory: Memory) -> None:

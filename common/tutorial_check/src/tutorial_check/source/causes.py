@@ -88,8 +88,7 @@ def traced(error: str, line: int, facts: PythonFacts) -> tuple[int, str]:
     if not found:
         return line, ""
     if found[1] in facts.inner_names and line in facts.loose:
-        function = facts.loose[line]
-        return line, f"this line stands outside of {function}: indent it as those within"
+        return line, f"this line stands outside of {facts.loose[line]}: indent it as those within"
     if f"self.{found[1]}" in facts.attributes:
         return line, f"within a class it is self.{found[1]}"
     name, known = found[1], facts.names

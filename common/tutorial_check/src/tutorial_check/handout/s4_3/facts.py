@@ -68,8 +68,7 @@ class Facts:
             if other != self.script and is_first:
                 with contextlib.suppress(Wrong):
                     check_file(self.session, PACKAGE, other)
-                    is_shown = self.session.recording(drive, other, False).all_shown
-                    return other if is_shown else ""
+                    return other if self.session.recording(drive, other, False).all_shown else ""
                 break
         return ""
 
@@ -120,8 +119,7 @@ class Facts:
             if field and re.search(name + r"\s*[-+*/]?=", line):
                 where = f"{self.script}:{number}"
                 break
-        sure = not (self.seen.missing or self.seen.unasked)
-        return Wrong("", self.complaint, where, hint, sure)
+        return Wrong("", self.complaint, where, hint, not (self.seen.missing or self.seen.unasked))
 
 
 def repetition(answers: Sequence[Twist], twists: Sequence[Twist]) -> tuple[int, bool]:

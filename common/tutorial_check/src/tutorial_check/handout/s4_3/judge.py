@@ -260,8 +260,7 @@ def ctrl_c(session: Session) -> Note | str:
 def under_load(session: Session) -> Note | None:
     """Start it while 200 Joys a second come. Never a failure."""
     script = main_script(session)
-    facts = session.scripts(PACKAGE)[script]
-    made = map(facts.first, ("Subscriber", "Publisher"))
+    made = map(session.scripts(PACKAGE)[script].first, ("Subscriber", "Publisher"))
     first, second = (call.line if call else 0 for call in made)
     if not 0 < first < second and not session.recording(loaded, script).failed:
         return None

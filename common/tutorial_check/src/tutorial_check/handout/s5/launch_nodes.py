@@ -191,8 +191,7 @@ def fault_of(file: LaunchFile, plan: Plan, run: Run, expected: str) -> Wrong:
         seen, hint = f"nothing on {', '.join(silent)}", hints[silent[0]]
     for error in (ERRORS.findall(run.program.output) or run.last_words)[:1]:
         seen += f"; {error.strip()[:200]}"
-    found = traced(file.session, run, expected)
-    return found or Wrong(expected, seen, f"launch/{file.name}", hint)
+    return traced(file.session, run, expected) or Wrong(expected, seen, f"launch/{file.name}", hint)
 
 
 def _bag_run(session: Session) -> tuple[LaunchFile, Plan, Run]:
@@ -219,8 +218,7 @@ def bag_drives(session: Session) -> None:
 @check("C24", "the recording begins again at its end", "5.1", "C23", look="rostopic hz /joy")
 def bag_loops(session: Session) -> None:
     file, _, run = _bag_run(session)
-    player = file.of("player")[0]
-    if not run.loops and not player["respawn"]:
+    if not run.loops and not file.of("player")[0]["respawn"]:
         expected = "/joy flows on after the end of the recording"
         hint = "rosbag play --loop: in args= of that node"
         raise Wrong(expected, "it falls silent", bag_of(session)[1], hint)

@@ -27,8 +27,7 @@ def remap_of(session: Session) -> str:
        look="rostopic echo /cmd_vel_mux/input/teleop")  # fmt: skip
 def remapped(session: Session) -> None:
     file, own = check_file(session, TURTLEBOT), session.task.topic(CMD_VEL)
-    start = launch_nodes.OWN_HINT.format(file.package)
-    file.demand("joy2twist", file.own, start)
+    file.demand("joy2twist", file.own, launch_nodes.OWN_HINT.format(file.package))
     joys = launch_nodes.topic_of(file.own[0], session.task.topic(JOY))
     plan = replace(plan_of(file, TELEOP), joys=joys)
     seen = session.recording(remap_run, plan, own)
