@@ -106,20 +106,15 @@ class Runner:
             value = condition()
             if value or is_over:
                 return value
-            if self._is_crowded():
-                raise CutShort(MULTIPLIES, f"more than {MOST_PROCESSES} processes")
+            if self._alone and self.clock.crowd() > MOST_PROCESSES:
+                self._reap()  # those that have ended do not count
+                if len(self._strays()) > MOST_PROCESSES:
+                    raise CutShort(MULTIPLIES, f"more than {MOST_PROCESSES} processes")
             # Asking takes others' time.
             for key, _ in self._selector.select(max(0.01, 2 * (time.monotonic() - asked_s))):
                 if key.data is None:  # no question comes before the answer
                     sys.exit("the checker has ended")
                 self._read(key.data)
-
-    def _is_crowded(self) -> bool:
-        """Return whether the living programs are too many. Reap those that have ended."""
-        if not self._alone or self.clock.crowd() <= MOST_PROCESSES:
-            return False
-        self._reap()
-        return len(self._strays()) > MOST_PROCESSES
 
     def _read(self, program: Program, is_last: bool = False) -> None:
         if not program.pipe.closed and (not program.read() or is_last):

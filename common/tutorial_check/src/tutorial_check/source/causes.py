@@ -132,13 +132,8 @@ def packages_of_ros(name: str) -> str:
     return _found(table, name) or package_of_module(name)
 
 
-def in_place_of(name: str) -> str:
-    """Return what to do without a ROS package, or module, that Debian lacks; or ""."""
-    return _found(TABLES["LACKING"], name)
-
-
 def advice(name: str, packages: str) -> str:
     """Return what to do about what is not installed, and is in these packages of Debian's; or ""."""
-    other = in_place_of(name)
+    other = _found(TABLES["LACKING"], name)
     lacks = f"Debian lacks {name}; {other}" if other else ""
     return f"Debian has it: sudo apt install {packages}" if packages else lacks

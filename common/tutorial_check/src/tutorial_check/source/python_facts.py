@@ -137,19 +137,15 @@ class PythonFacts:
     @cached_property
     def called_back(self) -> dict[str, list[int]]:
         """{name: lines} of what callbacks call, and what these call."""
-        return self._called_by("Subscriber", 2)
-
-    @property
-    def at_end(self) -> dict[str, list[int]]:
-        """{name: lines} of what a function given to on_shutdown calls."""
-        return self._called_by("on_shutdown", 0)
+        return self.called_by("Subscriber", 2)
 
     def given(self, name: str, place: int) -> list[tuple[int, str]]:
         """Return (line, what is called back) of each call of a name, which has that in a place."""
         calls = self.calls.get(name, [])
         return [(c.line, (c.words[place:] or [c.names.get("callback", "")])[0]) for c in calls]
 
-    def _called_by(self, name: str, place: int) -> dict[str, list[int]]:
+    def called_by(self, name: str, place: int) -> dict[str, list[int]]:
+        """Return {name: lines} of what functions call that are given to calls of a name."""
         functions = {node.name: node for node in self._functions}
         waiting = [word.rsplit(".", 1)[-1] for _, word in self.given(name, place)]
         lines: dict[str, set[int]] = {}

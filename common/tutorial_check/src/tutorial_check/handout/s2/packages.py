@@ -253,7 +253,11 @@ def _build_error(session: Session, output: str) -> Wrong:
     bad = r"Error at|^E: |mismatched tag|error:|Could not find|Multiple packages"
     words = next((line for line in lines if re.search(bad, line)), lines[-1] if lines else "")
     missing = _missing_in(output)
-    message, where = _cmake_error(output)
+    error = re.search(r"^CMake Error(?: at [^\n]*)?:\s(.*?)(?:\n\n\n|\Z)", output, re.M | re.S)
+    message = " ".join(error[1].split("Call Stack")[0].split()) if error else ""
+    # The error itself is often in a file of catkin's; the call stack names the student's line.
+    own = re.search(r"(?<!\S)[^/\s]\S*/CMakeLists\.txt:\d+", error[0] if error else "")
+    where = own[0] if own else ""
     if words.startswith("CMake Error") and message:
         words = f"CMake: {message}"
     hint = "".join(explained("cmake", message))
@@ -288,12 +292,3 @@ def _not_found(session: Session, name: str) -> tuple[str, str, str]:
     if near and "," not in name:
         hint = f"correct {name} to {near[0]} in CMakeLists.txt"
     return f"catkin cannot find {name}", place, hint
-
-
-def _cmake_error(output: str) -> tuple[str, str]:
-    """Return (message, FILE:LINE of the student's, from its stack) of CMake's first error."""
-    found = re.search(r"^CMake Error(?: at [^\n]*)?:\s(.*?)(?:\n\n\n|\Z)", output, re.M | re.S)
-    if not found:
-        return "", ""
-    place = re.search(r"(?<!\S)[^/\s]\S*/CMakeLists\.txt:\d+", found[0])
-    return " ".join(found[1].split("Call Stack")[0].split()), place[0] if place else ""

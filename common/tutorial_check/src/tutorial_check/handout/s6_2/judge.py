@@ -158,7 +158,8 @@ def stops(session: Session) -> Note | str | None:
         # One that has gone, and whose text knows no shutdown, will not send a zero another time.
         sure = no_zero and end.took_s is not None and not call
         if no_zero or not end.in_time:
-            sleep, publish = (min(facts.at_end.get(name, [0])) for name in ("sleep", "publish"))
+            called = facts.called_by("on_shutdown", 0)
+            sleep, publish = (min(called.get(name, [0])) for name in ("sleep", "publish"))
             if 0 < sleep < publish:
                 where, hint = f"{path}:{sleep}", "in shutdown first the zero, then the sleep"
             trace = first_traceback(end.output, str(session.package(PACKAGE).folder))
