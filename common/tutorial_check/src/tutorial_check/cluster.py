@@ -160,7 +160,6 @@ def _version(order: Order) -> str:
 
 
 def _examine(packed: bytes, order: Order, version: str) -> list[Outcome]:
-    """Check a submission on this machine. Raises CannotCheck."""
     _must_isolate()
     with tempfile.TemporaryDirectory(prefix="tutorial_worker_") as folder:
         with tarfile.open(fileobj=io.BytesIO(packed)) as archive:
@@ -216,7 +215,6 @@ def _schedule(host: str) -> NoReturn:
 
 
 def _become(program: str, address: str, *words: object) -> NoReturn:
-    """Become one of Dask's programs. Raises CannotCheck."""
     _dask()
     key = _key_of(address)
     keys = [f"--tls-{name}={key}" for name in ("ca-file", "cert", "key") if key]

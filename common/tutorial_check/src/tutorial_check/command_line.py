@@ -236,7 +236,6 @@ def watch(options: argparse.Namespace) -> NoReturn:
 
 
 def _run(options: argparse.Namespace) -> int:
-    """Do what was asked for; return the exit code. Raises CannotCheck."""
     course = options.course
     if options.all:
         from tutorial_check.submissions import check_all  # noqa: PLC0415  takes its time

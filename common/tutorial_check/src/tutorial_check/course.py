@@ -73,7 +73,6 @@ class Course:
 
     @property
     def by_default(self) -> list[str]:
-        """The exercises that are checked if none is named."""
         return [name for name, exercise in self.exercises.items() if exercise.by_default]
 
     def meant(self, word: str) -> list[str]:

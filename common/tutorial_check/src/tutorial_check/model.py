@@ -75,7 +75,6 @@ class CutShort(Exception):
     seen: str = ""
 
     def as_wrong(self, where: str = "") -> Wrong:
-        """Return the Wrong for it."""
         kind = self.kind if self.kind in CUT_SHORT else CANNOT_START
         expected, seen, hint = CUT_SHORT[kind]
         return Wrong(expected, seen.format(self.seen), where, hint, kind != CANNOT_START)
@@ -141,7 +140,6 @@ class Run:
         self._troubles: dict[str, str] = {}  # id of a check that could not be made: why
 
     def result(self, check_id: str) -> Result:
-        """Return the Result of a check; make it now if it was not yet."""
         if check_id not in self._done:
             self._done[check_id] = self._make(self._checks[check_id])
         return self._done[check_id]
@@ -252,10 +250,8 @@ class Outcome:
 
     @property
     def solved(self) -> bool:
-        """Whether it passed and there was something to check."""
         return self.passed and not self.empty
 
     @property
     def wrong(self) -> list[Result]:
-        """The checks that are wrong, in their order."""
         return [each for each in self.results if each.status == WRONG]

@@ -62,7 +62,6 @@ def _gradescope(path: Path, course: Course, exercises: Sequence[str]) -> None:
 
 
 def _commit() -> str:
-    """Return the commit of this clone. Raises CannotCheck."""
     command = ["git", "-C", str(SUITE), "rev-parse", "HEAD"]
     try:
         done = subprocess.run(command, capture_output=True, text=True, check=False)

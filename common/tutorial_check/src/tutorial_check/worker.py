@@ -90,7 +90,6 @@ def _cannot(error: Exception) -> Line:
 
 
 def _prepared(order: Order, reader: int) -> Ground:
-    """Return the ground of an order. reader: see Runner."""
     scratch = order.folder
     shutil.copytree(scratch / workspace.COPY, scratch / "ws" / "src", symlinks=True)
     environment.prepare(scratch)

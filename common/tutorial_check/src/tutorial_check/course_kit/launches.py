@@ -9,13 +9,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Dict, Tuple
 
-from tutorial_check.course_kit.files import Lines
 from tutorial_check.handout.s5.record import facts_of_files
 from tutorial_check.judge.packages import package_of
 from tutorial_check.model import Wrong
 from tutorial_check.record.session import Session
 from tutorial_check.record.stage import Stage
-from tutorial_check.source.launch_xml import Fault, blamed, package_hint, parse_error, read
+from tutorial_check.source.launch_xml import Fault, Lines, blamed, package_hint, parse_error, read
 
 DIED = re.compile(r"^\[([^\]]+)-\d+\] process has died", re.MULTILINE)
 

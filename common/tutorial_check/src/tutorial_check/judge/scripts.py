@@ -165,9 +165,6 @@ def odd_node(session: Session, package: str, script: str) -> Note | None:
     return Note(seen, f"{script}:{line}", f"letters, digits and _ only: {right!r}")
 
 
-# ------------------------------------------------------------------------- why one has failed
-
-
 def cause_of(session: Session, package: str, trace: Traceback, name: str = "") -> tuple[str, str]:
     """Return (the line to blame, what to do) for a Traceback of a program, maybe of that name."""
     name = COPY.sub("", name)

@@ -59,8 +59,6 @@ class Session:
         """Return what a recorder writes down; recorded once, unless it is looked at again."""
         raise NotImplementedError
 
-    # ---------------------------------------------------------------- the student's packages
-
     @cached_property
     def broken(self) -> Package | None:
         """A package whose package.xml keeps every node from starting."""

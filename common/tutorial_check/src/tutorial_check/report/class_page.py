@@ -73,7 +73,6 @@ class Student:
 
     @property
     def wrong(self) -> list[Result]:
-        """The checks that are wrong, in their order."""
         return [one for outcome in self.outcomes for one in outcome.wrong]
 
 

@@ -29,7 +29,6 @@ SUBMISSION = {
 
 
 def without_hints(outcomes: Sequence[Outcome]) -> list[Outcome]:
-    """Return the same outcomes without hints."""
     bare = ([replace(each, hint="") for each in one.results] for one in outcomes)
     return [replace(one, results=results) for one, results in zip(outcomes, bare)]
 

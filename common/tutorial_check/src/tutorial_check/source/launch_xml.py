@@ -50,6 +50,24 @@ def place_of(where: str, text: str, *words: str) -> str:
     return where
 
 
+class Lines:
+    """A text, and where it is within its package."""
+
+    where: str
+    text: str
+
+    def at(self, *words: str) -> str:
+        """Return FILE:LINE of the first of the words that is there; else the file."""
+        return place_of(self.where, self.text, *words)
+
+    def must(
+        self, is_right: object, words: str, expected: str, seen: object, hint: str = ""
+    ) -> None:
+        """Raise Wrong, at the first of the words that is there, unless it is right."""
+        if not is_right:
+            raise Wrong(expected, str(seen), self.at(*words.split()), hint)
+
+
 def line_of(text: str, index: int) -> int:
     """Return the number of the line, from 1, in which text[index] stands."""
     return text.count("\n", 0, index) + 1

@@ -141,7 +141,6 @@ def _missing(session: Session, name: str, expected: str) -> Wrong:
 
 
 def _dependencies(session: Session, name: str) -> Package:
-    """Return the package of that name, which has all dependencies. Raises Wrong."""
     package, wanted = _package(session, name), WANTED[name]
     where = f"{package.inside}/package.xml"
     for odd in sorted(package.depends):

@@ -39,7 +39,10 @@ def scripts(session: Session) -> list[str]:
 
 
 def _talk(session: Session) -> Talk:
-    return session.recording(record.talk, *scripts(session))
+    seen = session.recording(record.talk, *scripts(session))
+    if not seen.master_alive:
+        raise CutShort(MASTER_GONE).as_wrong()
+    return seen
 
 
 @check("C5", "talker.py and listener.py can be run", "3.1", "C2",
@@ -51,18 +54,10 @@ def files(session: Session) -> Note | str:
     return next(filter(None, notes), ", ".join(scripts(session)))
 
 
-def _half(session: Session, number: int) -> tuple[Talk, str, PythonFacts]:
-    """Return what was recorded, and the talker (0) or listener (1). Raise Wrong if the master has gone."""
-    seen, script = _talk(session), scripts(session)[number]
-    if not seen.master_alive:
-        raise CutShort(MASTER_GONE).as_wrong()
-    return seen, script, session.scripts(PACKAGE)[script]
-
-
 @check("C6", "the talker talks", "3.1", "C5", look="rostopic hz /chatter")
 def talker(session: Session) -> Note | str:
-    seen, script, facts = _half(session, 0)
-    expected = talks(session)
+    seen, script, expected = _talk(session), scripts(session)[0], talks(session)
+    facts = session.scripts(PACKAGE)[script]
     if not seen.received:
         raise _silent(session, seen, script, facts)
     if seen.talker_ended:
@@ -90,7 +85,6 @@ def talker(session: Session) -> Note | str:
 
 
 def _silent(session: Session, seen: Talk, script: str, facts: PythonFacts) -> Wrong:
-    """Return the Wrong for a talker of which no message came."""
     expected, ends = talks(session), seen.talker_ended
     loops = ", and does it loop: while not rospy.is_shutdown()" if facts.has_main else ""
     hint = f"does the last line call talker(){loops}?"
@@ -115,7 +109,8 @@ def _silent(session: Session, seen: Talk, script: str, facts: PythonFacts) -> Wr
 @check("C7", "the listener displays what it receives", "3.1", "C5",
        look="rosrun beginner_tutorials listener.py")  # fmt: skip
 def listener(session: Session) -> Note | None:
-    seen, script, facts = _half(session, 1)
+    seen, script = _talk(session), scripts(session)[1]
+    facts = session.scripts(PACKAGE)[script]
     if seen.listener_ended:
         raise ended(crash(session, PACKAGE, seen.listener, GOES_ON), facts, script)
     lines = seen.listener.output.splitlines()  # with or without colours or a separator
@@ -134,7 +129,6 @@ def listener(session: Session) -> Note | None:
 
 
 def _deaf(session: Session, seen: Talk, script: str, facts: PythonFacts, displayed: int) -> Wrong:
-    """Return the Wrong for a listener that does not display all texts."""
     if "Traceback" in seen.listener.output or seen.listener.spins:
         return crash(session, PACKAGE, seen.listener, LISTENS)
     hint = with_import("rospy.Subscriber('chatter', String, callback)", "String", facts)

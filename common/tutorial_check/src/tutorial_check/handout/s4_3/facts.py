@@ -76,8 +76,6 @@ class Facts:
         output = COLOUR.sub("", self.seen.output)
         return probes.values_shown(probes.numbered_joys(COUNT), output, within)
 
-    # ------------------------------------------------------------------------ why it failed
-
     def crash(self) -> Wrong:
         session, seen = self.session, self.seen
         text = unmasked(session.text(PACKAGE, self.script))

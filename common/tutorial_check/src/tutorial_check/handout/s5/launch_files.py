@@ -18,7 +18,7 @@ from tutorial_check.judge.scripts import find_script
 from tutorial_check.model import Note, Wrong
 from tutorial_check.record.session import Session
 from tutorial_check.source import launch_xml
-from tutorial_check.source.launch_xml import line_of, place_of, read
+from tutorial_check.source.launch_xml import Lines, line_of, place_of, read
 from tutorial_check.source.manifests import is_stand_in
 
 BAG, STICK = "launch_bag.launch", "launch_joy_node.launch"
@@ -40,7 +40,7 @@ ATTRIBUTES = (
 )
 
 
-class LaunchFile:
+class LaunchFile(Lines):
     """A launch file of the student's: its text, and what roslaunch makes of it."""
 
     def __init__(self, session: Session, name: str) -> None:
@@ -52,10 +52,6 @@ class LaunchFile:
         self.nodes: list[Node] = self.facts["nodes"]  # that it starts
         self.package = session.task.named(PACKAGE)
         self.own = [node for node in self.nodes if node["package"] == self.package]
-
-    def at(self, *words: str) -> str:
-        """Return FILE:LINE of the first line with the first of the words that is there; else the file."""
-        return place_of(self.where, self.text, *words)
 
     def at_node(self, node: Node) -> str:
         """Return FILE:LINE of a node, which may be in an included file."""
@@ -183,7 +179,6 @@ def _fault(file: LaunchFile, fault: launch_xml.Fault) -> Wrong:
 
 
 def _check_words(file: LaunchFile, said: str) -> None:
-    """Raise Wrong for a tag or attribute that roslaunch does not know."""
     pattern = r"unrecognized (?:tag |')(\w+)|[Uu]nknown (?:<\w+> )?attribute '?([^\s']+)"
     odd = (each.groups("") for each in re.finditer(pattern, said))
     tag, name = next((each for each in odd if each[0] not in TAGS.split()), ("", ""))
