@@ -69,11 +69,10 @@ class PythonFacts:
         self.has_main = any(map(_is_main, self._nodes))
         self.loops = [node.lineno for node in self._of(ast.While)]
         self.broad_excepts = list(filter(is_broad, self._of(ast.ExceptHandler)))
-        self.bare_names = [  # (line, text) of statements that do nothing, as rospy.spin without ()
-            (node.lineno, text_of(node.value))
-            for node in self._of(ast.Expr)
-            if isinstance(node.value, (ast.Attribute, ast.Name))
-        ]
+        # (line, text) of statements that do nothing, as rospy.spin without ().
+        values = [node.value for node in self._of(ast.Expr)]
+        bare = [value for value in values if isinstance(value, (ast.Attribute, ast.Name))]
+        self.bare_names = [(value.lineno, text_of(value)) for value in bare]
         self.imports = {
             f"{node.module}.{alias.name}" if isinstance(node, ast.ImportFrom) else alias.name
             for node in self._of(ast.Import, ast.ImportFrom)
@@ -86,7 +85,7 @@ class PythonFacts:
     @property
     def sunken_main(self) -> Place:
         """(line, function) of an `if __name__ == '__main__':` that stands within a function."""
-        inner = ((node, each.name) for each in self._functions for node in ast.walk(each))
+        inner = ((n, f.name) for f in self._functions for n in ast.walk(f) if isinstance(n, ast.If))
         return next(((node.lineno, name) for node, name in inner if _is_main(node)), ())
 
     @property
