@@ -1,4 +1,4 @@
-"""The command line, ./tutorial check, and one workspace: checked once, or (--watch) when a file is saved."""
+"""The command line, ./tutorial check; one workspace, checked once or whenever a file is saved."""
 
 from __future__ import annotations
 

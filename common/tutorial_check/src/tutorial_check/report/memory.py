@@ -1,7 +1,7 @@
 """What earlier checks found: for hints, graded, and so that --all checks only what has changed.
 
-How to fix it is shown when the same is wrong again. What was wrong and what was done is remembered in
-the cache, for each workspace, and not in it; that of --all beside the table.
+How to fix it is shown when the same is wrong again. What was wrong and what was done is remembered
+in the cache, for each workspace, and not in it; that of --all beside the table.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What an error most often means, and what to do; which Debian package has what is missing. Pure."""
+"""What an error most often means, and what to do; which package has what is missing. Pure."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def explained(section: str, text: str, file: str = "") -> list[str]:
 
 
 def explain(error: str, text: str = "", file: str = "FILE", section: str = "python") -> str:
-    """Return what an error most often means, in a line of a file; or "". section: syntax, or python."""
+    """Return what an error most often means, in a line of a file; or "". section: or syntax."""
     both = f"{error}\n{text}"
     hint = "".join(explained("python2", both, file) or explained(section, both))
     found = re.search(r"No module named '([^'.]+)'", error)

@@ -70,9 +70,9 @@ class PythonFacts:
         self.loops = [node.lineno for node in self._of(ast.While)]
         self.broad_excepts = list(filter(is_broad, self._of(ast.ExceptHandler)))
         # (line, text) of statements that do nothing, as rospy.spin without ().
-        values = [node.value for node in self._of(ast.Expr)]
-        bare = [value for value in values if isinstance(value, (ast.Attribute, ast.Name))]
-        self.bare_names = [(value.lineno, text_of(value)) for value in bare]
+        kinds = (ast.Attribute, ast.Name)
+        bare = [node for node in self._of(ast.Expr) if isinstance(node.value, kinds)]
+        self.bare_names = [(node.lineno, text_of(node.value)) for node in bare]
         self.imports = {
             f"{node.module}.{alias.name}" if isinstance(node, ast.ImportFrom) else alias.name
             for node in self._of(ast.Import, ast.ImportFrom)

@@ -1,4 +1,4 @@
-"""The text of a Python file: its coding, its lines, an expression in short, one thing changed. Pure."""
+"""The text of a Python file: its coding, lines, expressions; with one thing changed. Pure."""
 
 from __future__ import annotations
 
