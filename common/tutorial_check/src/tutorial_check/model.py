@@ -147,7 +147,7 @@ class Run:
     def exercise(self, exercise: str, only_first: bool = False) -> Iterator[Result]:
         """Yield the results of an exercise as they come; only_first: up to the first wrong one.
 
-        What is wrong in an earlier exercise and keeps this one from being checked comes first, once.
+        What is wrong in an earlier exercise and keeps this one from being checked comes first.
         """
         is_wrong = False
         for check in self._of(exercise):

@@ -38,8 +38,8 @@ class Runner:
         reader: int | None = None,
         ruleset: int | None = None,
     ) -> None:
-        """alone: in a PID namespace of their own. reader: a socket whose other end waits for what is
-        found. ruleset: see landlock.
+        """alone: in a PID namespace of their own. reader: a socket whose other end waits for what
+        is found. ruleset: see landlock.
         """
         self.environment = environment
         self._alone, self._ruleset = alone, ruleset

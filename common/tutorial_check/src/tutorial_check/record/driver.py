@@ -1,4 +1,4 @@
-"""The other end of the student's topics, in the process of a Helper; each method returns at once."""
+"""The other end of the student's topics, in a Helper's process; each method returns at once."""
 
 from __future__ import annotations
 

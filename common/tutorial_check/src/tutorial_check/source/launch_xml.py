@@ -169,7 +169,7 @@ def blamed(fault: Fault, is_own: Callable[[str], bool]) -> tuple[str, int]:
 def parse_error(
     fault: Fault, where: str, line: int, text: str, may_see: Callable[[Path], bool]
 ) -> Wrong:
-    """Return the Wrong for a file that roslaunch cannot read, at where:line; text: with comments."""
+    """Return the Wrong for a file that roslaunch cannot read. text: with comments."""
     expected, place = "a launch file that roslaunch can read", f"{where}:{line}"
     words = " ".join(fault.words.split())[:250]
     if fault.kind == "ExpatError":
