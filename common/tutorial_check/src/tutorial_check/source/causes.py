@@ -6,7 +6,7 @@ import difflib
 import fnmatch
 import re
 from pathlib import Path
-from typing import Collection
+from typing import Collection, Iterable
 
 import yaml
 
@@ -57,6 +57,12 @@ def explained(section: str, text: str, file: str = "") -> list[str]:
     return []
 
 
+def meant(name: str, known: Iterable[str], likeness: float, words: str = "is {} meant?") -> str:
+    """Return words about the one of those known that is most like a name; empty if none is."""
+    near = difflib.get_close_matches(name, known, 1, likeness)
+    return words.replace("{}", near[0]) if near else ""
+
+
 def explain(error: str, text: str = "", file: str = "FILE", section: str = "python") -> str:
     """Return what an error most often means, in a line of a file; or "". section: or syntax."""
     both = f"{error}\n{text}"
@@ -65,11 +71,9 @@ def explain(error: str, text: str = "", file: str = "FILE", section: str = "pyth
     if hint or not found:
         return hint
     module = found[1]
-    near = difflib.get_close_matches(module, COMMON, 1, 0.75)
-    hint = f"there is no {module} here: hand in your own file with the program, or install it"
-    if near:
-        hint = f"there is no module {module}: is {near[0]} meant?"
-    return advice(module, package_of_module(module)) or hint
+    hint = meant(module, COMMON, 0.75, f"there is no module {module}: is {{}} meant?")
+    other = f"there is no {module} here: hand in your own file with the program, or install it"
+    return advice(module, package_of_module(module)) or hint or other
 
 
 def with_import(line: str, message: str, facts: PythonFacts) -> str:

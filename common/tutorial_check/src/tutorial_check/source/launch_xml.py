@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import re
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,7 +9,7 @@ from typing import Callable, Sequence
 from xml.parsers import expat
 
 from tutorial_check.model import Wrong
-from tutorial_check.source.causes import advice, explained, packages_of_ros
+from tutorial_check.source.causes import advice, explained, meant, packages_of_ros
 
 CURLY = re.compile("[“”‘’]")
 COMMENT = re.compile(r"<!--(.*?)-->", re.DOTALL)
@@ -145,11 +144,9 @@ def attribute(name: str, value: str) -> tuple[str, ...]:
 
 def package_hint(name: str) -> str:
     """Return what to do about a ROS package that is not there."""
-    near = difflib.get_close_matches(name, PACKAGES.split(), 1, 0.8)
-    if near:
-        return f"there is no package {name}; is {near[0]} meant?"
+    hint = meant(name, PACKAGES.split(), 0.8, f"there is no package {name}; is {{}} meant?")
     spelling = f"there is no package {name}: look at the spelling in $(find {name}) or pkg="
-    return advice(name, packages_of_ros(name)) or spelling
+    return hint or advice(name, packages_of_ros(name)) or spelling
 
 
 def blamed(fault: Fault, is_own: Callable[[str], bool]) -> tuple[str, int]:
@@ -189,7 +186,7 @@ def parse_error(
         hint = 'an include needs the whole path: file="$(find PACKAGE)/launch/FILE"'
         if path.is_absolute():
             files = path.parent.glob("*") if may_see(path.parent) else ()
-            hint = _meant(path.name, [each.name for each in files], 0.7)
+            hint = meant(path.name, [each.name for each in files], 0.7)
             hint = hint or "look at the name of the file, and of its folder"
         return Wrong(expected, f"no such file: {path}", place, hint)
     unused = re.search(UNUSED, words)
@@ -197,14 +194,9 @@ def parse_error(
         path = Path(unused[2])
         text = read(path) if may_see(path) and path.is_file() else ""
         known = re.findall(r"<arg\b[^<>]*\bname\s*=\s*[\"']([^\"']+)[\"']", text)
-        hint = _meant(unused[1], known, 0.6)
+        hint = meant(unused[1], known, 0.6)
         hint = hint or f"leave it out; it has {', '.join(known) or 'none'}"
         return Wrong(expected, f"{path.name} has no arg {unused[1]}", place, hint)
     said = f"{fault.kind} <{fault.tag}>: {words.partition(' xml is ')[0]}"
     *seen, hint = explained("roslaunch", said)
     return Wrong(expected, (seen or [words])[0], place, hint)
-
-
-def _meant(name: str, known: Sequence[str], likeness: float) -> str:
-    near = difflib.get_close_matches(name, known, 1, likeness)
-    return f"is {near[0]} meant?" if near else ""

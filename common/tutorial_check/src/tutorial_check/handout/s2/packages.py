@@ -13,7 +13,7 @@ from tutorial_check.model import Note, Wrong
 from tutorial_check.record.build import built
 from tutorial_check.record.builder import Built
 from tutorial_check.record.session import Session
-from tutorial_check.source.causes import advice, explained, packages_of_ros
+from tutorial_check.source.causes import advice, explained, meant, packages_of_ros
 from tutorial_check.source.launch_xml import place_of, read
 from tutorial_check.source.manifests import is_stand_in, must_be_one, unreadable
 from tutorial_check.source.workspace import Package, packages_beside, underlays
@@ -285,9 +285,7 @@ def _not_found(session: Session, name: str) -> tuple[str, str, str]:
     places = ((place_of(file, text, name), text) for file, text in cmakes if name in text)
     place, text = next(places, ("", ""))
     absent = {each for names in WANTED.values() for each in names if each not in text}
-    near = difflib.get_close_matches(name, absent, 1, 0.65)
-    hint = advice(name, packages_of_ros(name))
+    other = meant(name, absent, 0.65, f"correct {name} to {{}} in CMakeLists.txt")
+    hint = (other if "," not in name else "") or advice(name, packages_of_ros(name))
     hint = hint or f"is {name} spelt right in find_package of CMakeLists.txt, and without a comma?"
-    if near and "," not in name:
-        hint = f"correct {name} to {near[0]} in CMakeLists.txt"
     return f"catkin cannot find {name}", place, hint

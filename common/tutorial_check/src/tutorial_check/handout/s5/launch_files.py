@@ -18,6 +18,7 @@ from tutorial_check.judge.scripts import find_script
 from tutorial_check.model import Note, Wrong
 from tutorial_check.record.session import Session
 from tutorial_check.source import launch_xml
+from tutorial_check.source.causes import meant
 from tutorial_check.source.launch_xml import Lines, line_of, place_of, read
 from tutorial_check.source.manifests import is_stand_in
 
@@ -184,8 +185,7 @@ def _check_words(file: LaunchFile, said: str) -> None:
     tag, name = next((each for each in odd if each[0] not in TAGS.split()), ("", ""))
     if not tag and not name:
         return
-    near = difflib.get_close_matches(name, ATTRIBUTES.split(), 1, 0.7)
-    hint = f"is {near[0]}= meant?" if near else "look at its spelling"
+    hint = meant(name, ATTRIBUTES.split(), 0.7, "is {}= meant?") or "look at its spelling"
     if tag.lower() in TAGS.split():
         hint = f"lower case: <{tag.lower()}>"
     written = rf"<{tag}\b" if tag else rf"\s{name}\s*="
@@ -220,8 +220,8 @@ def _check_node(file: LaunchFile, node: Node) -> None:
         raise Wrong(f"{kind} may be run", "it is not executable", place, hint)
     if kind == NAME:
         find_script(session, PACKAGE, NAME)  # which says what is there in its place
-    near = difflib.get_close_matches(kind, sorted(path.name for path in files), 1, 0.7)
-    hint = f'type="{near[0]}"' if near else "type is the name of the file, with .py"
+    hint = meant(kind, sorted(path.name for path in files), 0.7, 'type="{}"')
+    hint = hint or "type is the name of the file, with .py"
     hint = JOY_HINT if kind == "joy_node" else hint
     raise Wrong(f"a program {kind} in {session.task.names.package}", seen, place, hint)
 
