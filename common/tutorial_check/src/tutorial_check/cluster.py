@@ -105,7 +105,8 @@ class Cluster:
     def examine(self, order: Order) -> list[Outcome]:
         """Return the Outcomes of a submission, as launcher.examine. Raises CannotCheck, or Gone."""
         own = {} if order.course == OURS else {"course": order.course}
-        about = _packed({"submission": order.workspace, **own}), order, _version(order)
+        version = _version(order, order.course)
+        about = _packed({"submission": order.workspace, **own}), order, version
         try:
             outcomes: list[Outcome] = self._client.submit(_examine, *about, pure=False).result()
             return outcomes
@@ -155,8 +156,8 @@ def _packed(parts: Mapping[str, Path]) -> bytes:
     return data.getvalue()
 
 
-def _version(order: Order) -> str:
-    return digest_of_checks(read_course(order.course), order.exercises, 2)
+def _version(order: Order, course: Path) -> str:
+    return digest_of_checks(read_course(course), order.exercises, 2)
 
 
 def _examine(packed: bytes, order: Order, version: str) -> list[Outcome]:
@@ -170,10 +171,9 @@ def _examine(packed: bytes, order: Order, version: str) -> list[Outcome]:
         (submission,) = Path(folder).glob("submission*")
         own = Path(folder, "course")
         course, underlay = own if own.is_dir() else OURS, os.environ["TUTORIAL_UNDERLAY"]
-        order = replace(order, workspace=submission, course=course, underlay=underlay)
-        if _version(order) != version:
+        if _version(order, course) != version:
             raise CannotCheck(f"worker {socket.gethostname()} has another version of this suite")
-        return examine(order)
+        return examine(replace(order, workspace=submission, course=course, underlay=underlay))
 
 
 def _must_isolate() -> None:
