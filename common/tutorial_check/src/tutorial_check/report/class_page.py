@@ -110,19 +110,16 @@ def table_html(
     for student in students:
         link = quote(f"{student.name}.txt", errors="surrogateescape")  # a name may be no UTF-8
         row = f'<tr><td><a href="./{link}">{escape(student.name)}</a></td>'
-        row += "".join(_cell(*student.cell(exercise)) for exercise in exercises)
+        for word, cause, details in map(student.cell, exercises):
+            small = f"<small>{escape(cause)}</small>" if cause else ""
+            kind = KINDS.get(word, "wrong")
+            row += f'<td class="{kind}" title="{escape(details)}">{escape(word)}{small}</td>'
         about = (student.done, str(student.notes or ""), f"{student.seconds:.0f} s")
         rows.append(row + "".join(f"<td>{word}</td>" for word in about) + "</tr>")
     runs = any(student.cell(exercises[0])[0] == "..." for student in students)
     refresh = '<meta http-equiv="refresh" content="5">' if runs else ""
     body = f"<table>{''.join(rows)}</table>{''.join(_below(students))}"
     return PAGE.substitute(policy=escape(POLICY), refresh=refresh, body=body)
-
-
-def _cell(word: str, cause: str, details: str) -> str:
-    small = f"<small>{escape(cause)}</small>" if cause else ""
-    kind = KINDS.get(word, "wrong")
-    return f'<td class="{kind}" title="{escape(details)}">{escape(word)}{small}</td>'
 
 
 def _row(cells: Iterable[str], tag: str = "td") -> str:

@@ -91,13 +91,11 @@ class PythonFacts:
     @property
     def odd_main(self) -> Place:
         """(line, text) of `if __name__ == ' main ':` and its like."""
-        for node in self._nodes[0].body:
-            if not (isinstance(node, ast.If) and isinstance(node.test, ast.Compare)):
-                continue
+        outer = (node for node in self._nodes[0].body if isinstance(node, ast.If))
+        for node in (one for one in outer if isinstance(one.test, ast.Compare)):
             left, right = text_of(node.test.left), text_of(node.test.comparators[0])
-            if left in self.names or left.strip("_") != "name" or right.strip(" _") != "main":
-                continue
-            if (left, right) != ("__name__", "__main__"):
+            is_meant = (left.strip("_"), right.strip(" _")) == ("name", "main")
+            if is_meant and left not in self.names and (left, right) != ("__name__", "__main__"):
                 return node.lineno, python_lines(self._text)[node.lineno - 1].strip()
         return ()
 

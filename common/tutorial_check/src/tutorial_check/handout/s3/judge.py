@@ -28,12 +28,6 @@ def other_topic(topics: Iterable[str], asked_for: str, types: Mapping[str, str],
     return topic if types.get(topic, kind) == kind else f"{topic}, of type {types[topic]}"
 
 
-def talks(session: Session) -> str:
-    """Return what is expected of the talker."""
-    often = "as often as rate says" if "rate" in session.task.values else "about 10 times a second"
-    return f"std_msgs/String on /chatter, {often}"
-
-
 def scripts(session: Session) -> list[str]:
     return [find_script(session, PACKAGE, name) for name in ("talker.py", "listener.py")]
 
@@ -56,14 +50,15 @@ def files(session: Session) -> Note | str:
 
 @check("C6", "the talker talks", "3.1", "C5", look="rostopic hz /chatter")
 def talker(session: Session) -> Note | str:
-    seen, script, expected = _talk(session), scripts(session)[0], talks(session)
-    facts = session.scripts(PACKAGE)[script]
+    seen, script = _talk(session), scripts(session)[0]
+    facts, wanted = session.scripts(PACKAGE)[script], session.task.values.get("rate")
+    often = "about 10 times a second" if wanted is None else "as often as rate says"
+    expected = f"std_msgs/String on /chatter, {often}"
     if not seen.received:
-        raise _silent(session, seen, script, facts)
+        raise _silent(session, seen, script, facts, expected)
     if seen.talker_ended:
         raise crash(session, PACKAGE, seen.talker, GOES_ON, LOOP)
     times = [when for when, caller, _ in seen.received if caller == seen.received[0][1]]
-    wanted = session.task.values.get("rate")
     if len(times) < FEW and not wanted:
         return Note(f"{len(times)} messages in {record.LISTEN_S + 2:.0f} s: slower than 1 Hz")
     steps = [b - a for a, b in zip(times, times[1:])] or [record.LISTEN_S]
@@ -84,8 +79,8 @@ def talker(session: Session) -> Note | str:
     return f"{rate:.1f} Hz" if is_as_asked else Note(f"{rate:.1f} Hz, the handout's is 10")
 
 
-def _silent(session: Session, seen: Talk, script: str, facts: PythonFacts) -> Wrong:
-    expected, ends = talks(session), seen.talker_ended
+def _silent(session: Session, seen: Talk, script: str, facts: PythonFacts, expected: str) -> Wrong:
+    ends = seen.talker_ended
     loops = ", and does it loop: while not rospy.is_shutdown()" if facts.has_main else ""
     hint = f"does the last line call talker(){loops}?"
     wrong = ended(crash(session, PACKAGE, seen.talker, expected, hint), facts, script)
