@@ -257,22 +257,16 @@ def read_package(place: Path, root: str | Path) -> Package:
     # An AssertionError is catkin's word for a format that is yet to come.
     except (InvalidPackage, AssertionError, OSError, ValueError) as error:
         package.error = " ".join(str(error).split())
-        name = _name_in(place / "package.xml")
-        package.malformed = name is None
-        package.name = name or place.name
+        try:
+            name = ElementTree.parse(place / "package.xml").findtext("name") or ""
+        except (ElementTree.ParseError, OSError, ValueError, LookupError):
+            name, package.malformed = "", True
+        package.name = name.strip() or place.name
         return package
     package.name, package.format = parsed.name, parsed.package_format
     depends = (*parsed.build_depends, *parsed.exec_depends, *parsed.build_export_depends)
     package.depends = {each.name for each in depends}
     return package
-
-
-def _name_in(manifest: Path) -> str | None:
-    """Return the name that a package.xml gives, perhaps empty; None if it is no XML."""
-    try:
-        return (ElementTree.parse(manifest).findtext("name") or "").strip()
-    except (ElementTree.ParseError, OSError, ValueError, LookupError):
-        return None
 
 
 def underlays(devel: str | Path) -> tuple[str, list[str] | None]:
