@@ -93,7 +93,6 @@ class Check:
         for student in students:
             student.before = self._last_run.outcomes(student.name)
         self._checks = digest_of_checks(options.course, options.exercises, options.hints)
-        self._digests: dict[str, str] = {}
         self._next_s = 0.0  # when the page may be written again
         self._cluster = Cluster(options.cluster) if options.cluster else None
 
@@ -131,7 +130,7 @@ class Check:
         page = table_html(self._students, self._options.exercises, titles)
         write(self._out / f".{TABLES[1]}", page)
         os.replace(self._out / f".{TABLES[1]}", self._out / TABLES[1])
-        self._last_run.keep((one, self._digests.get(one.name, "")) for one in self._students)
+        self._last_run.keep(self._students)
         took_s = time.monotonic() - began_s
         self._next_s = began_s + 10 * took_s if took_s > QUICK_S else 0.0
 
@@ -165,9 +164,8 @@ class Check:
             raise CannotCheck("a link is not followed: put the folder or the archive itself here")
         options = self._options
         variant = variant_of(options.course, options, student.name)
-        digest = digest_of(student.path, f"{self._checks} {variant}")
-        self._digests[student.name] = digest
-        if not options.again and self._last_run.is_same(student.name, digest):
+        student.digest = digest_of(student.path, f"{self._checks} {variant}")
+        if not options.again and self._last_run.is_same(student):
             student.outcomes = student.before
             return "unchanged since the last check"
         about = {"own": False, "course": options.course.folder, "variant": variant}

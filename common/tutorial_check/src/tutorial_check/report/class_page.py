@@ -38,6 +38,7 @@ class Student:
     trouble: str = ""  # why nothing could be checked
     seconds: float = 0.0
     before: list[Outcome] = field(default_factory=list)
+    digest: str = ""  # of what was handed in, and of what checks it
 
     def cell(self, exercise: str) -> tuple[str, str, str]:
         """Return a word of the page's legend for an exercise, the cause in short, and the details."""

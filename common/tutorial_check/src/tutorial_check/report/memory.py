@@ -118,20 +118,19 @@ class LastRun:
             ]
         return []
 
-    def is_same(self, name: str, digest: str) -> bool:
+    def is_same(self, one: Student) -> bool:
         """Return whether the last run checked the same, and came to a verdict."""
-        outcomes = self.outcomes(name)
-        same = bool(digest and outcomes) and self._found[name].get("digest") == digest
-        return same and not any(one.trouble for one in outcomes)
+        same = one.before and one.digest and self._found[one.name].get("digest") == one.digest
+        return bool(same) and not any(outcome.trouble for outcome in one.before)
 
-    def keep(self, students: Iterable[tuple[Student, str]]) -> None:
-        """Write (student, digest) of all for the next run; students not checked yet keep what they had."""
+    def keep(self, students: Iterable[Student]) -> None:
+        """Write what the next run needs; students not checked yet keep what they had."""
         found = {}
-        for student, digest in students:
+        for student in students:
             if student.outcomes:
                 bare = (dataclasses.replace(one, recordings=[]) for one in student.outcomes)
                 outcomes = [dataclasses.asdict(one) for one in bare]
-                found[student.name] = {"digest": digest, "outcomes": outcomes}
+                found[student.name] = {"digest": student.digest, "outcomes": outcomes}
             elif student.name in self._found and not student.trouble:
                 found[student.name] = self._found[student.name]
         write_state(self._file, found)  # or all are checked again
