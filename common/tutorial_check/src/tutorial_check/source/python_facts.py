@@ -91,12 +91,12 @@ class PythonFacts:
     @property
     def odd_main(self) -> Place:
         """(line, text) of `if __name__ == ' main ':` and its like."""
-        outer = (node for node in self._nodes[0].body if isinstance(node, ast.If))
-        for node in (one for one in outer if isinstance(one.test, ast.Compare)):
-            left, right = text_of(node.test.left), text_of(node.test.comparators[0])
+        tests = [node.test for node in self._nodes[0].body if isinstance(node, ast.If)]
+        for test in (one for one in tests if isinstance(one, ast.Compare)):
+            left, right = text_of(test.left), text_of(test.comparators[0])
             is_meant = (left.strip("_"), right.strip(" _")) == ("name", "main")
             if is_meant and left not in self.names and (left, right) != ("__name__", "__main__"):
-                return node.lineno, python_lines(self._text)[node.lineno - 1].strip()
+                return test.lineno, python_lines(self._text)[test.lineno - 1].strip()
         return ()
 
     @cached_property
