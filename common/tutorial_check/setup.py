@@ -10,7 +10,7 @@ setup(
                 "autograder/*",
                 "isolation/session/bin/*",
                 "isolation/session/view/*/rviz/*",
-                "judge/causes.txt",
+                "source/causes.txt",
                 "report/class_page.html",
             ]
         },

@@ -11,6 +11,7 @@ import stored
 from edits import literal  # noqa: F401
 
 from tutorial_check.launcher import examine
+from tutorial_check.order import Order
 
 HERE = Path(__file__).resolve().parent
 REPOSITORY = HERE.parents[1]
@@ -76,7 +77,7 @@ def examined(request, underlay, tmp_path):
     """examined(workspace, exercises, ...): the Outcomes, recorded again; what is stored says the same."""
 
     def recorded(workspace, exercises, **about):
-        outcomes = examine(workspace, underlay, exercises, **about)
+        outcomes = examine(Order(workspace, underlay, exercises, **about))
         name = request.node.name
         if request.config.getoption("--store"):
             stored.write(name, outcomes, workspace, underlay)

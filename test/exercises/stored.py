@@ -12,7 +12,8 @@ import tokenize
 from pathlib import Path
 
 from tutorial_check.course import read_course
-from tutorial_check.launcher import HANDED_IN, judge, order_of
+from tutorial_check.launcher import HANDED_IN, judge, prepared
+from tutorial_check.order import Order
 
 FOLDER = Path(__file__).resolve().parent / "recordings"
 REPOSITORY = FOLDER.parents[2]
@@ -59,7 +60,8 @@ def judged(test, workspace, underlay, exercises, folder, **about):
         turns = answers[_question(question)]
         return turns.pop(0) if len(turns) > 1 else turns[0]
 
-    return judge(order_of(workspace, underlay, exercises, folder, **about), read_course(), ask)
+    order = prepared(Order(workspace, underlay, exercises, **about), folder)
+    return judge(order, read_course(), ask)
 
 
 def _question(one):

@@ -14,7 +14,8 @@ from edits import JOY2TWIST, TALKER, apply, chmod, put
 
 from tutorial_check.course import read_course
 from tutorial_check.launcher import examine
-from tutorial_check.report.hints import LATER
+from tutorial_check.order import Order
+from tutorial_check.report.memory import LATER
 from tutorial_testing.processes import Program, command_line, descendants, lives
 from tutorial_testing.waiting import LONGEST_S, wait_for
 
@@ -120,7 +121,7 @@ def test_all_at_once_or_alone_is_the_same(literal, underlay, tmp_path, request):
     for report in (group / "check").glob("student*.json"):
         judged = json.loads(report.read_text())["exercises"]
         together = [(one["id"], one["status"]) for each in judged for one in each["checks"]]
-        outcomes = examine(group / report.stem, underlay, exercises)
+        outcomes = examine(Order(group / report.stem, underlay, exercises))
         alone = [(one.id, one.status) for each in outcomes for one in each.results]
         assert together == alone, report.read_text()
 

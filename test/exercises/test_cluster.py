@@ -15,6 +15,7 @@ from test_endings import path_without_namespaces
 from test_mistakes import OF_HANDOUT
 
 from tutorial_check.launcher import examine
+from tutorial_check.order import Order
 from tutorial_testing.processes import Program, command_line, descendants, signal_all
 from tutorial_testing.two_hosts.network import Network
 from tutorial_testing.waiting import wait_for
@@ -141,7 +142,7 @@ def test_results_are_those_of_one_machine(literal, folder, underlay, scheduler, 
     call = client()
     assert call.wait(LONGEST_S) == 1, call.output
     for report in checked(folder):
-        (outcome,) = examine(folder / report.stem, underlay, [EXERCISE], own=False)
+        (outcome,) = examine(Order(folder / report.stem, underlay, [EXERCISE], own=False))
         found = json.loads(report.read_text())["exercises"][0]["checks"]
         assert verdicts(found) == verdicts(map(vars, outcome.results)), report.stem
 

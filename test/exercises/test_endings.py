@@ -13,7 +13,8 @@ from test_awkward import PYTHONPATH, check, command
 from test_hostile import processes_like
 
 from tutorial_check.isolation import bubblewrap
-from tutorial_check.launcher import order_of
+from tutorial_check.launcher import prepared
+from tutorial_check.order import Order
 from tutorial_check.worker_process import Worker
 from tutorial_testing.processes import Program, command_line, descendants, lives
 from tutorial_testing.waiting import wait_for
@@ -119,7 +120,7 @@ def test_nothing_is_left(literal, environment, scratch, how, work):
 def test_a_worker_that_is_ended_while_it_starts_leaves_nothing(literal, underlay, tmp_path):
     folder = tmp_path / "folder"
     folder.mkdir()
-    order = replace(order_of(literal.parent, underlay, ["2"], folder), apart=True)
+    order = replace(prepared(Order(literal.parent, underlay, ["2"]), folder), apart=True)
     wrapper = bubblewrap.command(order.folder, order.shown, REPOSITORY)
     for milliseconds in range(0, 20):
         with Worker(order, wrapper):

@@ -8,6 +8,7 @@ from edits import LAUNCH_BAG, TALKER, J, built, put
 
 from tutorial_check.isolation import bubblewrap
 from tutorial_check.launcher import examine
+from tutorial_check.order import Order
 
 pytestmark = pytest.mark.skipif(
     not bubblewrap.granted().options, reason="no isolation here: nothing is hidden"
@@ -26,7 +27,7 @@ def verdicts(literal, underlay):
     """verdicts(exercise): {check: result}, none of which is wrong."""
 
     def judge(exercise, workspace=None):
-        (outcome,) = examine(workspace or literal.parent, underlay, [exercise])
+        (outcome,) = examine(Order(workspace or literal.parent, underlay, [exercise]))
         assert {result.status for result in outcome.results} <= {"ok", "note"}, outcome.results
         return {result.id: result for result in outcome.results}
 

@@ -11,6 +11,7 @@ from edits import JOY2TWIST, TALKER, put, write
 
 from tutorial_check.isolation import bubblewrap
 from tutorial_check.launcher import examine
+from tutorial_check.order import Order
 from tutorial_check.report.text import lines_of
 from tutorial_testing.processes import command_line
 
@@ -78,7 +79,7 @@ def test_a_hostile_joy2twist_has_a_verdict_and_harms_no_file(literal, underlay, 
     before, (lines, checks, words) = victim.read_bytes(), JOINED[what]
     lines = textwrap.indent(lines.replace("VICTIM", str(victim)), "    ")
     put(JOY2TWIST, AFTER_INIT, f"{AFTER_INIT}{lines}\n")(literal)
-    (outcome,) = examine(literal.parent, underlay, ["4.3"])
+    (outcome,) = examine(Order(literal.parent, underlay, ["4.3"]))
     assert victim.read_bytes() == before
     check, report = first_wrong(outcome)
     assert check in checks.split() and words in report, report
@@ -91,7 +92,7 @@ def test_a_link_planted_where_the_checker_writes_is_not_followed(
     monkeypatch.setattr(bubblewrap, "granted", bubblewrap.Isolation)
     plant = PLANTS_LINKS.format(aim=f"{scratch}/planted")
     put(TALKER, "import rospy\n", f"import rospy\n{plant}", 1)(literal)
-    (outcome,) = examine(literal.parent, bare_underlay, ["3"])
+    (outcome,) = examine(Order(literal.parent, bare_underlay, ["3"]))
     assert "C9" in [result.id for result in outcome.results]
     assert not os.path.lexists(f"{scratch}/planted")
 
@@ -106,7 +107,7 @@ def test_a_hostile_talker_harms_none_beside_or_after_it(literal, underlay, tmp_p
             shutil.copytree(literal.parent, student)
         write(TALKER, FIRST + program)(students[-2] / "src")
     with ThreadPoolExecutor(2) as pool:
-        found = list(pool.map(lambda student: examine(student, underlay, ["3"]), students))
+        found = list(pool.map(lambda student: examine(Order(student, underlay, ["3"])), students))
     wrong = [first_wrong(*outcomes) for outcomes in found]
     assert wrong[::2] == [(None, "")] * (len(TALKERS) + 1)
     for (check, report), (_, words) in zip(wrong[1::2], TALKERS.values()):

@@ -10,6 +10,7 @@ from edits import apply
 
 from tutorial_check.course import read_course
 from tutorial_check.launcher import examine
+from tutorial_check.order import Order
 from tutorial_check.report.text import lines_of
 
 OF_HANDOUT = mistakes_packages.ROWS + mistakes_nodes.ROWS + mistakes_launch.ROWS + grammar.WRONG
@@ -46,5 +47,5 @@ def test_a_mistake_is_found(row, literal, examined):
 def test_a_mistake_is_found_in_all_exercises(row, literal, underlay):
     """Its cause is reported, maybe by an earlier check, and it keeps no other one from a verdict."""
     apply(row[2], literal)
-    wrong = wrong_of(examine(literal.parent, underlay, read_course().by_default))
+    wrong = wrong_of(examine(Order(literal.parent, underlay, read_course().by_default)))
     assert any(is_reported(one, row[4]) for one in wrong), [lines_of(one) for one in wrong]

@@ -11,6 +11,7 @@ from test_mistakes import is_reported
 
 from tutorial_check.course import checks_of, read_course
 from tutorial_check.launcher import examine
+from tutorial_check.order import Order
 from tutorial_check.report.text import lines_of
 from tutorial_testing.processes import REPOSITORY
 
@@ -99,7 +100,7 @@ def test_below_what_a_workspace_was_built(literal, underlay, below, status):
     build = f"[ ! -e '{under}' ] || . '{under}'; catkin_make"
     environment = {"PATH": "/usr/bin:/bin", "HOME": os.environ["HOME"]}
     subprocess.run(["bash", "-c", build], cwd=literal.parent, check=True, env=environment)
-    (outcome,) = examine(literal.parent, underlay, ["2"])
+    (outcome,) = examine(Order(literal.parent, underlay, ["2"]))
     assert next(one.status for one in outcome.results if one.id == "C1") == status
 
 

@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import pytest
 
-from tutorial_check.source import debian_packages
+from tutorial_check.source import causes
 from tutorial_testing.keys import Tmux
 from tutorial_testing.processes import REPOSITORY, Program, free_port
 from tutorial_testing.robot import OBSERVER, PERIOD_S, Robot
@@ -201,7 +201,7 @@ def test_what_debian_lacks_and_what_takes_its_place(places):
     missing, here = packages("not in Debian"), set(places["rbx1"].run("rospack list-names").split())
     assert not missing & here and packages("here already") <= here
     for name in missing:
-        assert debian_packages.in_place_of(name) == lines()[name][2].strip()
+        assert causes.advice(name, "") == f"Debian lacks {name}; {lines()[name][2].strip()}"
     forms = ("{}", "ros-{}", "python3-{}", "lib{}-dev")
     assert not shown(*(f.format(name.replace("_", "-")) for name in missing for f in forms))
 
@@ -213,9 +213,9 @@ def shown(*packages):
 
 
 def test_debian_has_what_hints_name():
-    tables = (debian_packages.OTHER_MODULES, debian_packages.OTHER_PACKAGES)
+    tables = (causes.OTHER_MODULES, causes.OTHER_PACKAGES)
     listed = [row.partition(":")[0].replace("*", "") for t in tables for row in t.splitlines()]
-    names = " ".join([*listed, debian_packages.MODULES, debian_packages.DEV_PACKAGES]).split()
-    packages = {debian_packages.package_of_module(name) for name in names} - {""}
-    packages |= {one for name in names for one in debian_packages.packages_of_ros(name).split()}
+    names = " ".join([*listed, causes.MODULES, causes.DEV_PACKAGES]).split()
+    packages = {causes.package_of_module(name) for name in names} - {""}
+    packages |= {one for name in names for one in causes.packages_of_ros(name).split()}
     assert shown(*packages) == packages

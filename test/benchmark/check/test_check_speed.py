@@ -6,6 +6,7 @@ import time
 
 from tutorial_check.course import read_course
 from tutorial_check.launcher import examine
+from tutorial_check.order import Order
 from tutorial_testing.processes import REPOSITORY
 
 ONE_S, ALL_S = 15.0, 90.0  # on two processors with nothing else to do
@@ -18,7 +19,7 @@ def test_each_exercise_and_all_of_them(tmp_path, figure):
     parts = {f"{name} {course.exercises[name].title}": [name] for name in course.by_default}
     for what, exercises in {**parts, "all of them": course.by_default}.items():
         began_s = time.monotonic()
-        outcomes = examine(tmp_path / "ws", os.environ["TUTORIAL_UNDERLAY"], exercises)
+        outcomes = examine(Order(tmp_path / "ws", os.environ["TUTORIAL_UNDERLAY"], exercises))
         took_s = time.monotonic() - began_s
         assert all(outcome.passed for outcome in outcomes), outcomes
         longest_s = ALL_S if exercises[1:] else ONE_S

@@ -31,7 +31,7 @@ def make_session(tmp_path, order):
 @pytest.fixture
 def order(tmp_path):
     layout = Layout(tmp_path, tmp_path / "src", True)
-    return Order(tmp_path, layout, True, ("2",), False, tmp_path, {}, "", {}, (), ())
+    return Order(tmp_path, "", ("2",), course=tmp_path, folder=tmp_path, layout=layout)
 
 
 @pytest.fixture

@@ -43,7 +43,7 @@ NOT_ISOLATED = "cannot isolate programs: bwrap: refused: a student's program cou
     [
         (lambda: cluster._work("tls://host", 1, False), NOT_ISOLATED),
         (lambda: cluster._work("tcp://host", 1, True), "--not-isolated needs tls://, and root"),
-        (lambda: cluster._examine(b"", ["2"], {}, ""), NOT_ISOLATED),  # not by ./tutorial worker
+        (lambda: cluster._examine(b"", None, ""), NOT_ISOLATED),  # not by ./tutorial worker
     ],
 )
 def test_a_worker_without_isolation_checks_nothing(monkeypatch, begin, why):

@@ -6,7 +6,7 @@ import sys
 
 import pytest
 
-from tutorial_check.judge.causes import explain
+from tutorial_check.source.causes import explain
 from tutorial_check.source.python_facts import PythonFacts
 from tutorial_check.source.tracebacks import first_traceback
 

@@ -1,13 +1,13 @@
 """The command line."""
 
 import sys
+from types import SimpleNamespace
 
 import pytest
 
-from tutorial_check import command_line, one_workspace
-from tutorial_check.command_line import parse
-from tutorial_check.launcher import Outcome
-from tutorial_check.model import OK, UNREACHED, WRONG, Result
+from tutorial_check import command_line
+from tutorial_check.command_line import parse, stamps, watch
+from tutorial_check.model import OK, UNREACHED, WRONG, CannotCheck, Outcome, Result
 from tutorial_check.report.formats import FORMATS
 
 UNDERLAY = ["--underlay", "setup.bash"]
@@ -62,7 +62,7 @@ def test_words_that_are_refused(words, error, capsys, monkeypatch):
 @pytest.fixture
 def main(monkeypatch):
     def called(examine, *words):
-        monkeypatch.setattr(one_workspace, "examine", examine)
+        monkeypatch.setattr(command_line, "examine", examine)
         monkeypatch.setattr(sys, "argv", ["check", *BEFORE, "2", "5", *map(str, words)])
         with pytest.raises(SystemExit) as ended:
             command_line.main()
@@ -116,3 +116,18 @@ def test_a_file_that_cannot_be_written(main, tmp_path, capsys):
     assert main(lambda *_, **__: pytest.fail("started"), *files) == 2
     why = f"check: no verdict: {tmp_path / 'json'}: Is a directory"
     assert capsys.readouterr().err.count(why) == 2
+
+
+@pytest.mark.parametrize("folder", ["ws", "build/ws", "me~/devel"])
+def test_build_devel_and_files_of_editors_are_not_watched(tmp_path, folder):
+    names = "src/package.xml build/CMakeCache.txt devel/setup.bash src/.joy2twist.py.swp src/a.py~"
+    for name in names.split():
+        (tmp_path / folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / folder / name).touch()
+    assert list(stamps(tmp_path / folder)) == [str(tmp_path / folder / "src/package.xml")]
+
+
+def test_a_zip_cannot_be_watched(tmp_path):
+    (tmp_path / "ws.zip").touch()
+    with pytest.raises(CannotCheck, match="--watch is for one"):
+        watch(SimpleNamespace(workspace=tmp_path / "ws.zip"))

@@ -4,8 +4,7 @@ from xml.parsers import expat
 
 import pytest
 
-from tutorial_check.handout.s5.launch_text import Fault, parse_error
-from tutorial_check.source.launch_xml import QUOTES, not_xml
+from tutorial_check.source.launch_xml import QUOTES, Fault, not_xml, parse_error
 
 NODE = '  <node pkg="rosbag" type="play" name="x" args="--loop a.bag"/>\n'
 

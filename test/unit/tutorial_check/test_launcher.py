@@ -9,6 +9,7 @@ import pytest
 from tutorial_check import launcher, worker_process
 from tutorial_check.isolation import bubblewrap
 from tutorial_check.model import CannotCheck, Check
+from tutorial_check.order import Order
 
 READY = json.dumps({"ready": True})
 SEEN = json.dumps({"recording": {"number": 1}, "strained": False, "hopeless": False})
@@ -40,7 +41,7 @@ def examine(tmp_path, monkeypatch):
         # The order, and then questions, come from where answers go.
         script = [*(f"read -r _ <&1; echo '{line}'" for line in answers), ending]
         monkeypatch.setattr(bubblewrap, "command", lambda *_: ["sh", "-c", "\n".join(script)])
-        return launcher.examine(tmp_path, setup, ["2", "3", "5"], tell)
+        return launcher.examine(Order(tmp_path, setup, ("2", "3", "5")), tell)
 
     return examined
 

@@ -8,8 +8,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from tutorial_check.case import Case
-from tutorial_check.launcher import must_start_programs
+from tutorial_check.launcher import Case, must_start_programs
 from tutorial_check.model import CannotCheck, Wrong
 from tutorial_check.variants import Task
 

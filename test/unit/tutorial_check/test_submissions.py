@@ -12,9 +12,8 @@ import pytest
 
 from tutorial_check import submissions
 from tutorial_check.course import read_course
-from tutorial_check.launcher import Outcome
-from tutorial_check.model import OK, UNREACHED, CannotCheck, Result
-from tutorial_check.report.last_run import digest_of_checks
+from tutorial_check.model import OK, UNREACHED, CannotCheck, Outcome, Result
+from tutorial_check.report.memory import digest_of_checks
 from tutorial_testing.waiting import wait_for
 
 WELL = Outcome("2", [Result("C1", OK, "one")], 1.0, True)
@@ -29,9 +28,9 @@ class Group:
         self.come_to = lambda name: [WELL]
         folder.mkdir()
 
-    def examine(self, path, *_, **__):
-        self.started.append(path.name)
-        return self.come_to(path.name)
+    def examine(self, order):
+        self.started.append(order.workspace.name)
+        return self.come_to(order.workspace.name)
 
     def check_all(self, out=None, again=False, variant=None):
         """Return the exit code and the rows of the table."""

@@ -17,17 +17,18 @@ import subprocess
 import sys
 import tarfile
 import tempfile
+from dataclasses import replace
 from pathlib import Path
-from typing import Any, Mapping, NoReturn, Sequence
+from typing import Any, Mapping, NoReturn
 from urllib.parse import urlsplit
 
 from node_kit.arguments import Parser
 from tutorial_check.course import OURS, read_course
 from tutorial_check.isolation import bubblewrap, landlock, privileges
-from tutorial_check.launcher import Outcome, examine
-from tutorial_check.model import CannotCheck
-from tutorial_check.order import Variant
-from tutorial_check.report.last_run import digest_of_checks
+from tutorial_check.launcher import examine
+from tutorial_check.model import CannotCheck, Outcome
+from tutorial_check.order import Order
+from tutorial_check.report.memory import digest_of_checks
 from tutorial_check.source.workspace import IGNORED, MOST_BYTES
 
 MOST_AT_ONCE = 1000  # submissions that the scheduler knows of
@@ -69,10 +70,7 @@ def _key_of(address: str) -> str:
 
 
 def _connect(address: str) -> str:
-    """Return our address on the way to tcp://HOST:PORT, tls://HOST:PORT or HOST:PORT.
-
-    Raises CannotCheck if nothing listens there.
-    """
+    """Return our address on the way to a scheduler. Raises CannotCheck if nothing listens there."""
     try:
         place = urlsplit(address if "//" in address else f"//{address}")
         there = place.hostname or "", place.port or PORT
@@ -104,13 +102,11 @@ class Cluster:
         if not self._client.nthreads():
             print(f"no worker yet; on each machine: ./tutorial worker {address}", flush=True)
 
-    def examine(
-        self, workspace: Path, exercises: Sequence[str], course: Path, variant: Variant
-    ) -> list[Outcome]:
+    def examine(self, order: Order) -> list[Outcome]:
         """Return the Outcomes of a submission, as launcher.examine. Raises CannotCheck, or Gone."""
-        parts = {"submission": workspace, **({} if course == OURS else {"course": course})}
-        version = digest_of_checks(read_course(course), exercises, 2)
-        about = _packed(parts), exercises, variant, version
+        own = {} if order.course == OURS else {"course": order.course}
+        version = _version(order, order.course)
+        about = _packed({"submission": order.workspace, **own}), order, version
         try:
             outcomes: list[Outcome] = self._client.submit(_examine, *about, pure=False).result()
             return outcomes
@@ -160,12 +156,12 @@ def _packed(parts: Mapping[str, Path]) -> bytes:
     return data.getvalue()
 
 
-def _examine(
-    packed: bytes, exercises: Sequence[str], variant: Variant, version: str
-) -> list[Outcome]:
-    """Check a submission on this machine. Raises CannotCheck."""
+def _version(order: Order, course: Path) -> str:
+    return digest_of_checks(read_course(course), order.exercises, 2)
+
+
+def _examine(packed: bytes, order: Order, version: str) -> list[Outcome]:
     _must_isolate()
-    underlay = os.environ["TUTORIAL_UNDERLAY"]
     with tempfile.TemporaryDirectory(prefix="tutorial_worker_") as folder:
         with tarfile.open(fileobj=io.BytesIO(packed)) as archive:
             # As it was, links that lead out among it, which Python 3.14 would refuse. A worker runs
@@ -174,10 +170,10 @@ def _examine(
             archive.extractall(folder)
         (submission,) = Path(folder).glob("submission*")
         own = Path(folder, "course")
-        course = own if own.is_dir() else OURS
-        if digest_of_checks(read_course(course), exercises, 2) != version:
+        course, underlay = own if own.is_dir() else OURS, os.environ["TUTORIAL_UNDERLAY"]
+        if _version(order, course) != version:
             raise CannotCheck(f"worker {socket.gethostname()} has another version of this suite")
-        return examine(submission, underlay, exercises, own=False, course=course, variant=variant)
+        return examine(replace(order, workspace=submission, course=course, underlay=underlay))
 
 
 def _must_isolate() -> None:
@@ -219,7 +215,6 @@ def _schedule(host: str) -> NoReturn:
 
 
 def _become(program: str, address: str, *words: object) -> NoReturn:
-    """Become one of Dask's programs. Raises CannotCheck."""
     _dask()
     key = _key_of(address)
     keys = [f"--tls-{name}={key}" for name in ("ca-file", "cert", "key") if key]

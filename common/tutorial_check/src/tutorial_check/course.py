@@ -36,10 +36,7 @@ _loading = threading.Lock()
 
 @dataclass(frozen=True)
 class Exercise:
-    """One exercise. document: in which its sections are. points: for all of it; 0: one a check.
-
-    solution: files from the course's folder, shown when the exercise is done.
-    """
+    """One exercise. document: of its sections. points: of all of it; 0: one a check."""
 
     title: str
     document: str = ""
@@ -50,11 +47,10 @@ class Exercise:
 
 @dataclass(frozen=True)
 class Value:
-    """A value that the task of a student may have in place of the course's. See common/doc/COURSES.md.
+    """A value that a task may have in place of the course's; see common/doc/COURSES.md.
 
-    about: its line of the task sheet. allowed: [lowest, highest], a list of
-    these, or what a text has to fit. draw: from what a seed draws it. unlike: another value, from
-    which it differs.
+    about: its line of the task sheet. allowed: [lowest, highest], a list of these, or what a text
+    has to fit. draw: from what a seed draws it. unlike: another value, from which it differs.
     """
 
     about: str
@@ -77,7 +73,6 @@ class Course:
 
     @property
     def by_default(self) -> list[str]:
-        """The exercises that are checked if none is named."""
         return [name for name, exercise in self.exercises.items() if exercise.by_default]
 
     def meant(self, word: str) -> list[str]:

@@ -1,4 +1,4 @@
-"""Starts a worker isolated, and makes the checks from what it records."""
+"""Starts a worker isolated, and makes the checks from what it records and what files say."""
 
 from __future__ import annotations
 
@@ -7,22 +7,24 @@ import functools
 import itertools
 import json
 import os
+import shlex
 import shutil
 import subprocess
 import time
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from pathlib import Path
-from types import MappingProxyType
-from typing import Any, Callable, Iterable, Mapping
+from typing import Any, Callable, cast
 
-from tutorial_check.case import Ask, Case
 from tutorial_check.course import FILE, OURS, Course, checks_of, read_course
 from tutorial_check.isolation import bubblewrap, privileges
 from tutorial_check.isolation.environment import environment_of
-from tutorial_check.model import WRONG, CannotCheck, Result, Run, passed
-from tutorial_check.order import Order
+from tutorial_check.model import UNREADABLE, CannotCheck, CutShort, Outcome, Result, Run, Wrong
+from tutorial_check.order import Line, Order
+from tutorial_check.record.recording import as_json, from_json, recorded_by
+from tutorial_check.record.session import Recorded, Recorder, Session
 from tutorial_check.source import workspace as workspaces
-from tutorial_check.variants import task_of
+from tutorial_check.source.manifests import unreadable
+from tutorial_check.variants import Task, task_of
 from tutorial_check.worker_process import Ended, Worker, no_more
 
 # Of a shell of the suite: its roscore.xml, with which each roslaunch starts sooner, and what CMake 4
@@ -32,76 +34,87 @@ SUITE = Path(__file__).resolve().parents[4]
 NUMBERS = itertools.count(os.getpid() * 100)
 
 
-@dataclass
-class Outcome:
-    """What came of one exercise."""
-
-    id: str
-    results: list[Result] = field(default_factory=list)
-    seconds: float = 0.0
-    done: bool = False
-    trouble: str = ""  # why a check could not be made, through no fault of the student's
-    title: str = ""
-    points: float = 0.0  # for all of it; 0: one a check
-    place: str = ""  # the workspace within what was handed in, if another folder
-    remark: str = ""  # how well a program of someone else's was isolated, if not by bubblewrap
-    # What was asked for these results and not before, with the answers of the worker, which see.
-    recordings: list[dict[str, Any]] = field(default_factory=list)
-
-    @property
-    def passed(self) -> bool:
-        return self.done and passed(self.results)
-
-    @property
-    def empty(self) -> bool:
-        """Whether it passed because there was nothing to check."""
-        return self.passed and bool(self.results) and all(each.empty for each in self.results)
-
-    @property
-    def solved(self) -> bool:
-        """Whether it passed and there was something to check."""
-        return self.passed and not self.empty
-
-    @property
-    def wrong(self) -> list[Result]:
-        """The checks that are wrong, in their order."""
-        return [each for each in self.results if each.status == WRONG]
-
-
+Ask = Callable[[Line], Line]  # the worker: question -> answer
 Report = Callable[[Outcome, Result], None]
 HANDED_IN = "{handed_in}"  # in recordings: the folder with the copy of the workspace
 
 
-def examine(
-    workspace: str | Path,
-    underlay: str | Path,
-    exercises: Iterable[str],
-    report: Report = lambda outcome, result: None,
-    *,
-    only_first: bool = False,
-    own: bool = True,
-    course: Path = OURS,
-    variant: Mapping[str, object] = MappingProxyType({}),
-) -> list[Outcome]:
-    """Return the Outcomes of a workspace; call report with each result as soon as it is there.
+class Case(Session):
+    """What the files of a workspace say, as they were handed in, and what the worker records."""
 
-    underlay: setup.bash of the devel space with what students use and never write. only_first: end
-    at the first check that is wrong. own: it is the caller's own workspace, whose links may lead
-    into the home folder. course: its folder. variant: of the task; see variants.Variant. Raises CannotCheck.
-    """
-    if not os.path.isfile(underlay):
+    def __init__(self, order: Order, task: Task, ask: Ask) -> None:
+        super().__init__(order, task)
+        self.source = self.folder / workspaces.COPY
+        visible = [self.source, *order.shown, *map(Path, bubblewrap.SYSTEM)]
+        self._visible = [Path(os.path.realpath(each)) for each in visible]
+        self._ask = ask
+        self._runs: dict[object, Any] = {}  # what was recorded, or the Wrong in its place
+        self.asked: list[Line] = []  # each question with its answer
+        self._strained = self.hopeless = False  # the machine was, as something was recorded last
+
+    def recording(self, recorder: Recorder[Recorded], *arguments: object) -> Recorded:
+        """Ask for a recording, at the first call. Raises CannotCheck, or Wrong if there can be none."""
+        key = recorder.__module__, recorder.__name__, *arguments
+        if key not in self._runs:
+            self._runs[key] = self._asked(recorder, arguments)
+        if isinstance(self._runs[key], Wrong):
+            raise self._runs[key]
+        return cast(Recorded, self._runs[key])
+
+    def _asked(self, recorder: Recorder[object], arguments: tuple[object, ...]) -> object:
+        name = f"{recorder.__module__}:{recorder.__name__}"
+        question = {"recorder": name, "arguments": as_json(arguments)}
+        answer = self._ask(question)
+        self.asked.append({**question, **answer})
+        self._strained = bool(answer.get("strained"))
+        self.hopeless = bool(answer.get("hopeless"))
+        if "cannot" in answer:
+            raise CannotCheck(str(answer["cannot"]))
+        if "cut_short" in answer:
+            end = CutShort(**answer["cut_short"])
+            if end.kind == UNREADABLE and self.broken:
+                return unreadable(self.broken)
+            return end.as_wrong()
+        return from_json(recorded_by(recorder), answer["recording"])
+
+    def second_look(self, explained: bool) -> bool:
+        """Return whether to look again at what programs do; then forget what they did.
+
+        It is worth it on a busy machine, or if no line explains it: nodes of a launch file meet in
+        any order, and rospy may never end that Ctrl-C meets in the middle of a publish.
+        """
+        if explained and not self._strained:
+            return False
+        self._runs.clear()
+        return True
+
+    def as_sent(self, result: Result) -> Result:
+        """Return a result with the student's own paths."""
+        layout = self.layout
+        copied = f"{self.source.parent}/" if layout.is_workspace else f"{self.source}/"
+        # Commands work in any folder, where the workspace is known.
+        is_known = self.order.own and self.folder not in layout.root.parents
+        root = f"{shlex.quote(str(layout.root))}/" if is_known else ""
+        roots = {"hint": root, "look": root}
+        found: dict[str, Any] = {
+            name: words.replace(copied, roots.get(name, "")) if isinstance(words, str) else words
+            for name, words in vars(result).items()
+        }
+        return Result(**found)
+
+
+def examine(asked: Order, report: Report = lambda outcome, result: None) -> list[Outcome]:
+    """Return the Outcomes of a workspace; report each result as it comes. Raises CannotCheck."""
+    if not os.path.isfile(asked.underlay):
         why = "no such file, or may not be read; ./tutorial setup builds it"
-        raise CannotCheck(f"{underlay}: {why}")
+        raise CannotCheck(f"{asked.underlay}: {why}")
     user = privileges.unused_user(next(NUMBERS)) if os.geteuid() == 0 else None
     # Isolated, a worker does not reach the folder itself.
     folder, cleaner = privileges.folder_until_end("tutorial_check_")
     try:
         # A worker, which writes nothing, would compile our modules each time.
         compileall.compile_dir(str(Path(__file__).parent), quiet=2)
-        order = order_of(
-            workspace, underlay, exercises, Path(folder),
-            only_first=only_first, own=own, course=course, variant=variant,
-        )  # fmt: skip
+        order = prepared(asked, Path(folder))
         wrapper = bubblewrap.command(folder, order.shown, SUITE)
         order = replace(order, apart=bool(wrapper))
         must_start_programs(order, is_other=user is not None)
@@ -109,55 +122,44 @@ def examine(
             privileges.open_to(user, folder)
         with Worker(order, [*wrapper, *privileges.as_user(user)]) as worker:
             worker.begin()
-            outcomes = judge(order, read_course(course), worker.ask, report)
-        remark = "" if own else bubblewrap.instead()
+            outcomes = judge(order, read_course(asked.course), worker.ask, report)
+        remark = "" if order.own else bubblewrap.instead()
         return [replace(one, place=order.layout.place, remark=remark) for one in outcomes]
     except Ended as error:  # before a first result
         raise CannotCheck(str(error)) from None
     finally:
         if user is not None:
-            end_all = [*privileges.as_user(user), "sh", "-c", "kill -KILL -1"]
-            subprocess.run(end_all, check=False)
+            subprocess.run([*privileges.as_user(user), "sh", "-c", "kill -KILL -1"], check=False)
         cleaner.communicate()
 
 
-def order_of(
-    workspace: str | Path,
-    underlay: str | Path,
-    exercises: Iterable[str],
-    folder: Path,
-    *,
-    only_first: bool = False,
-    own: bool = True,
-    course: Path = OURS,
-    variant: Mapping[str, object] = MappingProxyType({}),
-) -> Order:
-    """Copy a workspace or zip into an empty folder; return the order. Raises CannotCheck."""
-    layout, inside = workspaces.hand_in(os.path.abspath(workspace), folder)
+def prepared(asked: Order, folder: Path) -> Order:
+    """Copy a workspace or zip into an empty folder; return the whole order. Raises CannotCheck."""
+    layout, inside = workspaces.hand_in(os.path.abspath(asked.workspace), folder)
     workspaces.must_be_ones_own(layout, SUITE)
-    copied = workspaces.copy(layout, folder / workspaces.COPY, None if own else inside)
+    copied = workspaces.copy(layout, folder / workspaces.COPY, None if asked.own else inside)
     shown = [inside, copied]
-    if own:
+    if asked.own:
         shown += [layout.source, *map(Path, workspaces.named_outside(copied))]
     # A home folder is no workspace, though one may be in it.
     home = Path(os.path.expanduser("~")).resolve()
     shown = [each for each in shown if each.resolve() not in (home, *home.parents)]
-    checks = course
+    course = asked.course
     if course != OURS:  # what a worker needs of it, and no solution
-        checks = folder / "course"
-        checks.mkdir()
-        for path in (course / FILE, *course.glob("*.py")):
-            shutil.copy(path, checks)
+        course = folder / "course"
+        course.mkdir()
+        for path in (asked.course / FILE, *asked.course.glob("*.py")):
+            shutil.copy(path, course)
     # What the programs need: the underlay and its sources, this package among them.
-    underlay = os.path.abspath(underlay)
+    underlay = os.path.abspath(asked.underlay)
     devel = Path(underlay).parent
     names = devel / ".catkin"
     sources = filter(None, names.read_text().split(";") if names.is_file() else [])
     links = [link for source in sources for link in Path(source).glob("*") if link.is_dir()]
     kept = (devel.parent, *(link.resolve() for link in links))
-    return Order(
-        folder, layout, own, tuple(exercises), only_first, checks, dict(variant), underlay,
-        _environment(underlay), kept, (*shown, checks, *kept),
+    return replace(
+        asked, underlay=underlay, course=course, folder=folder, layout=layout,
+        environment=_environment(underlay), kept=kept, shown=(*shown, course, *kept),
     )  # fmt: skip
 
 
@@ -190,10 +192,9 @@ def must_start_programs(order: Order, is_other: bool) -> None:
             # What is below a needed one is as closed; but a home folder is opened no further.
             is_needed = needed & {folder, *folder.parents}
             how = f"{'chmod -R o+rX' if is_needed else 'chmod o+x'} {folder}"
-            raise CannotCheck(
-                f"{folder} is closed to others, and the programs run as another user: {how},"
-                " or keep this suite, TUTORIAL_WORKSPACE and TMPDIR where others may enter"
-            )
+            how += ", or keep this suite, TUTORIAL_WORKSPACE and TMPDIR where others may enter"
+            why = "is closed to others, and the programs run as another user"
+            raise CannotCheck(f"{folder} {why}: {how}")
 
 
 def judge(
@@ -204,13 +205,13 @@ def judge(
     task = task_of(course)(order.variant)  # its class is among the checks
     checks = [replace(one, title=task.fill(one.title), look=task.fill(one.look)) for one in checks]
     case = Case(order, task, ask)
-    run = Run(checks, case, case.second_look, case.too_busy)
+    run = Run(checks, case, case.second_look, lambda: case.hopeless)
     known = ((name, course.exercises[name]) for name in order.exercises)
     outcomes = [Outcome(name, title=one.title, points=one.points) for name, one in known]
     try:
         for outcome in outcomes:
             _make_checks(run, case, outcome, order.only_first, report)
-            if order.only_first and not passed(outcome.results):
+            if order.only_first and not outcome.passed:
                 break
     except Ended as error:
         if no_more.is_set() or not any(outcome.results for outcome in outcomes):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import traceback
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Callable, Iterable, Iterator
 
@@ -51,15 +51,20 @@ class Wrong(Exception):
     look: str = ""  # a command that shows it, if not that of the check
 
 
-def master_gone(where: str = "") -> Wrong:
-    """Return the Wrong for a program that ends the master."""
-    seen = "it no longer answers: a program of yours has ended it"
-    hint = "a node ends itself (rospy.signal_shutdown), never the master"
-    return Wrong("the ROS master is left alone", seen, where, hint, sure=True)
-
-
 MASTER_GONE, MULTIPLIES, CANNOT_START = "master gone", "multiplies", "cannot start"
 UNREADABLE, NO_TYPE = "unreadable package.xml", "no such type"
+# {kind of a CutShort: what is expected, what was seen, what to do}; all but CANNOT_START are sure.
+CUT_SHORT = {
+    MASTER_GONE: ("the ROS master is left alone",
+        "it no longer answers: a program of yours has ended it",
+        "a node ends itself (rospy.signal_shutdown), never the master"),
+    MULTIPLIES: ("a program that is one process, or a few", "it starts itself again and again: {}",
+        "where does it call os.fork, or start programs?"),
+    NO_TYPE: ("messages and services as they are asked for", "{}",
+        "rosmsg show, or rossrv show, after catkin_make; CMakeLists.txt lists its file"),
+    CANNOT_START: ("a program that can be started", "{}",
+        "look at the first line of the file: #!/usr/bin/env python3"),
+}  # fmt: skip
 
 
 @dataclass
@@ -69,20 +74,10 @@ class CutShort(Exception):
     kind: str
     seen: str = ""
 
-    def as_wrong(self) -> Wrong:
-        """Return the Wrong for it."""
-        if self.kind == MASTER_GONE:
-            return master_gone()
-        if self.kind == MULTIPLIES:
-            seen = f"it starts itself again and again: {self.seen}"
-            hint = "where does it call os.fork, or start programs?"
-            return Wrong("a program that is one process, or a few", seen, hint=hint, sure=True)
-        if self.kind == NO_TYPE:
-            expected = "messages and services as they are asked for"
-            hint = "rosmsg show, or rossrv show, after catkin_make; CMakeLists.txt lists its file"
-            return Wrong(expected, self.seen, hint=hint, sure=True)
-        hint = "look at the first line of the file: #!/usr/bin/env python3"
-        return Wrong("a program that can be started", self.seen, hint=hint)
+    def as_wrong(self, where: str = "") -> Wrong:
+        kind = self.kind if self.kind in CUT_SHORT else CANNOT_START
+        expected, seen, hint = CUT_SHORT[kind]
+        return Wrong(expected, seen.format(self.seen), where, hint, kind != CANNOT_START)
 
 
 class CannotCheck(Exception):
@@ -131,11 +126,10 @@ class Run:
         second_look: Callable[[bool], bool] = lambda explained: False,
         too_busy: Callable[[], bool] = lambda: False,
     ) -> None:
-        """session: what the functions of the checks, which are in order, take.
+        """Take checks, in order, and the session that their functions take.
 
-        second_look(explained): whether to make a check that does not hold again; asked once.
-        explained: whether a line of the student's is to blame.
-        too_busy(): whether it says nothing if it does not hold then, either.
+        second_look(whether a line of the student's is to blame): whether to make a check that does
+        not hold again. too_busy(): whether it says nothing if it does not hold then, either.
         """
         self._checks = {check.id: check for check in checks}
         self._session = session
@@ -146,25 +140,20 @@ class Run:
         self._troubles: dict[str, str] = {}  # id of a check that could not be made: why
 
     def result(self, check_id: str) -> Result:
-        """Return the Result of a check; make it now if it was not yet."""
         if check_id not in self._done:
             self._done[check_id] = self._make(self._checks[check_id])
         return self._done[check_id]
 
     def exercise(self, exercise: str, only_first: bool = False) -> Iterator[Result]:
-        """Yield the results of an exercise, each as soon as it is there.
+        """Yield the results of an exercise as they come; only_first: up to the first wrong one.
 
-        What is wrong in an earlier exercise and keeps this one from being checked comes first, unless
-        it was reported before. only_first: end at the first that is wrong.
+        What is wrong in an earlier exercise and keeps this one from being checked comes first.
         """
         is_wrong = False
         for check in self._of(exercise):
-            culprits = {
-                one.id: one
-                for one in self._culprits(check)
-                if one.id not in self._reported and self._checks[one.id].exercise != exercise
-            }
-            for result in (*culprits.values(), self.result(check.id)):
+            found = {one.id: one for one in self._culprits(check) if one.id not in self._reported}
+            others = [one for one in found.values() if self._checks[one.id].exercise != exercise]
+            for result in (*others, self.result(check.id)):
                 if result.id not in self._reported or result.status != WRONG:
                     is_wrong = is_wrong or result.status == WRONG
                     self._reported.add(result.id)
@@ -174,10 +163,8 @@ class Run:
 
     def trouble(self, exercise: str) -> str:
         """Return why a check of the exercise could not be made, though nothing is wrong with it."""
-        for check in self._of(exercise):
-            if check.id in self._troubles:
-                return f"{check.id}: {self._troubles[check.id]}"
-        return ""
+        troubles = (self._troubles.get(check.id, "") for check in self._of(exercise))
+        return next(filter(None, troubles), "")
 
     def _of(self, exercise: str) -> list[Check]:
         return [check for check in self._checks.values() if check.exercise == exercise]
@@ -198,8 +185,8 @@ class Run:
             culprits = self._same_cause(wrong)
             result = check.result(WRONG, wrong)
         except Exception as error:  # also a bug of ours: the other checks are made all the same
-            why = self._troubles[check.id] = fault(error)
-            result = check.result(UNREACHED, f"could not be checked: {why}")
+            self._troubles[check.id] = f"{check.id}: {fault(error)}"
+            result = check.result(UNREACHED, f"could not be checked: {fault(error)}")
         if culprits:
             first = culprits[0]
             todo = f"first fix {first.id}: {first.title}"
@@ -210,13 +197,10 @@ class Run:
 
     def _same_cause(self, wrong: Wrong) -> list[Result]:
         """Return the wrong results about the same cause. "No such file" alone may be said of two files."""
-        return [
-            one
-            for one in self._done.values()
-            if one.status == WRONG
-            and (one.seen, one.where) == (wrong.seen, wrong.where)
-            and (LINE.search(wrong.where) or one.expected == wrong.expected)
-        ]
+        about, is_line = (wrong.seen, wrong.where), LINE.search(wrong.where)
+        same = [one for one in self._done.values() if (one.seen, one.where) == about]
+        wrongs = [one for one in same if one.status == WRONG]
+        return [one for one in wrongs if is_line or one.expected == wrong.expected]
 
     def _call(self, check: Check) -> Any:
         try:
@@ -238,6 +222,36 @@ class Run:
             raise CannotCheck(f"{check.id}: {why}") from None
 
 
-def passed(results: Iterable[Result]) -> bool:
-    """Return whether an exercise is done: nothing wrong, and everything reached."""
-    return all(result.status in (OK, NOTE) for result in results)
+@dataclass
+class Outcome:
+    """What came of one exercise."""
+
+    id: str
+    results: list[Result] = field(default_factory=list)
+    seconds: float = 0.0
+    done: bool = False
+    trouble: str = ""  # why a check could not be made, through no fault of the student's
+    title: str = ""
+    points: float = 0.0  # for all of it; 0: one a check
+    place: str = ""  # the workspace within what was handed in, if another folder
+    remark: str = ""  # how well a program of someone else's was isolated, if not by bubblewrap
+    # What was asked for these results and not before, with the answers of the worker, which see.
+    recordings: list[dict[str, Any]] = field(default_factory=list)
+
+    @property
+    def passed(self) -> bool:
+        """Whether nothing is wrong, and everything reached."""
+        return self.done and all(result.status in (OK, NOTE) for result in self.results)
+
+    @property
+    def empty(self) -> bool:
+        """Whether it passed because there was nothing to check."""
+        return self.passed and bool(self.results) and all(each.empty for each in self.results)
+
+    @property
+    def solved(self) -> bool:
+        return self.passed and not self.empty
+
+    @property
+    def wrong(self) -> list[Result]:
+        return [each for each in self.results if each.status == WRONG]

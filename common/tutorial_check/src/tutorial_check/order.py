@@ -1,11 +1,12 @@
-"""What the launcher asks of the worker."""
+"""What is to be checked: what was asked for, and what the launcher adds for the worker."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Dict, Tuple
 
+from tutorial_check.course import OURS
 from tutorial_check.source.workspace import Layout
 
 Variant = Dict[str, Any]  # {name of a value: what it is}; what is not named is as the course has it
@@ -14,17 +15,18 @@ Line = Dict[str, Any]  # of JSON, between the two
 
 @dataclass(frozen=True)
 class Order:
-    """One workspace to be checked. Paths are whole."""
+    """One workspace to be checked. What follows the variant is from launcher.prepared()."""
 
-    folder: Path  # for this order alone; the copy of the workspace is in it
-    layout: Layout  # of the workspace as it was handed in
-    own: bool  # the caller's own workspace
+    workspace: Path  # or a zip
+    underlay: str  # setup.bash of the devel space with what students use and never write
     exercises: Tuple[str, ...]
-    only_first: bool  # end at the first check that is wrong
-    course: Path
-    variant: Variant  # of the student
-    underlay: str  # its setup.bash
-    environment: Dict[str, str]  # as in a shell that has sourced it
-    kept: Tuple[Path, ...]  # what the student's programs need of the suite
-    shown: Tuple[Path, ...]  # what they may read
+    only_first: bool = False  # end at the first check that is wrong
+    own: bool = True  # the caller's own workspace, whose links may lead into the home folder
+    course: Path = OURS
+    variant: Variant = field(default_factory=dict)  # of the student
+    folder: Path = Path()  # for this order alone; the copy of the workspace is in it
+    layout: Layout = field(default_factory=Layout)  # of the workspace as it was handed in
+    environment: Dict[str, str] = field(default_factory=dict)  # of a shell with the underlay
+    kept: Tuple[Path, ...] = ()  # what the student's programs need of the suite
+    shown: Tuple[Path, ...] = ()  # what they may read
     apart: bool = False  # in namespaces of its own, by bubblewrap

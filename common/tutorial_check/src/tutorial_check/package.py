@@ -22,10 +22,7 @@ RUN_ON_GITHUB = "suite/tutorial check --in submission --classroom result.json --
 
 
 def package(what: str, course: Course, exercises: Sequence[str], out: str | None) -> str:
-    """Write the zip or the workflow; return its path. Raises CannotCheck.
-
-    what: gradescope, or github:OWNER/NAME of the suite's repository.
-    """
+    """Write what a service takes; return its path. what: as in command_line. Raises CannotCheck."""
     service, _, repository = what.partition(":")
     if service not in FILES:
         raise CannotCheck(f"--package {what}: there are {GRADESCOPE} and {GITHUB}:OWNER/NAME")
@@ -65,7 +62,6 @@ def _gradescope(path: Path, course: Course, exercises: Sequence[str]) -> None:
 
 
 def _commit() -> str:
-    """Return the commit of this clone. Raises CannotCheck."""
     command = ["git", "-C", str(SUITE), "rev-parse", "HEAD"]
     try:
         done = subprocess.run(command, capture_output=True, text=True, check=False)

@@ -10,8 +10,9 @@ from pathlib import Path
 from typing import Iterator
 
 from tutorial_check.course import Course, checks_of
-from tutorial_check.launcher import Outcome, examine
-from tutorial_check.model import CannotCheck
+from tutorial_check.launcher import examine
+from tutorial_check.model import CannotCheck, Outcome
+from tutorial_check.order import Order
 
 SOLUTIONS, RIGHT, WRONG_OF, PATCH = "solutions", "right", "wrong_", ".patch"
 GONE = "/dev/null"
@@ -22,8 +23,7 @@ HUNK = re.compile(r"^@@.*\n((?:[ +-].*\n|\n)*)", re.MULTILINE)
 def solutions(course: Course) -> Iterator[tuple[str, str, list[Path]]]:
     """Yield (name, the check that it fails at or "", what is put one over the other).
 
-    solutions/right, and right_WHAT, are packages; wrong_CHECK_WHAT has what differs from right, as
-    files or in a .patch. Raises CannotCheck.
+    solutions/right, and right_WHAT, are packages; wrong_CHECK_WHAT are files or a .patch of right.
     """
     folder = course.folder / SOLUTIONS
     right = folder / RIGHT
@@ -67,17 +67,12 @@ def _examined(course: Course, underlay: str, check: str, layers: list[Path]) -> 
                     patch(Path(scratch), layer)
             except CannotCheck as why:
                 return [Outcome(check, trouble=str(why))]
-        return examine(
-            scratch, underlay, exercises or list(course.exercises),
-            only_first=bool(check), own=False, course=course.folder,
-        )  # fmt: skip
+        wanted = tuple(exercises or course.exercises)
+        return examine(Order(Path(scratch), underlay, wanted, bool(check), False, course.folder))
 
 
 def patch(folder: Path, file: Path) -> None:
-    """Change files as a unified diff says, whatever its line numbers are. Raises CannotCheck.
-
-    The first part of each path, as a/ and b/ of git, does not count.
-    """
+    """Change files as a unified diff of git says, at any line. Raises CannotCheck."""
     for before, after, hunks in FILES.findall(file.read_text(encoding="utf-8")):
         path = folder / re.sub(r"^(\.\./)*[^/]*/", "", before if after == GONE else after)
         if ".." in path.parts or (before != GONE and not path.is_file()):

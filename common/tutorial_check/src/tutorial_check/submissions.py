@@ -13,9 +13,10 @@ from pathlib import Path
 from tutorial_check.cluster import MOST_AT_ONCE, Cluster, Gone
 from tutorial_check.launcher import examine
 from tutorial_check.model import CannotCheck, fault
+from tutorial_check.order import Order
 from tutorial_check.report.class_page import Student, table_csv, table_html
 from tutorial_check.report.formats import as_json, clear, keep, without_hints, write
-from tutorial_check.report.last_run import LastRun, digest_of, digest_of_checks
+from tutorial_check.report.memory import LastRun, digest_of, digest_of_checks
 from tutorial_check.report.text import summary, text_of
 from tutorial_check.variants import variant_of
 from tutorial_check.worker_process import no_more
@@ -27,10 +28,7 @@ RESULTS = (".csv", ".html", ".txt", ".json")
 
 
 def find_students(folder: str | Path, out: str | Path, tasks: str = "") -> list[Student]:
-    """Return the Students of a folder: each folder, archive and link in it, but results and tasks.
-
-    Archives that are no zip, and links, are among them: the table says that they are not checked.
-    """
+    """Return the Students of a folder: folders, archives and links in it, but results and tasks."""
     try:
         entries = [path for path in sorted(Path(folder).iterdir()) if path.name[0] != "."]
     except OSError as error:
@@ -43,9 +41,8 @@ def find_students(folder: str | Path, out: str | Path, tasks: str = "") -> list[
         raise CannotCheck(f"{folder}: no workspace and no zip in it")
     short = [path.stem if path.suffix.lower() == ".zip" else path.name for path in paths]
     claims = Counter(word for path, name in zip(paths, short) for word in {name, path.name})
-    return [
-        Student(name if claims[name] == 1 else path.name, path) for name, path in zip(short, paths)
-    ]
+    names = (name if claims[name] == 1 else path.name for name, path in zip(short, paths))
+    return [Student(name, path) for name, path in zip(names, paths)]
 
 
 def _has_results(path: Path, out: str | Path) -> bool:
@@ -96,7 +93,6 @@ class Check:
         for student in students:
             student.before = self._last_run.outcomes(student.name)
         self._checks = digest_of_checks(options.course, options.exercises, options.hints)
-        self._digests: dict[str, str] = {}
         self._next_s = 0.0  # when the page may be written again
         self._cluster = Cluster(options.cluster) if options.cluster else None
 
@@ -106,9 +102,8 @@ class Check:
 
         self._show()
         at_once = MOST_AT_ONCE if self._cluster else max(1, self._options.jobs)
-        with ThreadPoolExecutor(at_once) as pool, tqdm(
-            total=len(self._students), unit="student", disable=None
-        ) as bar:
+        bar = tqdm(total=len(self._students), unit="student", disable=None)
+        with ThreadPoolExecutor(at_once) as pool, bar:
             checks = [pool.submit(self._check, student) for student in self._students]
             try:
                 for student, remark in (done.result() for done in as_completed(checks)):
@@ -127,10 +122,7 @@ class Check:
                 self._show(is_last=True)
 
     def _show(self, is_last: bool = False) -> None:
-        """Write the page in one step, as it may be open in a browser, and what the next run needs.
-
-        That of a large class takes a while: at most a tenth of the time goes into it.
-        """
+        """Write the page in one step, as it may be open; and take a tenth of the time at most."""
         began_s = time.monotonic()
         if began_s < self._next_s and not is_last:
             return
@@ -138,7 +130,7 @@ class Check:
         page = table_html(self._students, self._options.exercises, titles)
         write(self._out / f".{TABLES[1]}", page)
         os.replace(self._out / f".{TABLES[1]}", self._out / TABLES[1])
-        self._last_run.keep((one, self._digests.get(one.name, "")) for one in self._students)
+        self._last_run.keep(self._students)
         took_s = time.monotonic() - began_s
         self._next_s = began_s + 10 * took_s if took_s > QUICK_S else 0.0
 
@@ -172,16 +164,12 @@ class Check:
             raise CannotCheck("a link is not followed: put the folder or the archive itself here")
         options = self._options
         variant = variant_of(options.course, options, student.name)
-        digest = digest_of(student.path, f"{self._checks} {variant}")
-        self._digests[student.name] = digest
-        if not options.again and self._last_run.is_same(student.name, digest):
+        student.digest = digest_of(student.path, f"{self._checks} {variant}")
+        if not options.again and self._last_run.is_same(student):
             student.outcomes = student.before
             return "unchanged since the last check"
-        about = {"course": options.course.folder, "variant": variant}
-        path, exercises = student.path, options.exercises
-        if self._cluster:
-            outcomes = self._cluster.examine(path, exercises, **about)
-        else:
-            outcomes = examine(path, options.underlay, exercises, own=False, **about)
+        about = {"own": False, "course": options.course.folder, "variant": variant}
+        order = Order(student.path, options.underlay, options.exercises, **about)
+        outcomes = self._cluster.examine(order) if self._cluster else examine(order)
         student.outcomes = without_hints(outcomes) if options.hints == 0 else outcomes
         return ""

@@ -90,7 +90,6 @@ def _cannot(error: Exception) -> Line:
 
 
 def _prepared(order: Order, reader: int) -> Ground:
-    """Return the ground of an order. reader: see Runner."""
     scratch = order.folder
     shutil.copytree(scratch / workspace.COPY, scratch / "ws" / "src", symlinks=True)
     environment.prepare(scratch)
@@ -100,9 +99,8 @@ def _prepared(order: Order, reader: int) -> Ground:
     ruleset = landlock.ruleset(shown, own) if landlock.version() and not order.apart else None
     course = read_course(order.course)
     checks_of(course)  # its recorders
-    return Ground(
-        order, task_of(course)(order.variant), Runner(variables, order.apart, reader, ruleset)
-    )
+    runner = Runner(variables, order.apart, reader, ruleset)
+    return Ground(order, task_of(course)(order.variant), runner)
 
 
 if __name__ == "__main__":

@@ -1,1 +1,0 @@
-"""What checks of own courses work with, beside what the handout needs."""

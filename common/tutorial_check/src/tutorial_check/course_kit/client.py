@@ -39,9 +39,7 @@ class Transform:
 
 @dataclass(frozen=True)
 class Seen:
-    """A program beside a Client: what that heard of topics and services; what it was answered; the
-    type of each topic that there was.
-    """
+    """A program beside a Client: what that heard, of each topic and service, and was answered."""
 
     program: Ran
     heard: Dict[str, Tuple[Dict[str, Any], ...]]
@@ -153,9 +151,7 @@ class Client:
             raise CannotCheck(f"{_place()}: {error}") from None
         with contextlib.suppress(OSError):  # it has ended, or hangs
             self._line.sendall(f"{line}\n".encode())
-        self._stage.wait(
-            lambda: self._has(number) or self._node.ended, seconds, or_idle=what == "ask"
-        )
+        self._stage.wait(lambda: self._has(number) or self._node.ended, seconds, what == "ask")
         if what == "ask" and not self._has(number) and not self._node.ended:
             raise TimeoutError
         words = f"what uses {of or 'ROS'} ends, or hangs. {last_lines(self._node.output)}".strip()

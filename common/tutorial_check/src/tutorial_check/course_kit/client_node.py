@@ -137,9 +137,8 @@ class Node:
         return time.monotonic()
 
     def connections(self, topic: str) -> int:
-        ends = (
-            topics[topic] for topics in (self._publishers, self._subscribers) if topic in topics
-        )
+        both = (self._publishers, self._subscribers)
+        ends = (topics[topic] for topics in both if topic in topics)
         return min(end.get_num_connections() for end in ends)
 
     def parameter(self, name: str) -> Any:

@@ -6,29 +6,10 @@ from typing import Callable, TypeVar
 
 from tutorial_check.isolation.program import Ran
 from tutorial_check.judge.scripts import crash, program_of
-from tutorial_check.model import Wrong
 from tutorial_check.record.session import Session
-from tutorial_check.source.launch_xml import place_of
+from tutorial_check.source.launch_xml import Lines
 
 Recording = TypeVar("Recording")
-
-
-class Lines:
-    """A text, and where it is within its package."""
-
-    where: str
-    text: str
-
-    def at(self, *words: str) -> str:
-        """Return FILE:LINE of the first of the words that is there; else the file."""
-        return place_of(self.where, self.text, *words)
-
-    def must(
-        self, is_right: object, words: str, expected: str, seen: object, hint: str = ""
-    ) -> None:
-        """Raise Wrong, at the first of the words that is there, unless it is right."""
-        if not is_right:
-            raise Wrong(expected, str(seen), self.at(*words.split()), hint)
 
 
 class File(Lines):

@@ -9,14 +9,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Dict, Tuple
 
-from tutorial_check.course_kit.files import Lines
-from tutorial_check.handout.s5.launch_text import Fault, blamed, package_hint, parse_error
 from tutorial_check.handout.s5.record import facts_of_files
 from tutorial_check.judge.packages import package_of
 from tutorial_check.model import Wrong
 from tutorial_check.record.session import Session
 from tutorial_check.record.stage import Stage
-from tutorial_check.source.launch_xml import read
+from tutorial_check.source.launch_xml import Fault, Lines, blamed, package_hint, parse_error, read
 
 DIED = re.compile(r"^\[([^\]]+)-\d+\] process has died", re.MULTILINE)
 
@@ -59,8 +57,7 @@ def launch_file(session: Session, package: str, name: str) -> LaunchFile:
             seen = f"Cannot locate node of type [{node['type']}] in package [{node['package']}]"
             hint = "look at pkg= and type=: the name of the program's file, which is executable"
             hint = package_hint(node["package"]) if node["found"] is None else hint
-            place = file.at(f'"{node["type"]}"', node["type"])
-            raise Wrong("nodes that exist", seen, place, hint)
+            raise Wrong("nodes that exist", seen, file.at(f'"{node["type"]}"', node["type"]), hint)
     return file
 
 

@@ -1,1 +1,0 @@
-"""What keeps a student's programs to themselves: users, rights, limits, processes."""

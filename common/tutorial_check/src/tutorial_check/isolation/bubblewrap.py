@@ -129,10 +129,9 @@ def _tmpfs(path: str, megabytes: int, has_sizes: bool) -> list[str]:
 
 
 def command(folder: str | Path, shown: Iterable[str | Path], hidden: str | Path) -> list[str]:
-    """Return the words before a command that isolate it; empty if the system grants no isolation.
+    """Return the words before a command that isolate it; empty without isolation.
 
-    folder: where the programs write, empty at first; shown: files and folders to see, read-only;
-    hidden: a folder that is not shown, though it may be in one that is.
+    folder: to write into, empty at first; shown: what is seen, read-only; hidden: what is not.
     """
     isolation = granted()
     if not isolation.options:

@@ -17,9 +17,8 @@ FORK = multiprocessing.get_context("fork")
 
 
 class Helper:
-    """An object in a forked process; its methods are called through a socket that only we have.
-
-    Unlike a pipe, no path in /proc opens it, to which a student's program may plant a link.
+    """An object in a forked process; its methods are called through a socket, which, unlike a pipe,
+    no path in /proc opens: a student's program may plant a link to that.
     """
 
     def __init__(self, make: Callable[[], object], environment: Mapping[str, str]) -> None:
@@ -43,7 +42,7 @@ class Helper:
         deadline_s: float = 60.0,
         in_vain: Callable[[], bool] = lambda: False,
     ) -> Any:
-        """Return what the method returns. Raises CannotCheck if the helper fails or hangs, or did so once.
+        """Return what the method returns. Raises CannotCheck if it fails or hangs, or did so once.
 
         in_vain(): whether it will never answer; asked when it has not for a while.
         """

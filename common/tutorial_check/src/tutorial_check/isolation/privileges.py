@@ -89,9 +89,8 @@ def limit(limits: dict[int, int]) -> None:
 
 
 def limits_of_programs() -> dict[int, int]:
-    """Return the limits of programs that run as this process's user.
-
-    RLIMIT_NPROC counts threads outside of a container, which /proc hides: so, what may be started.
+    """Return the limits of programs that run as this user. RLIMIT_NPROC counts threads outside of a
+    container, too, which /proc hides: so, what may be started is tried.
     """
     threads, starts_one_more = MOST_THREADS, ["sh", "-c", "(:); :"]
     while threads < MOST_PIDS:

@@ -38,9 +38,8 @@ class Runner:
         reader: int | None = None,
         ruleset: int | None = None,
     ) -> None:
-        """alone: whether they have a PID namespace of their own.
-
-        reader: a socket whose other end waits for what is found; ruleset: see landlock.
+        """alone: in a PID namespace of their own. reader: a socket whose other end waits for what
+        is found. ruleset: see landlock.
         """
         self.environment = environment
         self._alone, self._ruleset = alone, ruleset
@@ -92,11 +91,10 @@ class Runner:
     def wait(
         self, condition: Callable[[], Value], deadline_s: float, or_idle: bool = False
     ) -> Value:
-        """Return the first true value of condition(), or its value at the deadline.
+        """Return the first true value of condition(), or its value at the deadline, by CpuClock.
 
-        The deadline goes by the programs' time, see CpuClock. or_idle: no longer than until they
-        have done nothing for IDLE_S. Raises CutShort for a program that multiplies without end, and
-        SystemExit when nobody waits for what is found; clear() ends what was started.
+        or_idle: or when the programs have done nothing for IDLE_S. Raises CutShort for one that
+        multiplies without end, SystemExit when nobody waits; clear() ends what was started.
         """
         began_s = self.clock.now()
         while True:
@@ -108,20 +106,15 @@ class Runner:
             value = condition()
             if value or is_over:
                 return value
-            if self._is_crowded():
-                raise CutShort(MULTIPLIES, f"more than {MOST_PROCESSES} processes")
+            if self._alone and self.clock.crowd() > MOST_PROCESSES:
+                self._reap()  # those that have ended do not count
+                if len(self._strays()) > MOST_PROCESSES:
+                    raise CutShort(MULTIPLIES, f"more than {MOST_PROCESSES} processes")
             # Asking takes others' time.
             for key, _ in self._selector.select(max(0.01, 2 * (time.monotonic() - asked_s))):
                 if key.data is None:  # no question comes before the answer
                     sys.exit("the checker has ended")
                 self._read(key.data)
-
-    def _is_crowded(self) -> bool:
-        """Return whether the living programs are too many. Reap those that have ended."""
-        if not self._alone or self.clock.crowd() <= MOST_PROCESSES:
-            return False
-        self._reap()
-        return len(self._strays()) > MOST_PROCESSES
 
     def _read(self, program: Program, is_last: bool = False) -> None:
         if not program.pipe.closed and (not program.read() or is_last):

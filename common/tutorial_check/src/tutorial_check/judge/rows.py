@@ -30,9 +30,7 @@ def find(rows: Iterable[Row], facts: object, expected: str = "") -> Wrong | Note
             return row.seen(facts)
         formats = (row.seen, row.where, row.hint)
         seen, where, hint = (text.format(f=facts, found=found) for text in formats)
-        if row.note:
-            return Note(seen, where, hint)
-        return Wrong(expected, seen, where, hint, row.sure)
+        return Note(seen, where, hint) if row.note else Wrong(expected, seen, where, hint, row.sure)
     return None
 
 

@@ -9,12 +9,12 @@ from pathlib import Path
 from typing import Iterator
 
 from tutorial_check.isolation.program import Ran
-from tutorial_check.judge.causes import explain, hider, traced
 from tutorial_check.judge.packages import package_of
 from tutorial_check.model import Note, Wrong
 from tutorial_check.record.build import built, installed
 from tutorial_check.record.session import Session
 from tutorial_check.source import student_files
+from tutorial_check.source.causes import explain, hider, traced
 from tutorial_check.source.python_facts import PythonFacts
 from tutorial_check.source.python_text import unreadable
 from tutorial_check.source.tracebacks import Traceback, first_traceback, last_lines
@@ -45,8 +45,7 @@ def find_script(session: Session, package: str, name: str) -> str:
         other = others[near[0]]
         paths = (session.whole(path, package) for path in (other, other.with_name(name)))
         hint = f"mv {' '.join(paths)}: capitals, underscores and the ending count"
-        where = str(other.relative_to(folder))
-        raise Wrong(f"a program {name}", f"a file {near[0]}", where, hint)
+        raise Wrong(f"a program {name}", f"a file {near[0]}", str(other.relative_to(folder)), hint)
     if compiled:
         seen = f"a program in C++, {compiled[0].name}"
         hint = f"the exercise asks for Python, rospy: write scripts/{name}; the C++ may stay"
@@ -164,9 +163,6 @@ def odd_node(session: Session, package: str, script: str) -> Note | None:
     seen = f"the node is called {name!r}, of which ROS warns: not a legal ROS base name"
     right = re.sub(r"\W", "_", re.sub(r"\.py$", "", name))
     return Note(seen, f"{script}:{line}", f"letters, digits and _ only: {right!r}")
-
-
-# ------------------------------------------------------------------------- why one has failed
 
 
 def cause_of(session: Session, package: str, trace: Traceback, name: str = "") -> tuple[str, str]:

@@ -1,1 +1,0 @@
-"""What programs are seen to do: a ROS master, our end of the topics."""

@@ -15,7 +15,6 @@ class Installed:
 
 
 def built(ground: Builder) -> Built:
-    """Build the workspace."""
     return ground.built
 
 

@@ -1,7 +1,4 @@
-"""The other end of the student's topics: sends what we choose, keeps what comes back.
-
-Runs in the process of a forked.Helper; every method returns at once, waiting is the caller's.
-"""
+"""The other end of the student's topics, in a Helper's process; each method returns at once."""
 
 from __future__ import annotations
 

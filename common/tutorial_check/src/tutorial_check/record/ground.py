@@ -15,10 +15,7 @@ class Ground(Builder):
 
     @contextlib.contextmanager
     def stage(self, renamed: bool = True) -> Iterator[Stage]:
-        """Yield a Stage: a ROS master and a driver; all that was started on it ends with it.
-
-        renamed: whether topics have the names that the student's task gives them.
-        """
+        """Yield a Stage, all ends with it; renamed: topics are called as in the student's task."""
         if self.broken:
             raise CutShort(UNREADABLE)
         self.runner.clock.begin()

@@ -59,8 +59,6 @@ class Session:
         """Return what a recorder writes down; recorded once, unless it is looked at again."""
         raise NotImplementedError
 
-    # ---------------------------------------------------------------- the student's packages
-
     @cached_property
     def broken(self) -> Package | None:
         """A package whose package.xml keeps every node from starting."""
@@ -111,10 +109,7 @@ class Session:
         return self.read(self.package(package).folder / script)
 
     def whole(self, path: str | Path, package: str = "") -> str:
-        """Return a path of the workspace, or within a package, for a command of a shell in any folder.
-
-        It is that of the copy, in whose place Case.as_sent puts the student's own, where it knows that.
-        """
+        """Return a path, here, for a shell; Case.as_sent makes it the student's own."""
         own = self.package(package).folder if package else self.source.parent
         return shlex.quote(str(own / path))
 

@@ -60,11 +60,7 @@ class SimulatedRobot:
         return int(self._stage.call("count", BUMPER))
 
     def drive(self, program: Program, longest_s: float = LONGEST_DRIVE_S) -> tuple[Sample, ...]:
-        """Wait until the program has moved it and it rests for a second; return its path.
-
-        A robot that still drives after longest_s is in motion at the end of the path; one that
-        never moved was at rest all the time.
-        """
+        """Return its path until it has moved and rests for a second, or for longest_s."""
         self._stage.wait(lambda: program.ended or self.moves, START_S)
         if self.moves:
             self._stage.wait(lambda: not self.moves, longest_s)

@@ -1,1 +1,0 @@
-"""What students, professors and services read."""

@@ -13,9 +13,7 @@ from string import Template
 from typing import Any, Iterable, Iterator, Mapping, Sequence
 from urllib.parse import quote
 
-from tutorial_check.launcher import Outcome
-from tutorial_check.model import NOTE, Result
-from tutorial_check.report.hints import cause_of
+from tutorial_check.model import NOTE, Outcome, Result
 from tutorial_check.report.text import lines_of
 
 # Where a spreadsheet may see the start of a cell, with any separator, followed by a formula.
@@ -40,6 +38,7 @@ class Student:
     trouble: str = ""  # why nothing could be checked
     seconds: float = 0.0
     before: list[Outcome] = field(default_factory=list)
+    digest: str = ""  # of what was handed in, and of what checks it
 
     def cell(self, exercise: str) -> tuple[str, str, str]:
         """Return a word of the page's legend for an exercise, the cause in short, and the details."""
@@ -75,8 +74,12 @@ class Student:
 
     @property
     def wrong(self) -> list[Result]:
-        """The checks that are wrong, in their order."""
         return [one for outcome in self.outcomes for one in outcome.wrong]
+
+
+def cause_of(result: Result) -> str:
+    """Return what makes two failures the same: the check and its words, without their numbers."""
+    return f"{result.id} {re.sub('[0-9.]+', '#', result.seen)}"
 
 
 def _short(text: str) -> str:
@@ -108,19 +111,16 @@ def table_html(
     for student in students:
         link = quote(f"{student.name}.txt", errors="surrogateescape")  # a name may be no UTF-8
         row = f'<tr><td><a href="./{link}">{escape(student.name)}</a></td>'
-        row += "".join(_cell(*student.cell(exercise)) for exercise in exercises)
+        for word, cause, details in map(student.cell, exercises):
+            small = f"<small>{escape(cause)}</small>" if cause else ""
+            kind = KINDS.get(word, "wrong")
+            row += f'<td class="{kind}" title="{escape(details)}">{escape(word)}{small}</td>'
         about = (student.done, str(student.notes or ""), f"{student.seconds:.0f} s")
         rows.append(row + "".join(f"<td>{word}</td>" for word in about) + "</tr>")
     runs = any(student.cell(exercises[0])[0] == "..." for student in students)
     refresh = '<meta http-equiv="refresh" content="5">' if runs else ""
     body = f"<table>{''.join(rows)}</table>{''.join(_below(students))}"
     return PAGE.substitute(policy=escape(POLICY), refresh=refresh, body=body)
-
-
-def _cell(word: str, cause: str, details: str) -> str:
-    small = f"<small>{escape(cause)}</small>" if cause else ""
-    kind = KINDS.get(word, "wrong")
-    return f'<td class="{kind}" title="{escape(details)}">{escape(word)}{small}</td>'
 
 
 def _row(cells: Iterable[str], tag: str = "td") -> str:

@@ -11,8 +11,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, Callable, Mapping, Sequence
 
-from tutorial_check.launcher import Outcome
-from tutorial_check.model import NOTE, OK, UNREACHED, WRONG, CannotCheck
+from tutorial_check.model import NOTE, OK, UNREACHED, WRONG, CannotCheck, Outcome
 from tutorial_check.report.text import heading, lines_of
 
 FIELDS = ("id", "status", "title", "expected", "seen", "where", "hint")
@@ -30,10 +29,8 @@ SUBMISSION = {
 
 
 def without_hints(outcomes: Sequence[Outcome]) -> list[Outcome]:
-    """Return the same outcomes without hints."""
-    return [
-        replace(one, results=[replace(each, hint="") for each in one.results]) for one in outcomes
-    ]
+    bare = ([replace(each, hint="") for each in one.results] for one in outcomes)
+    return [replace(one, results=results) for one, results in zip(outcomes, bare)]
 
 
 def as_json(outcomes: Sequence[Outcome], with_recordings: bool = True) -> str:
@@ -150,10 +147,7 @@ def keep(folder: str | Path, name: str, outcomes: Sequence[Outcome]) -> None:
 
 
 def clear(path: str | Path) -> None:
-    """Remove a file of an earlier check. Raises CannotCheck if none can be written there.
-
-    Keep what is not a file, as a pipe, and what may be written but not removed.
-    """
+    """Remove a file of an earlier check, but nothing else, as a pipe. Raises CannotCheck."""
     if os.path.isfile(path) or os.path.isdir(path) or not os.path.exists(path):
         write(path, "")
         with contextlib.suppress(OSError):

@@ -7,8 +7,7 @@ import sys
 from dataclasses import replace
 from typing import Callable, Sequence
 
-from tutorial_check.launcher import Outcome
-from tutorial_check.model import NOTE, OK, UNREACHED, WRONG, Result
+from tutorial_check.model import NOTE, OK, UNREACHED, WRONG, Outcome, Result
 
 WORDS = {OK: "ok", WRONG: "WRONG", NOTE: "note", UNREACHED: "-"}
 COLOURS = {OK: "32", WRONG: "1;31", NOTE: "33", UNREACHED: "2"}
@@ -35,11 +34,10 @@ def heading(outcome: Outcome) -> str:
 
 def summary(outcomes: Sequence[Outcome]) -> str:
     empty = ", ".join(outcome.id for outcome in outcomes if outcome.empty)
-    place = next((outcome.place for outcome in outcomes), "")
-    rest = f" ({empty}: nothing to check)" if empty else ""
-    rest += f" (workspace: {place})" if place else ""
-    remark = next((outcome.remark for outcome in outcomes), "")
-    rest += f" ({remark})" if remark else ""
+    first = next(iter(outcomes), Outcome(""))
+    place = f"workspace: {first.place}" if first.place else ""
+    remarks = (f"{empty}: nothing to check" if empty else "", place, first.remark)
+    rest = "".join(f" ({remark})" for remark in remarks if remark)
     return f"{sum(one.solved for one in outcomes)} of {len(outcomes)} exercises done{rest}"
 
 

@@ -1,1 +1,0 @@
-"""What a student's files say, read and never run."""

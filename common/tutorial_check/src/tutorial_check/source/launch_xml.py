@@ -1,15 +1,33 @@
-"""A launch file that is no XML, or whose tags are nested by mistake: from its text to the culprit. Pure."""
+"""A launch file that roslaunch cannot read: from what it says and the text to a line and a hint."""
 
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Callable, Sequence
 from xml.parsers import expat
+
+from tutorial_check.model import Wrong
+from tutorial_check.source.causes import advice, explained, meant, packages_of_ros
 
 CURLY = re.compile("[“”‘’]")
 COMMENT = re.compile(r"<!--(.*?)-->", re.DOTALL)
 VALUE = re.compile(r"=\s*(\"[^\"]*\"|'[^']*')")
 QUOTES = 'each value stands between two quotes: name="value"'
+# Those that a launch file of the exercises may name.
+PACKAGES = (
+    "rbx1_nav rbx1_bringup turtlebot_rviz_launchers turtlebot_bringup fake_turtlebot_sim joy2twist"
+    " gamepad joy rosbag rviz"
+)
+# Kinds and words of errors, as roslaunch has them.
+UNSET, UNUSED = "ArgException", r"unused args \[(\w+).*\] for include of \[(.*)\]"
+NO_FILE = r"No such file or directory: '([^']+)'|file does not exist \[([^\]]*)\]"
+# Names in two words. (That of a node may have them, says roslaunch; that is worth a note.)
+GAPS = (
+    r"\$\(find\s+(\w+(?:[ \t]+\w+)+)\s*\)",
+    r"\b(?:pkg|type)\s*=\s*[\"'](\w+(?:[ \t]+[\w.]+)+)[\"']",
+)
 
 
 def without_comments(text: str) -> str:
@@ -29,6 +47,24 @@ def place_of(where: str, text: str, *words: str) -> str:
             if word and word in line:
                 return f"{where}:{number}"
     return where
+
+
+class Lines:
+    """A text, and where it is within its package."""
+
+    where: str
+    text: str
+
+    def at(self, *words: str) -> str:
+        """Return FILE:LINE of the first of the words that is there; else the file."""
+        return place_of(self.where, self.text, *words)
+
+    def must(
+        self, is_right: object, words: str, expected: str, seen: object, hint: str = ""
+    ) -> None:
+        """Raise Wrong, at the first of the words that is there, unless it is right."""
+        if not is_right:
+            raise Wrong(expected, str(seen), self.at(*words.split()), hint)
 
 
 def line_of(text: str, index: int) -> int:
@@ -55,12 +91,8 @@ def not_xml(error: str, text: str) -> tuple[int | None, str]:
 
 def _not_well_formed(text: str, line: int, index: int) -> tuple[int, str]:
     """Return the same for a file in which expat came as far as text[index], in that line."""
-    dashes = [
-        line_of(text, each.start(1) + f"{each[1]}-".index("--"))
-        for each in COMMENT.finditer(text)
-        if "--" in f"{each[1]}-"
-    ]
-    if line in dashes:
+    inner = [(each.start(1), f"{each[1]}-") for each in COMMENT.finditer(text)]
+    if line in [line_of(text, start + each.index("--")) for start, each in inner if "--" in each]:
         return line, "within <!-- --> there may be no --: delete it, or the whole line"
     if text.startswith("<!--", index):
         return line, "each <!-- needs its -->"
@@ -95,8 +127,76 @@ def _not_closed(text: str) -> tuple[int | None, str]:
     return opened, f"the <{tag}> of line {opened} is never closed: /> at its end, or </{tag}> below"
 
 
-def unclosed_node(text: str, child: str) -> int | None:
-    """Return the line of the first <node> with such a tag in it, which roslaunch ignores there; or None."""
-    node = rf"<node\b[^<>]*(?<!/)>(?:(?!</node>).)*?<{child}\b"
-    found = re.search(node, without_comments(text), re.DOTALL)
-    return line_of(text, found.start()) if found else None
+@dataclass(frozen=True)
+class Fault:
+    """What roslaunch said of a launch file, and the tag that it was reading then."""
+
+    kind: str
+    words: str
+    tag: str
+    places: Sequence[tuple[str, int]]  # (file, line) of each tag around it, the outermost first
+
+
+def attribute(name: str, value: str) -> tuple[str, ...]:
+    """Return how it may be written, for place_of."""
+    return f'{name}="{value}"', f"{name}='{value}'", value
+
+
+def package_hint(name: str) -> str:
+    """Return what to do about a ROS package that is not there."""
+    hint = meant(name, PACKAGES.split(), 0.8, f"there is no package {name}; is {{}} meant?")
+    spelling = f"there is no package {name}: look at the spelling in $(find {name}) or pkg="
+    return hint or advice(name, packages_of_ros(name)) or spelling
+
+
+def blamed(fault: Fault, is_own: Callable[[str], bool]) -> tuple[str, int]:
+    """Return (file, line) of the innermost tag in a file of the student's.
+
+    An arg without a value is the fault of the <include>, where the included file declares it.
+    """
+    own = [place for place in fault.places if is_own(place[0])]
+    if fault.kind == UNSET:
+        file = own[-1][0]
+        declared = rf"<arg\b[^<>]*\bname\s*=\s*[\"']{re.escape(fault.words)}[\"']"
+        if re.search(declared, read(Path(file))):
+            own = [place for place in own if place[0] != file] or own
+    return own[-1]
+
+
+def parse_error(
+    fault: Fault, where: str, line: int, text: str, may_see: Callable[[Path], bool]
+) -> Wrong:
+    """Return the Wrong for a file that roslaunch cannot read. text: with comments."""
+    expected, place = "a launch file that roslaunch can read", f"{where}:{line}"
+    words = " ".join(fault.words.split())[:250]
+    if fault.kind == "ExpatError":
+        number, hint = not_xml(fault.words, text)
+        return Wrong(expected, words, f"{where}:{number}" if number else where, hint)
+    text = without_comments(text)
+    open_find = re.search(r"\$\((?:find|arg)\b[^)\"'<>]*[\"'<>]", text)
+    if open_find:
+        place = place_of(where, text, open_find[0])
+        hint = "each $( needs its ): $(find PACKAGE)/launch/FILE"
+        return Wrong(expected, f"{open_find[0][:-1]} without )", place, hint)
+    if fault.kind == "ResourceNotFound":
+        return Wrong(expected, f"package not found: {words}", place, package_hint(words))
+    file = re.search(NO_FILE, words)
+    if file:
+        path = Path(file[1] or file[2])
+        hint = 'an include needs the whole path: file="$(find PACKAGE)/launch/FILE"'
+        if path.is_absolute():
+            files = path.parent.glob("*") if may_see(path.parent) else ()
+            hint = meant(path.name, [each.name for each in files], 0.7)
+            hint = hint or "look at the name of the file, and of its folder"
+        return Wrong(expected, f"no such file: {path}", place, hint)
+    unused = re.search(UNUSED, words)
+    if unused:
+        path = Path(unused[2])
+        text = read(path) if may_see(path) and path.is_file() else ""
+        known = re.findall(r"<arg\b[^<>]*\bname\s*=\s*[\"']([^\"']+)[\"']", text)
+        hint = meant(unused[1], known, 0.6)
+        hint = hint or f"leave it out; it has {', '.join(known) or 'none'}"
+        return Wrong(expected, f"{path.name} has no arg {unused[1]}", place, hint)
+    said = f"{fault.kind} <{fault.tag}>: {words.partition(' xml is ')[0]}"
+    *seen, hint = explained("roslaunch", said)
+    return Wrong(expected, (seen or [words])[0], place, hint)

@@ -9,22 +9,12 @@ from typing import Sequence
 
 from node_kit.manifests import broken_manifests
 from tutorial_check.model import Wrong
+from tutorial_check.source.causes import explained
 from tutorial_check.source.launch_xml import place_of, read
 from tutorial_check.source.workspace import Package
 
 # The real ones may well be in a student's src.
 STAND_INS = Path(__file__).resolve().parents[4] / "stand_ins"
-# What catkin says of a package.xml, the word that it means, what to do.
-WANTS = (
-    ("replace <run_depend>", "<run_depend", "run_depend is of format 1: write exec_depend"),
-    ("replace <exec_depend>", "<exec_depend",
-     'exec_depend is of format 2: write <package format="2">'),
-    ("following tags: depend$", "<depend>",
-     '<depend> is of format 2: write <package format="2">, or build_depend and run_depend'),
-    ("format version '|invalid literal", "<package", 'write <package format="2">'),
-    ("condition", "condition=", 'a condition compares by two =, as in "$ROS_VERSION == 1"'),
-    ("", "", "its tags are well formed, but catkin wants what is named here"),
-)  # fmt: skip
 
 
 def is_stand_in(name: str) -> bool:
@@ -40,9 +30,8 @@ def unreadable(package: Package) -> Wrong:
         where += f":{line[1]}" if line else ""
         hint = "repair that line or the one before: each <tag> needs its </tag>"
     else:
-        file = package.folder / "package.xml"
-        _, word, hint = next(each for each in WANTS if re.search(each[0], package.error))
-        where = place_of(where, read(file), word) if word else where
+        *words, hint = explained("package.xml", package.error)
+        where = place_of(where, read(package.folder / "package.xml"), *words)
     so = "no node of the workspace starts" if package.malformed else "roslaunch starts nothing"
     hint += f". Until then catkin_make fails, and {so}"
     return Wrong("a package.xml that can be read", package.error, where, hint, sure=True)

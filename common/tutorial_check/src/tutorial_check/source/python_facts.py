@@ -52,9 +52,8 @@ class PythonFacts:
         except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
             self.error = getattr(error, "msg", None) or str(error) or "nested too deeply"
             self.error_line = getattr(error, "lineno", 0) or 0
-            lines = ["", *python_lines(text)]
-            if self.error_line < len(lines):
-                self.error_text = lines[self.error_line].strip(" \t")
+            lines = dict(enumerate(python_lines(text), 1))
+            self.error_text = lines.get(self.error_line, "").strip(" \t")
         self._nodes: list[Any] = list(ast.walk(tree))
         self._functions = self._of(ast.FunctionDef)
         self.functions = {node.name: node.lineno for node in self._functions}
@@ -70,11 +69,10 @@ class PythonFacts:
         self.has_main = any(map(_is_main, self._nodes))
         self.loops = [node.lineno for node in self._of(ast.While)]
         self.broad_excepts = list(filter(is_broad, self._of(ast.ExceptHandler)))
-        self.bare_names = [  # (line, text) of statements that do nothing, as rospy.spin without ()
-            (node.lineno, text_of(node.value))
-            for node in self._of(ast.Expr)
-            if isinstance(node.value, (ast.Attribute, ast.Name))
-        ]
+        # (line, text) of statements that do nothing, as rospy.spin without ().
+        kinds = (ast.Attribute, ast.Name)
+        bare = [node for node in self._of(ast.Expr) if isinstance(node.value, kinds)]
+        self.bare_names = [(node.lineno, text_of(node.value)) for node in bare]
         self.imports = {
             f"{node.module}.{alias.name}" if isinstance(node, ast.ImportFrom) else alias.name
             for node in self._of(ast.Import, ast.ImportFrom)
@@ -87,23 +85,18 @@ class PythonFacts:
     @property
     def sunken_main(self) -> Place:
         """(line, function) of an `if __name__ == '__main__':` that stands within a function."""
-        for function in self._functions:
-            for node in ast.walk(function):
-                if isinstance(node, ast.If) and _is_main(node):
-                    return node.lineno, function.name
-        return ()
+        inner = ((n, f.name) for f in self._functions for n in ast.walk(f) if isinstance(n, ast.If))
+        return next(((node.lineno, name) for node, name in inner if _is_main(node)), ())
 
     @property
     def odd_main(self) -> Place:
         """(line, text) of `if __name__ == ' main ':` and its like."""
-        for node in self._nodes[0].body:
-            if not (isinstance(node, ast.If) and isinstance(node.test, ast.Compare)):
-                continue
-            left, right = text_of(node.test.left), text_of(node.test.comparators[0])
-            if left in self.names or left.strip("_") != "name" or right.strip(" _") != "main":
-                continue
-            if (left, right) != ("__name__", "__main__"):
-                return node.lineno, python_lines(self._text)[node.lineno - 1].strip()
+        tests = [node.test for node in self._nodes[0].body if isinstance(node, ast.If)]
+        for test in (one for one in tests if isinstance(one, ast.Compare)):
+            left, right = text_of(test.left), text_of(test.comparators[0])
+            is_meant = (left.strip("_"), right.strip(" _")) == ("name", "main")
+            if is_meant and left not in self.names and (left, right) != ("__name__", "__main__"):
+                return test.lineno, python_lines(self._text)[test.lineno - 1].strip()
         return ()
 
     @cached_property
@@ -141,19 +134,17 @@ class PythonFacts:
     @cached_property
     def called_back(self) -> dict[str, list[int]]:
         """{name: lines} of what callbacks call, and what these call."""
-        subscribers = self.calls.get("Subscriber", [])
-        given = (one.words[2:3] or [one.names.get("callback", "")] for one in subscribers)
-        return self._called_by(words[0] for words in given)
+        return self.called_by("Subscriber", 2)
 
-    @property
-    def at_end(self) -> dict[str, list[int]]:
-        """{name: lines} of what a function given to on_shutdown calls."""
-        given = [one.words[:1] for one in self.calls.get("on_shutdown", [])]
-        return self._called_by(words[0] for words in given if words)
+    def given(self, name: str, place: int) -> list[tuple[int, str]]:
+        """Return (line, what is called back) of each call of a name, which has that in a place."""
+        calls = self.calls.get(name, [])
+        return [(c.line, (c.words[place:] or [c.names.get("callback", "")])[0]) for c in calls]
 
-    def _called_by(self, given: Iterable[str]) -> dict[str, list[int]]:
+    def called_by(self, name: str, place: int) -> dict[str, list[int]]:
+        """Return {name: lines} of what functions call that are given to calls of a name."""
         functions = {node.name: node for node in self._functions}
-        waiting = [name.rsplit(".", 1)[-1] for name in given]
+        waiting = [word.rsplit(".", 1)[-1] for _, word in self.given(name, place)]
         lines: dict[str, set[int]] = {}
         while waiting:
             function = functions.pop(waiting.pop(), None)
@@ -177,9 +168,8 @@ class PythonFacts:
     @property
     def keyboard(self) -> int:
         """The first line that reads the keyboard; 0 if none does."""
-        calls = (call.line for name in KEYBOARD for call in self.calls.get(name, []))
-        stdin = (node.lineno for node in self._of(ast.Attribute) if text_of(node) == "sys.stdin")
-        return min([*calls, *stdin], default=0)
+        stdin = [node.lineno for node in self._of(ast.Attribute) if text_of(node) == "sys.stdin"]
+        return min(sum(map(self.lines, KEYBOARD), stdin), default=0)
 
     def catcher(self, lines: Sequence[int]) -> ast.ExceptHandler | None:
         """Return what catches an error. lines: of the calls to it, the innermost last."""
@@ -193,6 +183,10 @@ class PythonFacts:
     def first(self, name: str) -> Call | None:
         return next(iter(self.calls.get(name, [])), None)
 
+    def lines(self, *names: str) -> list[int]:
+        """Return the lines of the calls of these names."""
+        return [call.line for name in names for call in self.calls.get(name, [])]
+
     @property
     def without_callback(self) -> Call | None:
         """The first Subscriber that is given no callback."""
@@ -202,9 +196,8 @@ class PythonFacts:
     @property
     def publishing_loops(self) -> list[int]:
         """Lines that publish within a loop, and not in a callback."""
-        inside = self.called_back.get("publish", [])
-        outside = (call.line for call in self.calls.get("publish", []) if call.line not in inside)
-        return [line for line in outside if any(loop <= line for loop in self.loops)]
+        outside = set(self.lines("publish")) - set(self.called_back.get("publish", []))
+        return [line for line in sorted(outside) if any(loop <= line for loop in self.loops)]
 
     @property
     def keeps_newest(self) -> bool:

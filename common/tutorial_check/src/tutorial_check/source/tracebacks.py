@@ -35,10 +35,7 @@ ABOVE = "During handling of the above exception"
 
 
 def first_traceback(output: str, folder: str) -> Traceback | None:
-    """Return the first Traceback in the output, or None: what follows is often its consequence.
-
-    folder: the package's; its files count as the student's.
-    """
+    """Return the first Traceback in the output, or None; files of the folder are the student's."""
     if OF_SERVICE in output:
         output = LINE_END.sub("\n", output)
     found: list[Traceback] = []

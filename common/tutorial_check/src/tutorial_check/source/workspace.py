@@ -50,14 +50,14 @@ class Package:
 class Layout:
     """Where the sources of a workspace are."""
 
-    root: Path  # what the student handed in
-    source: Path  # its src folder, or the folder of packages itself
-    is_workspace: bool  # there is a src
+    root: Path = Path()  # what the student handed in
+    source: Path = Path()  # its src folder, or the folder of packages itself
+    is_workspace: bool = False  # there is a src
     place: str = ""  # root within what was handed in, if another folder
 
 
 def hand_in(given: str | Path, folder: Path) -> tuple[Layout, Path]:
-    """Return the Layout, and the folder it is in, of a workspace or a zip, which is unpacked in a folder.
+    """Return the Layout, and its folder, of a workspace or zip, which is unpacked in a folder.
 
     A folder with nothing but a zip, as Moodle has it, is that zip. Raises CannotCheck.
     """
@@ -125,10 +125,8 @@ def find_layout(folder: str | Path) -> Layout:
         raise CannotCheck(f"{error.filename}: may not be read") from None
     if not found:
         return Layout(folder, folder / "src", True)
-    ranked = sorted(
-        [each for each in found if found[each]] or found,
-        key=lambda one: (-len(found[one] & SOLUTIONS), len(one.root.parts), one.root),
-    )
+    ranked = [each for each in found if found[each]] or list(found)
+    ranked.sort(key=lambda one: (-len(found[one] & SOLUTIONS), len(one.root.parts), one.root))
     best, place = ranked[0], ", not ".join(os.path.relpath(one.root, folder) for one in ranked[:4])
     return replace(best, place="" if best.root in (folder, folder.parent) else place)
 
@@ -145,10 +143,7 @@ def _layout_of(folder: Path) -> Layout | None:
 def must_be_ones_own(layout: Layout, suite: Path) -> None:
     """Raise CannotCheck if a package, or what it is a link to, is one of the suite's solutions."""
     solutions = {os.path.realpath(suite / name) for name in SOLUTIONS}
-    inside = []
-    with contextlib.suppress(OSError):  # copy() reports it
-        inside = sorted(layout.source.iterdir())
-    for each in (layout.source, *inside):
+    for each in (layout.source, *sorted(layout.source.glob("*"))):
         if os.path.realpath(each) in solutions:
             raise CannotCheck(f"{each} is this suite's solution, not yours: name YOUR workspace")
 
@@ -249,10 +244,9 @@ def packages_below(folder: str | Path) -> list[Package]:
 
 def packages_beside(layout: Layout) -> list[Package]:
     """Return the packages in a workspace right beside its src; deeper ones may be another student's."""
-    root = layout.root  # a home folder is not shown to the examination
-    every = {*root.iterdir()} - {layout.source} if layout.is_workspace and root.is_dir() else ()
-    beside = [each for each in sorted(every) if os.path.isfile(each / "package.xml")]
-    return [read_package(each, layout.root) for each in beside]
+    manifests = sorted(layout.root.glob("*/package.xml")) if layout.is_workspace else []
+    beside = (each.parent for each in manifests if each.is_file())
+    return [read_package(each, layout.root) for each in beside if each != layout.source]
 
 
 def read_package(place: Path, root: str | Path) -> Package:
@@ -263,22 +257,16 @@ def read_package(place: Path, root: str | Path) -> Package:
     # An AssertionError is catkin's word for a format that is yet to come.
     except (InvalidPackage, AssertionError, OSError, ValueError) as error:
         package.error = " ".join(str(error).split())
-        name = _name_in(place / "package.xml")
-        package.malformed = name is None
-        package.name = name or place.name
+        try:
+            name = ElementTree.parse(place / "package.xml").findtext("name") or ""
+        except (ElementTree.ParseError, OSError, ValueError, LookupError):
+            name, package.malformed = "", True
+        package.name = name.strip() or place.name
         return package
     package.name, package.format = parsed.name, parsed.package_format
     depends = (*parsed.build_depends, *parsed.exec_depends, *parsed.build_export_depends)
     package.depends = {each.name for each in depends}
     return package
-
-
-def _name_in(manifest: Path) -> str | None:
-    """Return the name that a package.xml gives, perhaps empty; None if it is no XML."""
-    try:
-        return (ElementTree.parse(manifest).findtext("name") or "").strip()
-    except (ElementTree.ParseError, OSError, ValueError, LookupError):
-        return None
 
 
 def underlays(devel: str | Path) -> tuple[str, list[str] | None]:

@@ -1,4 +1,4 @@
-"""C2 to C4 and C12: the packages, their dependencies, the build."""
+"""C1 to C4 and C12: the workspace and its underlay, the packages, their dependencies, the build."""
 
 from __future__ import annotations
 
@@ -6,28 +6,92 @@ import difflib
 import os
 import re
 from pathlib import Path
+from typing import Sequence
 
 from tutorial_check.course import check
-from tutorial_check.judge.causes import explained
 from tutorial_check.model import Note, Wrong
 from tutorial_check.record.build import built
 from tutorial_check.record.builder import Built
 from tutorial_check.record.session import Session
-from tutorial_check.source.debian_packages import advice, packages_of_ros
+from tutorial_check.source.causes import advice, explained, meant, packages_of_ros
 from tutorial_check.source.launch_xml import place_of, read
-from tutorial_check.source.manifests import must_be_one, unreadable
-from tutorial_check.source.workspace import Package, packages_beside
+from tutorial_check.source.manifests import is_stand_in, must_be_one, unreadable
+from tutorial_check.source.workspace import Package, packages_beside, underlays
 
 WANTED = {
     "beginner_tutorials": ("std_msgs", "rospy", "roscpp"),
     "joy2twist": ("rospy", "std_msgs", "sensor_msgs", "geometry_msgs"),
 }
-
+SUITE = ("node_kit", "fake_turtlebot_sim")  # packages of the underlay
+AGAIN = "in the workspace: rm -r build devel, then catkin_make"
 # What genmsg says of a message or service: (file, type) or (file, what it read there).
 DEFINITION = re.compile(
     r"messages which\s+'([^']+)'\s+depends.+?message\s+\[(\S+)\]"
     r"|InvalidMsgSpec: (/\S+): (?:Invalid declaration: ([^\n]+)|(\S+) is not a legal)", re.DOTALL
 )  # fmt: skip
+
+
+@check("C1", "the workspace", "2.1", look="ls src devel", timeless=True, eager=True)
+def workspace(session: Session) -> Note | str | None:
+    layout = session.layout
+    if not layout.source.is_dir():
+        seen = f"none in {layout.root}, and no package"
+        hint = "is this your workspace? --in ~/ros/hydro/catkin_ws; a new one begins with src"
+        raise Wrong("a folder src in the workspace", seen, hint=hint)
+    _check_names(session)
+    if not layout.is_workspace:
+        return Note("handed in as packages, without their workspace: built again here")
+    devel = layout.root / "devel"
+    real = Path(os.path.realpath(devel / "setup.sh"))
+    if layout.root.resolve() not in real.parents and not session.may_see(real):
+        return Note("never built here (devel is a link that leads elsewhere)")
+    made_for, below = underlays(devel)
+    setup = devel / "setup.bash"
+    if made_for and os.path.realpath(made_for) != os.path.realpath(devel):
+        return Note(f"its devel folder was made elsewhere ({made_for}); built again here")
+    if setup.is_file() and not (made_for and below is not None and setup.stat().st_size):
+        gone = setup.name if made_for and below is not None else "_setup_util.py or setup.sh"
+        seen = f"it is not whole: {gone} is missing or empty"
+        raise Wrong("a devel folder as catkin_make makes it", seen, "devel", AGAIN)
+    if not made_for and any((layout.source / name).is_dir() for name in ("build", "devel")):
+        hint = "catkin_make is called in the workspace: cd .., and remove src/build and src/devel"
+        raise Wrong("build and devel beside src", "they are within src", hint=hint)
+    if below is None:
+        return Note("never built here (no devel/setup.bash)", hint="catkin_make in the workspace")
+    own = str(devel.resolve())
+    _check_below(session, [each for each in below if os.path.realpath(each) != own])
+    return "src and devel, on top of this suite"
+
+
+def _check_below(session: Session, below: Sequence[str]) -> None:
+    """Raise Wrong unless this suite is among the folders that a workspace was built over."""
+    suite = os.path.realpath(Path(session.order.underlay).parent)
+    if suite in map(os.path.realpath, below):
+        return
+    seen = f"devel was built over {', '.join(below) or 'nothing'}"
+    hint = "built in a terminal without ./tutorial shell: delete build and devel, then catkin_make in it"
+    for other in below[::-1]:  # the first counts
+        is_suite = any(os.path.isdir(f"{other}/share/{name}") for name in SUITE)
+        if is_suite or Path(other).parts[-2:] == ("lower", "devel"):  # it may be hidden here
+            seen = f"devel was built over another copy of the suite, {other}; this one is {suite}"
+            hint = f"{AGAIN} in the ./tutorial shell of this copy; or check with the ./tutorial"
+            hint += " (and TUTORIAL_WORKSPACE) of the other"
+    raise Wrong("a workspace built on top of this suite", seen, "devel", hint)
+
+
+def _check_names(session: Session) -> None:
+    """Raise Wrong for a package with the name of one that the exercises need."""
+    share = Path(session.order.underlay).parent / "share"
+    for each in session.packages:
+        is_suite = (share / each.name).is_dir() and not is_stand_in(each.name)
+        brings = (each.folder / "msg", each.folder / "src" / each.name)
+        is_ros = any(each.name in names for names in WANTED.values())
+        # A clone of the real one is no package that catkin_create_pkg made by mistake.
+        if is_suite or (is_ros and not any(map(Path.is_dir, brings))):
+            seen = f"a package {each.name}: it hides {'the suite' if is_suite else 'ROS'}'s own"
+            hint = "remove it from src. If catkin_create_pkg made it: its first word is the name"
+            hint += " of the new package, those after it what that depends on"
+            raise Wrong("packages of names of their own", seen, f"src/{each.inside}", hint)
 
 
 def _package(session: Session, name: str) -> Package:
@@ -77,7 +141,6 @@ def _missing(session: Session, name: str, expected: str) -> Wrong:
 
 
 def _dependencies(session: Session, name: str) -> Package:
-    """Return the package of that name, which has all dependencies. Raises Wrong."""
     package, wanted = _package(session, name), WANTED[name]
     where = f"{package.inside}/package.xml"
     for odd in sorted(package.depends):
@@ -189,7 +252,11 @@ def _build_error(session: Session, output: str) -> Wrong:
     bad = r"Error at|^E: |mismatched tag|error:|Could not find|Multiple packages"
     words = next((line for line in lines if re.search(bad, line)), lines[-1] if lines else "")
     missing = _missing_in(output)
-    message, where = _cmake_error(output)
+    error = re.search(r"^CMake Error(?: at [^\n]*)?:\s(.*?)(?:\n\n\n|\Z)", output, re.M | re.S)
+    message = " ".join(error[1].split("Call Stack")[0].split()) if error else ""
+    # The error itself is often in a file of catkin's; the call stack names the student's line.
+    own = re.search(r"(?<!\S)[^/\s]\S*/CMakeLists\.txt:\d+", error[0] if error else "")
+    where = own[0] if own else ""
     if words.startswith("CMake Error") and message:
         words = f"CMake: {message}"
     hint = "".join(explained("cmake", message))
@@ -218,21 +285,7 @@ def _not_found(session: Session, name: str) -> tuple[str, str, str]:
     places = ((place_of(file, text, name), text) for file, text in cmakes if name in text)
     place, text = next(places, ("", ""))
     absent = {each for names in WANTED.values() for each in names if each not in text}
-    near = difflib.get_close_matches(name, absent, 1, 0.65)
-    hint = advice(name, packages_of_ros(name))
+    other = meant(name, absent, 0.65, f"correct {name} to {{}} in CMakeLists.txt")
+    hint = (other if "," not in name else "") or advice(name, packages_of_ros(name))
     hint = hint or f"is {name} spelt right in find_package of CMakeLists.txt, and without a comma?"
-    if near and "," not in name:
-        hint = f"correct {name} to {near[0]} in CMakeLists.txt"
     return f"catkin cannot find {name}", place, hint
-
-
-def _cmake_error(output: str) -> tuple[str, str]:
-    """Return (message, FILE:LINE of the student's) of CMake's first error, each perhaps empty.
-
-    The error itself is often in a file of catkin's; the call stack names the student's line.
-    """
-    found = re.search(r"^CMake Error(?: at [^\n]*)?:\s(.*?)(?:\n\n\n|\Z)", output, re.M | re.S)
-    if not found:
-        return "", ""
-    place = re.search(r"(?<!\S)[^/\s]\S*/CMakeLists\.txt:\d+", found[0])
-    return " ".join(found[1].split("Call Stack")[0].split()), place[0] if place else ""

@@ -1,1 +1,0 @@
-"""Section 3: talker and listener."""

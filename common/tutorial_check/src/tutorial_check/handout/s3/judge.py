@@ -6,14 +6,14 @@ import statistics
 from typing import Iterable, Mapping
 
 from tutorial_check.course import check
-from tutorial_check.handout.changed_programs import flipped_anonymous
 from tutorial_check.handout.s3 import record
 from tutorial_check.handout.s3.record import KIND, PACKAGE, STRINGS, TOPIC, Pair, Talk
-from tutorial_check.judge.causes import with_import
 from tutorial_check.judge.scripts import check_end, check_file, crash, ended, find_script, odd_node
-from tutorial_check.model import Note, Wrong, master_gone
+from tutorial_check.model import MASTER_GONE, CutShort, Note, Wrong
 from tutorial_check.record.session import Session
+from tutorial_check.source.causes import with_import
 from tutorial_check.source.python_facts import PythonFacts
+from tutorial_check.source.python_text import flipped_anonymous
 
 LISTENS = "every text sent on /chatter, displayed once"
 GOES_ON = "it goes on until Ctrl-C"
@@ -28,18 +28,15 @@ def other_topic(topics: Iterable[str], asked_for: str, types: Mapping[str, str],
     return topic if types.get(topic, kind) == kind else f"{topic}, of type {types[topic]}"
 
 
-def talks(session: Session) -> str:
-    """Return what is expected of the talker."""
-    often = "as often as rate says" if "rate" in session.task.values else "about 10 times a second"
-    return f"std_msgs/String on /chatter, {often}"
-
-
 def scripts(session: Session) -> list[str]:
     return [find_script(session, PACKAGE, name) for name in ("talker.py", "listener.py")]
 
 
 def _talk(session: Session) -> Talk:
-    return session.recording(record.talk, *scripts(session))
+    seen = session.recording(record.talk, *scripts(session))
+    if not seen.master_alive:
+        raise CutShort(MASTER_GONE).as_wrong()
+    return seen
 
 
 @check("C5", "talker.py and listener.py can be run", "3.1", "C2",
@@ -51,24 +48,17 @@ def files(session: Session) -> Note | str:
     return next(filter(None, notes), ", ".join(scripts(session)))
 
 
-def _half(session: Session, number: int) -> tuple[Talk, str, PythonFacts]:
-    """Return what was recorded, and the talker (0) or listener (1). Raise Wrong if the master has gone."""
-    seen, script = _talk(session), scripts(session)[number]
-    if not seen.master_alive:
-        raise master_gone()
-    return seen, script, session.scripts(PACKAGE)[script]
-
-
 @check("C6", "the talker talks", "3.1", "C5", look="rostopic hz /chatter")
 def talker(session: Session) -> Note | str:
-    seen, script, facts = _half(session, 0)
-    expected = talks(session)
+    seen, script = _talk(session), scripts(session)[0]
+    facts, wanted = session.scripts(PACKAGE)[script], session.task.values.get("rate")
+    often = "about 10 times a second" if wanted is None else "as often as rate says"
+    expected = f"std_msgs/String on /chatter, {often}"
     if not seen.received:
-        raise _silent(session, seen, script, facts)
+        raise _silent(session, seen, script, facts, expected)
     if seen.talker_ended:
         raise crash(session, PACKAGE, seen.talker, GOES_ON, LOOP)
     times = [when for when, caller, _ in seen.received if caller == seen.received[0][1]]
-    wanted = session.task.values.get("rate")
     if len(times) < FEW and not wanted:
         return Note(f"{len(times)} messages in {record.LISTEN_S + 2:.0f} s: slower than 1 Hz")
     steps = [b - a for a, b in zip(times, times[1:])] or [record.LISTEN_S]
@@ -89,9 +79,8 @@ def talker(session: Session) -> Note | str:
     return f"{rate:.1f} Hz" if is_as_asked else Note(f"{rate:.1f} Hz, the handout's is 10")
 
 
-def _silent(session: Session, seen: Talk, script: str, facts: PythonFacts) -> Wrong:
-    """Return the Wrong for a talker of which no message came."""
-    expected, ends = talks(session), seen.talker_ended
+def _silent(session: Session, seen: Talk, script: str, facts: PythonFacts, expected: str) -> Wrong:
+    ends = seen.talker_ended
     loops = ", and does it loop: while not rospy.is_shutdown()" if facts.has_main else ""
     hint = f"does the last line call talker(){loops}?"
     wrong = ended(crash(session, PACKAGE, seen.talker, expected, hint), facts, script)
@@ -115,7 +104,8 @@ def _silent(session: Session, seen: Talk, script: str, facts: PythonFacts) -> Wr
 @check("C7", "the listener displays what it receives", "3.1", "C5",
        look="rosrun beginner_tutorials listener.py")  # fmt: skip
 def listener(session: Session) -> Note | None:
-    seen, script, facts = _half(session, 1)
+    seen, script = _talk(session), scripts(session)[1]
+    facts = session.scripts(PACKAGE)[script]
     if seen.listener_ended:
         raise ended(crash(session, PACKAGE, seen.listener, GOES_ON), facts, script)
     lines = seen.listener.output.splitlines()  # with or without colours or a separator
@@ -134,7 +124,6 @@ def listener(session: Session) -> Note | None:
 
 
 def _deaf(session: Session, seen: Talk, script: str, facts: PythonFacts, displayed: int) -> Wrong:
-    """Return the Wrong for a listener that does not display all texts."""
     if "Traceback" in seen.listener.output or seen.listener.spins:
         return crash(session, PACKAGE, seen.listener, LISTENS)
     hint = with_import("rospy.Subscriber('chatter', String, callback)", "String", facts)

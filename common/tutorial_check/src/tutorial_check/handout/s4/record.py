@@ -67,10 +67,7 @@ def held(session: Session, left: float, forwards: float) -> Joy:
 
 
 def rest(stage: Stage, *topics: str, joys: str = JOY) -> None:
-    """Send Joys at rest until a Twist answers, or for a while: some programs drive only after it.
-
-    A Subscriber with queue_size=1 that is still busy may lose one; so, several.
-    """
+    """Send Joys at rest until a Twist answers, or for a while: some drive only after it."""
     stage.call("stream", joys, [NEUTRAL], 20.0, True)
     stage.wait(lambda: any(stage.call("count", topic) for topic in topics), REST_S)
     stage.call("end_stream", joys)

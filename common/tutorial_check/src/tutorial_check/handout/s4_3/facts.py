@@ -8,18 +8,17 @@ import functools
 import re
 from typing import Sequence
 
-from tutorial_check.handout.changed_programs import unmasked
 from tutorial_check.handout.s3.judge import other_topic
 from tutorial_check.handout.s4_3 import probes
 from tutorial_check.handout.s4_3.drive import Drive, Twist
 from tutorial_check.handout.s4_3.record import CMD_VEL, COLOUR, COUNT, JOY, drive
 from tutorial_check.handout.task import PACKAGE
-from tutorial_check.judge.causes import with_import
 from tutorial_check.judge.scripts import check_file, crash, ended
 from tutorial_check.model import Wrong
 from tutorial_check.record.session import Session
+from tutorial_check.source.causes import with_import
 from tutorial_check.source.python_facts import shows
-from tutorial_check.source.python_text import python_lines
+from tutorial_check.source.python_text import python_lines, unmasked
 from tutorial_check.source.tracebacks import first_traceback
 
 
@@ -36,15 +35,13 @@ class Facts:
         self.joy_line = with_import(line, "Joy", facts)
         line = f"rospy.Publisher('{self.a.cmd_vel}', Twist, queue_size=10)"
         self.twist_line = with_import(line, "Twist", facts)
-        lines = {name: [call.line for call in each] for name, each in facts.calls.items()}
         # {name of a function: where it is called first}
-        places = {name: self._first(each) for name, each in lines.items()}
+        places = {name: self._first(facts.lines(name)) for name in facts.calls}
         self.at = collections.defaultdict(lambda: self.script, places)
-        timers = [*lines.get("Timer", []), *lines.get("Rate", [])]
-        self.loop = self._first(facts.publishing_loops or timers)
+        self.loop = self._first(facts.publishing_loops or facts.lines("Timer", "Rate"))
         self.sleep = self._first(seen.sleep_lines)
         # Where a second Twist may come from: another publish in a callback, or another Subscriber.
-        several = (facts.called_back.get("publish", []), lines.get("Subscriber", []))
+        several = (facts.called_back.get("publish", []), facts.lines("Subscriber"))
         self.second = self._first([each[1] for each in several if len(each) > 1])
         types = seen.types
         self.heard_on = other_topic(seen.subscribers, self.joy, types, "sensor_msgs/Joy")
@@ -71,16 +68,13 @@ class Facts:
             if other != self.script and is_first:
                 with contextlib.suppress(Wrong):
                     check_file(self.session, PACKAGE, other)
-                    is_shown = self.session.recording(drive, other, False).all_shown
-                    return other if is_shown else ""
+                    return other if self.session.recording(drive, other, False).all_shown else ""
                 break
         return ""
 
     def found_values(self, within: float = probes.ROUNDED) -> int:
         output = COLOUR.sub("", self.seen.output)
         return probes.values_shown(probes.numbered_joys(COUNT), output, within)
-
-    # ------------------------------------------------------------------------ why it failed
 
     def crash(self) -> Wrong:
         session, seen = self.session, self.seen
@@ -123,15 +117,13 @@ class Facts:
             if field and re.search(name + r"\s*[-+*/]?=", line):
                 where = f"{self.script}:{number}"
                 break
-        sure = not (self.seen.missing or self.seen.unasked)
-        return Wrong("", self.complaint, where, hint, sure)
+        return Wrong("", self.complaint, where, hint, not (self.seen.missing or self.seen.unasked))
 
 
 def repetition(answers: Sequence[Twist], twists: Sequence[Twist]) -> tuple[int, bool]:
     """Return (how many Twists came for each Joy, whether they differ); (1, False) if unclear.
 
-    answers: one Twist for each Joy; twists: all that came meanwhile. Which of them belong to one Joy
-    is not looked at, as one may come late: it is counted how often each came.
+    answers: one for each Joy; twists: all. One may come late: so it is counted how often each came.
     """
     count = round(len(twists) / len(answers))
     if count < 2 or abs(len(twists) - count * len(answers)) > 0.1 * len(answers):

@@ -14,7 +14,7 @@ from tutorial_check.handout.s4_3.rules import judge
 from tutorial_check.handout.task import AXES, PACKAGE
 from tutorial_check.judge.rows import Row, demand, find
 from tutorial_check.judge.scripts import check_end, check_file, find_script, odd_node
-from tutorial_check.model import Note, Wrong, master_gone
+from tutorial_check.model import MASTER_GONE, CutShort, Note, Wrong
 from tutorial_check.record.session import Session
 
 NAME = "joy2twist.py"
@@ -35,7 +35,7 @@ CRASHED = Row(lambda c: c.seen.trouble, lambda c: c.crash())
 HIDDEN = Row(lambda c: c.hidden_crash, lambda c: c.hidden_crash)
 ENDED = Row(lambda c: c.seen.ended_early, lambda c: c.end())
 CONNECTED = (
-    Row(lambda c: not c.seen.master_alive, lambda c: master_gone(c.script)),
+    Row(lambda c: not c.seen.master_alive, lambda c: CutShort(MASTER_GONE).as_wrong(c.script)),
     Row(lambda c: not c.seen.connected and c.joy in c.seen.subscribers,
         "it wants {f.wanted} on {f.n.joy}", "{f.joy_line}", "{f.at[Subscriber]}"),
     Row(lambda c: not (c.seen.samples or c.seen.shown) and c.facts.without_callback,
@@ -260,8 +260,7 @@ def ctrl_c(session: Session) -> Note | str:
 def under_load(session: Session) -> Note | None:
     """Start it while 200 Joys a second come. Never a failure."""
     script = main_script(session)
-    facts = session.scripts(PACKAGE)[script]
-    made = map(facts.first, ("Subscriber", "Publisher"))
+    made = map(session.scripts(PACKAGE)[script].first, ("Subscriber", "Publisher"))
     first, second = (call.line if call else 0 for call in made)
     if not 0 < first < second and not session.recording(loaded, script).failed:
         return None

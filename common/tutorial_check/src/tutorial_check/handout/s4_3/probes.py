@@ -186,8 +186,7 @@ def judge_probes(
 ) -> tuple[str, str]:
     """Return (complaint, hint), as rules.judge() does, about the answers to the probes.
 
-    evidence: the numbered Joys, whose rule is right as far as they show.
-    needs_button: whether LB must be held to drive.
+    evidence: the numbered Joys, whose rule is right. needs_button: LB must be held to drive.
     """
     answers, samples, task = list(answers), evidence.samples, evidence.task
     odd = no_number([(axes, twist) for (axes, _), twist in answers])
@@ -247,10 +246,7 @@ def delays(
 
 
 def strays(moving: Sequence[bool]) -> int:
-    """Return how many Twists are zero among those for rising_joys(), which all move the robot.
-
-    moving: whether each Twist does; the first Twists may answer a Joy before these.
-    """
+    """Return how many Twists are zero after the first that moves, as all for rising_joys() do."""
     return list(moving[moving.index(True) :]).count(False) if any(moving) else 0
 
 

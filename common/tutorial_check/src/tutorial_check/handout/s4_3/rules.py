@@ -70,17 +70,12 @@ def judge(evidence: Evidence) -> tuple[str, str]:
     odd = [find(OF_A_FIELD, each) for each in fields if not each.follows_its_axis or each.is_scaled]
     all_found = [find(BEFORE, evidence), *odd, find(AFTER, evidence)]
     found = next((each for each in all_found if each), None)
-    return (found.seen, found.hint) if found else ("", _remark(fields))
-
-
-def _remark(fields: list[Field]) -> str:
+    if found:
+        return found.seen, found.hint
     curves = [f.name for f in fields if f.rule is None]
     if curves:
         are = "are curves of their axes" if len(curves) > 1 else "is a curve of its axis"
-        return f"{' and '.join(curves)} {are}, not a constant times it"
-    scaled = [
-        f"{f.name} = {f.product}"
-        for f in fields
-        if f.rule and abs(f.rule.factor - 1) > 0.02 and not f.wanted
-    ]
-    return f"{', '.join(scaled)}; the handout's has no factor" if scaled else ""
+        return "", f"{' and '.join(curves)} {are}, not a constant times it"
+    scaled = (f for f in fields if f.rule and abs(f.rule.factor - 1) > 0.02 and not f.wanted)
+    products = ", ".join(f"{f.name} = {f.product}" for f in scaled)
+    return "", f"{products}; the handout's has no factor" if products else ""

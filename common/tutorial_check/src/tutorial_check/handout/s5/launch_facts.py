@@ -56,7 +56,7 @@ def place_of_tag(file: str, tag: Element) -> tuple[str, int]:
 
 
 def fault_of(error: BaseException, path: str) -> dict[str, object]:
-    """Return what led to an error of roslaunch's, as a launch_text.Fault has it. path: the launch file."""
+    """Return what led to an error of roslaunch's, as a launch_xml.Fault has it. path: the launch file."""
     chain = [error]
     while chain[-1].__context__:
         chain.append(chain[-1].__context__)

@@ -7,23 +7,31 @@ import os
 import re
 import shlex
 from pathlib import Path
-from typing import Any, Callable
+from typing import Any
 
 from tutorial_check.course import check
 from tutorial_check.handout.s4_3.judge import NAME
-from tutorial_check.handout.s5 import launch_text
 from tutorial_check.handout.s5.launch_facts import Node
 from tutorial_check.handout.s5.record import facts_of_files
 from tutorial_check.handout.task import PACKAGE
 from tutorial_check.judge.scripts import find_script
 from tutorial_check.model import Note, Wrong
 from tutorial_check.record.session import Session
-from tutorial_check.source.launch_xml import line_of, place_of, read, unclosed_node
+from tutorial_check.source import launch_xml
+from tutorial_check.source.causes import meant
+from tutorial_check.source.launch_xml import Lines, line_of, place_of, read
 from tutorial_check.source.manifests import is_stand_in
 
 BAG, STICK = "launch_bag.launch", "launch_joy_node.launch"
 TURTLEBOT, REAL = "joy2twist_turtlebot.launch", "launch_joy_node_realTurtlebot.launch"
 ALL = (BAG, STICK, TURTLEBOT, REAL)
+# {what a node is: a pattern of its PACKAGE/TYPE}
+ROLES = {
+    "viewer": r"[^/]*/(rviz|view_robot)",
+    "player": "rosbag/play",
+    "simulator": r"fake_turtlebot_sim/fake_turtlebot\.py|arbotix.*",
+    "joystick": r"(?!rosbag/)[^/]*/(joy_node|joy_node\.py|joystick\.py)",
+}
 JOY_HINT = '<node pkg="joy" type="joy_node" name="joy_node"/>'
 TAGS = "launch node include remap param rosparam arg group env machine test master"
 ATTRIBUTES = (
@@ -33,7 +41,7 @@ ATTRIBUTES = (
 )
 
 
-class LaunchFile:
+class LaunchFile(Lines):
     """A launch file of the student's: its text, and what roslaunch makes of it."""
 
     def __init__(self, session: Session, name: str) -> None:
@@ -46,23 +54,24 @@ class LaunchFile:
         self.package = session.task.named(PACKAGE)
         self.own = [node for node in self.nodes if node["package"] == self.package]
 
-    def at(self, *words: str) -> str:
-        """Return FILE:LINE of the first line with the first of the words that is there; else the file."""
-        return place_of(self.where, self.text, *words)
-
     def at_node(self, node: Node) -> str:
         """Return FILE:LINE of a node, which may be in an included file."""
         path = Path(node["filename"])
         path = path if self.session.is_own(path) else self.path
-        words = (*launch_text.attribute("type", node["type"]), Path(node["type"]).name)
+        words = (*launch_xml.attribute("type", node["type"]), Path(node["type"]).name)
         return place_of(shown(self.session, path), read(path), *words)
 
-    def demand(self, what: str, test: Callable[[Node], bool], hint: str) -> Node:
-        """Return the first node of which test() is true. Raises Wrong."""
-        found = next(filter(test, self.nodes), None)
-        if not found:
+    def of(self, *roles: str) -> list[Node]:
+        """Return the nodes that it starts of any of these ROLES."""
+        pattern = "|".join(ROLES[each] for each in roles)
+        named = (("{package}/{type}".format(**one), one) for one in self.nodes)
+        return [one for name, one in named if re.fullmatch(pattern, name)]
+
+    def demand(self, what: str, nodes: list[Node], hint: str) -> Node:
+        """Return the first of these nodes. Raises Wrong if there is none."""
+        if not nodes:
             raise Wrong(f"{self.name} starts {what}", "it does not", self.where, hint)
-        return found
+        return nodes[0]
 
     def words_of(self, node: Node) -> list[str]:
         """Return the arguments of a node, as a shell would part them. Raises Wrong."""
@@ -137,31 +146,32 @@ def check_file(session: Session, name: str) -> LaunchFile:
 
 def _check_text(file: LaunchFile) -> None:
     one = file.facts
-    for gap in filter(None, (re.search(each, file.text) for each in launch_text.GAPS)):
+    for gap in filter(None, (re.search(each, file.text) for each in launch_xml.GAPS)):
         whole = gap[0].replace(gap[1], "_".join(gap[1].split()))
         hint = f"a name has no space, the PDF shows _ as a gap: {whole}"
         raise Wrong("names in one word", gap[0], file.at(gap[0]), hint)
     if one["fault"]:
-        raise _fault(file, launch_text.Fault(**one["fault"]))
+        raise _fault(file, launch_xml.Fault(**one["fault"]))
     said = one["said"] + " ".join(one.get("errors", []))
     _check_words(file, said)
     inside = re.search(r"unrecognized '(\w+)' child tag", said)
-    line = unclosed_node(file.text, inside[1]) if inside else None
-    if inside and line:
+    node = rf"<node\b[^<>]*(?<!/)>(?:(?!</node>).)*?<{inside[1]}\b" if inside else "(?!)"
+    found = re.search(node, file.text, re.DOTALL)
+    if inside and found:
         expected = "no tag in a <node> but remap, param, rosparam and env"
         hint = "the <node> of this line goes on to its </node>: close it first, with /> or </node>"
         seen = f"<{inside[1]}> in it: ignored by roslaunch"
-        raise Wrong(expected, seen, f"{file.where}:{line}", hint)
+        raise Wrong(expected, seen, f"{file.where}:{line_of(file.text, found.start())}", hint)
 
 
-def _fault(file: LaunchFile, fault: launch_text.Fault) -> Wrong:
+def _fault(file: LaunchFile, fault: launch_xml.Fault) -> Wrong:
     """Return the Wrong for what roslaunch cannot read, in this file or in an included one."""
     session = file.session
-    path, line = launch_text.blamed(fault, session.is_own)
+    path, line = launch_xml.blamed(fault, session.is_own)
     text = Path(path).read_text(errors="replace")
-    wrong = launch_text.parse_error(fault, shown(session, path), line, text, session.may_see)
+    wrong = launch_xml.parse_error(fault, shown(session, path), line, text, session.may_see)
     inner, number = fault.places[-1]
-    if not session.is_own(inner) and fault.kind != launch_text.UNSET:
+    if not session.is_own(inner) and fault.kind != launch_xml.UNSET:
         wrong.seen += f" (in {inner}:{number})"
     hiding = (each for each in session.packages if each.folder in Path(path).parents)
     for name in (each.name for each in hiding if is_stand_in(each.name)):
@@ -170,14 +180,12 @@ def _fault(file: LaunchFile, fault: launch_text.Fault) -> Wrong:
 
 
 def _check_words(file: LaunchFile, said: str) -> None:
-    """Raise Wrong for a tag or attribute that roslaunch does not know."""
     pattern = r"unrecognized (?:tag |')(\w+)|[Uu]nknown (?:<\w+> )?attribute '?([^\s']+)"
     odd = (each.groups("") for each in re.finditer(pattern, said))
     tag, name = next((each for each in odd if each[0] not in TAGS.split()), ("", ""))
     if not tag and not name:
         return
-    near = difflib.get_close_matches(name, ATTRIBUTES.split(), 1, 0.7)
-    hint = f"is {near[0]}= meant?" if near else "look at its spelling"
+    hint = meant(name, ATTRIBUTES.split(), 0.7, "is {}= meant?") or "look at its spelling"
     if tag.lower() in TAGS.split():
         hint = f"lower case: <{tag.lower()}>"
     written = rf"<{tag}\b" if tag else rf"\s{name}\s*="
@@ -202,7 +210,7 @@ def _check_node(file: LaunchFile, node: Node) -> None:
     session, seen = file.session, f"Cannot locate node of type [{kind}]"
     if package != file.package:
         hint = "look at pkg= and type=: rosrun PACKAGE and Tab twice lists its programs"
-        hint = launch_text.package_hint(package) if node["found"] is None else hint
+        hint = launch_xml.package_hint(package) if node["found"] is None else hint
         if difflib.get_close_matches(kind, ["joy_node"], 1, 0.8):
             hint = JOY_HINT
         raise Wrong("nodes that exist", f"{seen} in package [{package}]", place, hint)
@@ -212,8 +220,8 @@ def _check_node(file: LaunchFile, node: Node) -> None:
         raise Wrong(f"{kind} may be run", "it is not executable", place, hint)
     if kind == NAME:
         find_script(session, PACKAGE, NAME)  # which says what is there in its place
-    near = difflib.get_close_matches(kind, sorted(path.name for path in files), 1, 0.7)
-    hint = f'type="{near[0]}"' if near else "type is the name of the file, with .py"
+    hint = meant(kind, sorted(path.name for path in files), 0.7, 'type="{}"')
+    hint = hint or "type is the name of the file, with .py"
     hint = JOY_HINT if kind == "joy_node" else hint
     raise Wrong(f"a program {kind} in {session.task.names.package}", seen, place, hint)
 

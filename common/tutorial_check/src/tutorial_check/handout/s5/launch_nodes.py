@@ -11,13 +11,13 @@ from tutorial_check.handout.s4.judge import check_recording
 from tutorial_check.handout.s4_3.record import CMD_VEL, JOY
 from tutorial_check.handout.s5.launch_facts import Node
 from tutorial_check.handout.s5.launch_files import BAG, JOY_HINT, STICK, LaunchFile, copy_bag
-from tutorial_check.handout.s5.launch_text import attribute
 from tutorial_check.handout.s5.record import BAG_S, Plan, Run, bag_run, stick_run
 from tutorial_check.handout.task import PACKAGE
 from tutorial_check.judge.scripts import cause_of
 from tutorial_check.model import Note, Wrong
 from tutorial_check.record.session import Session
 from tutorial_check.record.simulated_robot import ODOM
+from tutorial_check.source.launch_xml import attribute
 from tutorial_check.source.tracebacks import first_traceback
 
 ROBOT_HINT = '<include file="$(find rbx1_bringup)/launch/fake_turtlebot.launch"/>'
@@ -33,24 +33,6 @@ ERRORS = re.compile(r"^(?!.*(?:rviz|INFO)).*(?:ERROR|died|Invalid|cannot|Unable)
 COLOUR = re.compile(r"\x1b\[[0-9;]*m|\x1b\][^\x07]*\x07")
 
 
-def is_viewer(node: Node) -> bool:
-    return node["type"] in ("rviz", "view_robot")
-
-
-def is_simulator(node: Node) -> bool:
-    is_ours = (node["package"], node["type"]) == ("fake_turtlebot_sim", "fake_turtlebot.py")
-    return is_ours or node["package"].startswith("arbotix")
-
-
-def is_player(node: Node) -> bool:
-    return (node["package"], node["type"]) == ("rosbag", "play")
-
-
-def is_joystick(node: Node) -> bool:
-    is_driver = node["type"] in ("joy_node", "joy_node.py", "joystick.py")
-    return is_driver and node["package"] != "rosbag"
-
-
 def is_there(session: Session, path: str) -> bool:
     """Return whether a file that a launch file names is there, for the student's programs, too."""
     return session.may_see(path) and os.path.isfile(path)
@@ -58,7 +40,7 @@ def is_there(session: Session, path: str) -> bool:
 
 def check_viewer(file: LaunchFile) -> Note | None:
     """Return a Note about RViz, or None. Raises Wrong if its configuration does not exist."""
-    node = file.demand("RViz", is_viewer, VIEWER_HINT)
+    node = file.demand("RViz", file.of("viewer"), VIEWER_HINT)
     words = file.words_of(node)
     options = zip(words, words[1:])
     config = next((word for option, word in options if option in ("-d", "--display-config")), "")
@@ -75,12 +57,9 @@ def check_viewer(file: LaunchFile) -> Note | None:
 def check_one_driver(file: LaunchFile) -> None:
     """Raise Wrong if two programs of the student's send velocities to the same place."""
     programs, topic = file.session.scripts(PACKAGE).items(), file.session.task.topic(CMD_VEL)
-    of_twists = {
-        Path(script).name
-        for script, facts in programs
-        for call in facts.calls.get("Publisher", [])
-        if "Twist" in " ".join([*call.words, *call.names.values()])
-    }
+    calls = ((path, one) for path, facts in programs for one in facts.calls.get("Publisher", []))
+    words = ((path, " ".join([*one.words, *one.names.values()])) for path, one in calls)
+    of_twists = {Path(path).name for path, each in words if "Twist" in each}
     drivers = [node for node in file.own if topic_of(node, topic) == CMD_VEL]
     drivers = [node for node in drivers if node["type"] in of_twists]
     drivers = [node for node in drivers if node["namespace"] == drivers[0]["namespace"]]
@@ -102,7 +81,7 @@ def bag_of(session: Session) -> tuple[str, str]:
     """Return (the recording that launch_bag plays, where that is written). Raises Wrong."""
     file = LaunchFile(session, BAG)
     play = BAG_HINT.format(file.package)
-    node = file.demand("rosbag play", is_player, play)
+    node = file.demand("rosbag play", file.of("player"), play)
     where = file.at(*attribute("type", "play"))
     words = [word for word in file.words_of(node) if not word.startswith("_")]
     for word in words:
@@ -132,8 +111,8 @@ def _check_items(file: LaunchFile) -> Note | None:
         hint = f'the PDF shows _ as a gap: name="{odd[0].replace(" ", "_")}"'
         seen = f'name="{odd[0]}": the name of a node has no space'
         note = Note(seen, file.at(*attribute("name", odd[0])), hint)
-    file.demand("the simulated robot", is_simulator, ROBOT_HINT)
-    file.demand("joy2twist", file.own.__contains__, OWN_HINT.format(file.package))
+    file.demand("the simulated robot", file.of("simulator"), ROBOT_HINT)
+    file.demand("joy2twist", file.own, OWN_HINT.format(file.package))
     check_one_driver(file)
     return note
 
@@ -144,7 +123,7 @@ def bag_nodes(session: Session) -> Note | str | None:
     file = LaunchFile(session, BAG)
     note = _check_items(file)
     bag, where = bag_of(session)
-    if any(map(is_joystick, file.nodes)):
+    if file.of("joystick"):
         seen, hint = "it starts a joystick, too: both would drive", "take the joy_node out:"
         raise Wrong("a recording only", seen, f"launch/{BAG}", f"{hint} {STICK} has it")
     if bag.startswith(str(session.source)):
@@ -159,7 +138,7 @@ def bag_nodes(session: Session) -> Note | str | None:
 def stick_nodes(session: Session) -> Note | str | None:
     file = LaunchFile(session, STICK)
     note = _check_items(file)
-    sender, first = file.demand("joy_node", is_joystick, JOY_HINT), file.own[0]
+    sender, first = file.demand("joy_node", file.of("joystick"), JOY_HINT), file.own[0]
     own, sends = session.task.topic(JOY), topic_of(sender, JOY)
     listens = [topic_of(node, own) for node in file.own]
     if sends not in listens:
@@ -169,7 +148,7 @@ def stick_nodes(session: Session) -> Note | str | None:
         where = file.at(*(each for to in named for each in attribute("to", to)))
         hint = "leave that <remap> out, or give both nodes the same"
         raise Wrong("the Joys go to joy2twist, on /joy", seen, where, hint)
-    if any(map(is_player, file.nodes)):
+    if file.of("player"):
         seen = "it plays a recording, too: both would drive"
         raise Wrong("a joystick only", seen, f"launch/{STICK}", "take the rosbag node out")
     return note
@@ -177,14 +156,14 @@ def stick_nodes(session: Session) -> Note | str | None:
 
 def plan_of(file: LaunchFile, twists: str = CMD_VEL) -> Plan:
     """Return how a launch file is run. twists: the topic on which the velocities should come."""
-    senders = [node for node in file.nodes if is_joystick(node) or is_player(node)]
-    sticks = list(filter(is_joystick, file.nodes))
+    senders, sticks = file.of("joystick", "player"), file.of("joystick")
+    viewers = file.of("viewer")
     devices = [node["device"] for node in sticks if node["device"].startswith("/dev/input/")]
     return Plan(
         os.path.relpath(file.path, file.session.source),
         topic_of(senders[0], JOY) if senders else JOY,
         twists,
-        tuple(node["namespace"] + node["name"] for node in file.nodes if not is_viewer(node)),
+        tuple(node["namespace"] + node["name"] for node in file.nodes if node not in viewers),
         tuple(node["namespace"] + node["name"] for node in sticks),
         next(iter(devices), ""),
     )
@@ -212,8 +191,7 @@ def fault_of(file: LaunchFile, plan: Plan, run: Run, expected: str) -> Wrong:
         seen, hint = f"nothing on {', '.join(silent)}", hints[silent[0]]
     for error in (ERRORS.findall(run.program.output) or run.last_words)[:1]:
         seen += f"; {error.strip()[:200]}"
-    found = traced(file.session, run, expected)
-    return found or Wrong(expected, seen, f"launch/{file.name}", hint)
+    return traced(file.session, run, expected) or Wrong(expected, seen, f"launch/{file.name}", hint)
 
 
 def _bag_run(session: Session) -> tuple[LaunchFile, Plan, Run]:
@@ -222,7 +200,7 @@ def _bag_run(session: Session) -> tuple[LaunchFile, Plan, Run]:
     file = LaunchFile(session, BAG)
     plan = plan_of(file)
     inside = os.path.relpath(bag, session.source) if bag.startswith(str(session.source)) else ""
-    player = next(filter(is_player, file.nodes))
+    player = file.of("player")[0]
     is_looped = any(LOOP.fullmatch(word) for word in file.words_of(player))
     length_s = BAG_S if is_looped or player["respawn"] else ONCE_S
     return file, plan, session.recording(bag_run, plan, inside, length_s, is_looped)
@@ -240,8 +218,7 @@ def bag_drives(session: Session) -> None:
 @check("C24", "the recording begins again at its end", "5.1", "C23", look="rostopic hz /joy")
 def bag_loops(session: Session) -> None:
     file, _, run = _bag_run(session)
-    player = next(filter(is_player, file.nodes))
-    if not run.loops and not player["respawn"]:
+    if not run.loops and not file.of("player")[0]["respawn"]:
         expected = "/joy flows on after the end of the recording"
         hint = "rosbag play --loop: in args= of that node"
         raise Wrong(expected, "it falls silent", bag_of(session)[1], hint)

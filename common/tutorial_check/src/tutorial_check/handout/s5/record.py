@@ -191,10 +191,7 @@ def plug_in_for(ground: Ground, stage: Stage, plan: Plan) -> Helper:
 
 
 def drives_forwards(stage: Stage, gamepad: Helper, launch: Launch, *signs: str) -> bool:
-    """Push the stick forwards once everything runs; return whether the robot moves.
-
-    signs: topics, listened to, on which a message comes as soon as their node works.
-    """
+    """Push the stick forwards once signs, topics, have a message; return whether it moves."""
     plan = launch.plan
 
     def ready() -> bool:

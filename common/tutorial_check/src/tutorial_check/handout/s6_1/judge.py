@@ -27,8 +27,7 @@ def remap_of(session: Session) -> str:
        look="rostopic echo /cmd_vel_mux/input/teleop")  # fmt: skip
 def remapped(session: Session) -> None:
     file, own = check_file(session, TURTLEBOT), session.task.topic(CMD_VEL)
-    start = launch_nodes.OWN_HINT.format(file.package)
-    file.demand("joy2twist", file.own.__contains__, start)
+    file.demand("joy2twist", file.own, launch_nodes.OWN_HINT.format(file.package))
     joys = launch_nodes.topic_of(file.own[0], session.task.topic(JOY))
     plan = replace(plan_of(file, TELEOP), joys=joys)
     seen = session.recording(remap_run, plan, own)
@@ -83,8 +82,8 @@ def real_robot(session: Session) -> None:
         hint = f'<include file="$(find {file.package})/launch/{TURTLEBOT}"/>'
         raise Wrong(f"it includes {TURTLEBOT}", "it does not", file.where, hint)
     launcher = '<include file="$(find turtlebot_rviz_launchers)/launch/view_robot.launch"/>'
-    file.demand("RViz", launch_nodes.is_viewer, launcher)
-    file.demand("joy_node", launch_nodes.is_joystick, JOY_HINT)
+    file.demand("RViz", file.of("viewer"), launcher)
+    file.demand("joy_node", file.of("joystick"), JOY_HINT)
     if len(file.own) > 1:
         seen, hint = f"{len(file.own)}: both would drive", f"{TURTLEBOT} starts it already"
         raise Wrong("one joy2twist", seen, file.at("joy2twist.py"), hint)

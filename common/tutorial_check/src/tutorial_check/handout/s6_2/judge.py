@@ -6,7 +6,6 @@ import re
 from pathlib import Path
 
 from tutorial_check.course import check
-from tutorial_check.handout.changed_programs import without_name
 from tutorial_check.handout.s4_3 import judge
 from tutorial_check.handout.s4_3.judge import NAME, check_manifest
 from tutorial_check.handout.s6_2.record import LAUNCH, End, Endings, alone, endings
@@ -15,6 +14,7 @@ from tutorial_check.judge.scripts import cause_of, check_file, crash, must_be_on
 from tutorial_check.model import Note, Wrong
 from tutorial_check.record.session import Session
 from tutorial_check.source.python_facts import ClassFacts, PythonFacts, with_bases
+from tutorial_check.source.python_text import without_name
 from tutorial_check.source.tracebacks import first_traceback, last_lines
 
 NAMES_IT = re.compile(r"not defined|NameError")  # what the lack of the import leads to
@@ -74,9 +74,8 @@ def program(session: Session) -> tuple[str, str, ClassFacts]:
 def _check_given(path: str, one: ClassFacts, facts: PythonFacts, name: str, place: int) -> None:
     """Raise Wrong for what ROS is given in place of a method, by the calls of that name."""
     expected = f"{'the Subscriber' if place else 'rospy.on_shutdown'} gets a method of the object"
-    for call in facts.calls.get(name, []):
-        word = (call.words[place:] or [call.names.get("callback", "")])[0]
-        bare, where = word.rsplit(".", 1)[-1], f"{path}:{call.line}"
+    for number, word in facts.given(name, place):
+        bare, where = word.rsplit(".", 1)[-1], f"{path}:{number}"
         if place and word in one.methods:
             seen = f"{word} alone: within a class that is no name"
             raise Wrong(expected, seen, where, f"self.{word}")
@@ -128,12 +127,8 @@ def is_class(session: Session) -> Note | str | None:
        look="rostopic echo {n.cmd_vel}")  # fmt: skip
 def behaves(session: Session) -> Note | str | None:
     script, _, _ = program(session)
-    notes = [
-        judge.displays(session, script, few_are_enough=True),
-        judge.topics(session, script),
-        judge.mapping(session, script),
-        judge.rate(session, script),
-    ]
+    notes: list[object] = [judge.displays(session, script, few_are_enough=True)]
+    notes += [each(session, script) for each in (judge.topics, judge.mapping, judge.rate)]
     return next((note for note in notes if isinstance(note, Note)), None)
 
 
@@ -163,7 +158,8 @@ def stops(session: Session) -> Note | str | None:
         # One that has gone, and whose text knows no shutdown, will not send a zero another time.
         sure = no_zero and end.took_s is not None and not call
         if no_zero or not end.in_time:
-            sleep, publish = (min(facts.at_end.get(name, [0])) for name in ("sleep", "publish"))
+            called = facts.called_by("on_shutdown", 0)
+            sleep, publish = (min(called.get(name, [0])) for name in ("sleep", "publish"))
             if 0 < sleep < publish:
                 where, hint = f"{path}:{sleep}", "in shutdown first the zero, then the sleep"
             trace = first_traceback(end.output, str(session.package(PACKAGE).folder))

@@ -68,7 +68,6 @@ def stops(session: Session) -> str:
 
 
 def _gap_m(session: Session, script: str, speed: float) -> float:
-    """Return how far [m] before the wall it stops. Raises Wrong."""
     drive = session.recording(record.towards_the_wall, script, speed)
     path = drive.path
     if not has_moved(path):

@@ -1,0 +1,167 @@
+"""What earlier checks found: for hints, graded, and so that --all checks only what has changed.
+
+How to fix it is shown when the same is wrong again. What was wrong and what was done is remembered
+in the cache, for each workspace, and not in it; that of --all beside the table.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import dataclasses
+import hashlib
+import json
+import os
+import tempfile
+from pathlib import Path
+from typing import Any, Dict, Iterable, Sequence
+
+from tutorial_check.course import FILE, OURS, Course
+from tutorial_check.launcher import SUITE
+from tutorial_check.model import WRONG, CannotCheck, Outcome, Result
+from tutorial_check.report.class_page import Student, cause_of
+from tutorial_check.source.workspace import all_below
+
+NEVER, AGAIN, ALWAYS = 0, 1, 2  # --hints
+CACHE = Path(os.environ.get("XDG_CACHE_HOME") or "~/.cache", "ros1_tutorial", "checked.json")
+State = Dict[str, Any]  # {workspace or student: what is kept of it}
+STATE = ".state.json"  # beside the table, out of reach of what is checked
+MOST_BYTES = 200_000_000  # per student; a larger one is not remembered
+LATER = "check once more, and it is here; or with --hints 2"
+
+
+def read_state(file: Path) -> State:
+    """Return what write_state has written; empty if it is not there or broken."""
+    with contextlib.suppress(OSError, ValueError):
+        found = json.loads(file.read_text(encoding="utf-8"))
+        if isinstance(found, dict):
+            return found
+    return {}
+
+
+def write_state(file: Path, state: State) -> None:
+    """Write a file in one step, if it can be written."""
+    with contextlib.suppress(OSError):
+        file.parent.mkdir(parents=True, exist_ok=True)
+        # Hidden: one that is killed now leaves it behind, beside the reports of a class.
+        descriptor, name = tempfile.mkstemp(file.suffix, f".{file.stem}.", file.parent)
+        with open(descriptor, "w", encoding="utf-8") as written:
+            json.dump(state, written)
+        os.replace(name, file)
+
+
+class Memory:
+    """What the last check of a workspace found."""
+
+    def __init__(self, workspace: str, course: Course, level: int, cache: Path = CACHE) -> None:
+        """level: NEVER, AGAIN or ALWAYS. A memory that cannot be read is empty."""
+        self._level, self._cache = level, cache.expanduser()
+        self._key = f"{os.path.realpath(workspace)}\n{course.title}"
+        about = read_state(self._cache).get(self._key, {})
+        about = about if isinstance(about, dict) else {}
+        self._wrong, self.done = about.get("wrong", []), about.get("done", [])
+
+    def hint_of(self, result: Result) -> str:
+        """Return the hint for a result, or when there will be one, or ""."""
+        if self._level == NEVER or not result.hint:
+            return ""
+        shown = self._level == ALWAYS or result.status != WRONG or result.eager
+        return result.hint if shown or cause_of(result) in self._wrong else LATER
+
+    def keep(self, outcomes: Sequence[Outcome]) -> None:
+        """Remember what these came to; what was not checked stays as it was."""
+        checked = {outcome.id for outcome in outcomes}
+        now = {cause_of(one) for each in outcomes for one in each.wrong}
+        made = {one.id for each in outcomes for one in each.results}
+        before = [cause for cause in self._wrong if cause.split()[0] not in made]
+        self._wrong = sorted({*before, *now})
+        self.done = [each for each in self.done if each not in checked]
+        self.done += [one.id for one in outcomes if one.solved]
+        known = read_state(self._cache)
+        there = {key: known[key] for key in known if os.path.exists(key.split("\n")[0])}
+        # Without a memory each failure is a first one.
+        write_state(self._cache, {**there, self._key: {"wrong": self._wrong, "done": self.done}})
+
+
+def show_solution(course: Course, exercises: Sequence[str], memory: Memory) -> None:
+    """Print the course's own solution of exercises that are done. Raises CannotCheck."""
+    for name in exercises:
+        files = course.exercises[name].solution
+        if not files:
+            raise CannotCheck(f"{name}: this course has no solution to show")
+        if name not in memory.done:
+            raise CannotCheck(f"{name} is not done yet: its solution is shown when its check is ok")
+        for file in files:
+            path = (course.folder / file).resolve()
+            if (SUITE if course.folder == OURS else course.folder) not in path.parents:
+                raise CannotCheck(f"{name}: {file} is no file of the course's folder")
+            try:
+                text = path.read_text(encoding="utf-8")
+            except OSError as error:
+                raise CannotCheck(f"{path}: {error.strerror}") from None
+            print(f"# {name}: {path}\n{text}")
+
+
+class LastRun:
+    """The outcomes of the last run, by the name of the student. A file that is broken is empty."""
+
+    def __init__(self, out: Path) -> None:
+        """out: the folder of the results."""
+        self._file = out / STATE
+        self._found = read_state(self._file)
+
+    def outcomes(self, name: str) -> list[Outcome]:
+        """Return what came of a student in the last run; empty if there is nothing."""
+        with contextlib.suppress(KeyError, TypeError):
+            return [
+                Outcome(**{**one, "results": [Result(**each) for each in one["results"]]})
+                for one in self._found[name]["outcomes"]
+            ]
+        return []
+
+    def is_same(self, one: Student) -> bool:
+        """Return whether the last run checked the same, and came to a verdict."""
+        same = one.before and one.digest and self._found[one.name].get("digest") == one.digest
+        return bool(same) and not any(outcome.trouble for outcome in one.before)
+
+    def keep(self, students: Iterable[Student]) -> None:
+        """Write what the next run needs; students not checked yet keep what they had."""
+        found = {}
+        for student in students:
+            if student.outcomes:
+                bare = (dataclasses.replace(one, recordings=[]) for one in student.outcomes)
+                outcomes = [dataclasses.asdict(one) for one in bare]
+                found[student.name] = {"digest": student.digest, "outcomes": outcomes}
+            elif student.name in self._found and not student.trouble:
+                found[student.name] = self._found[student.name]
+        write_state(self._file, found)  # or all are checked again
+
+
+def digest_of_checks(course: Course, exercises: Iterable[str], hints: int) -> str:
+    """Return what makes two runs the same: the checker, the course, the exercises and the hints."""
+    package = Path(__file__).parents[1]
+    kinds = ("*.py", "*.yaml", "*.txt")
+    sources = [path for kind in kinds for path in sorted(package.rglob(kind))]
+    digest = hashlib.sha256(json.dumps([list(exercises), hints == 0]).encode())
+    for path in (*sources, course.folder / FILE, *sorted(course.folder.glob("*.py"))):
+        digest.update(path.read_bytes())
+    return digest.hexdigest()
+
+
+def digest_of(path: Path, checks: str) -> str:
+    """Return a digest of what a student handed in, and of what checks it; empty if it has none."""
+    digest, left = hashlib.sha256(checks.encode()), MOST_BYTES
+    try:
+        for file in all_below(path) if path.is_dir() else [str(path)]:
+            about = os.lstat(file)
+            name = f"{os.path.relpath(file, path)} {about.st_mode}\0"
+            digest.update(name.encode("utf-8", "replace"))
+            if os.path.islink(file):
+                digest.update(os.fsencode(os.readlink(file)))
+            elif os.path.isfile(file):  # no pipe, which would never end
+                left -= about.st_size
+                if left < 0:
+                    return ""
+                digest.update(Path(file).read_bytes())
+    except OSError:
+        return ""
+    return digest.hexdigest()
