@@ -13,11 +13,13 @@ from tutorial_check.source.launch_xml import place_of
 Recording = TypeVar("Recording")
 
 
-class Lines:
-    """A text, and where it is within its package."""
+class File:
+    """A file of a package, such as a program: its text, and where it is within the package."""
 
-    where: str
-    text: str
+    def __init__(self, session: Session, package: str, path: str) -> None:
+        """Read it. path: within the package."""
+        self._session, self._package, self.where = session, package, path
+        self.text = session.text(package, path)
 
     def at(self, *words: str) -> str:
         """Return FILE:LINE of the first of the words that is there; else the file."""
@@ -29,15 +31,6 @@ class Lines:
         """Raise Wrong, at the first of the words that is there, unless it is right."""
         if not is_right:
             raise Wrong(expected, str(seen), self.at(*words.split()), hint)
-
-
-class File(Lines):
-    """A file of a package, such as a program."""
-
-    def __init__(self, session: Session, package: str, path: str) -> None:
-        """Read it. path: within the package."""
-        self._session, self._package, self.where = session, package, path
-        self.text = session.text(package, path)
 
     def must_run(self, ran: Ran, expected: str, hint: str = "", may_end: bool = False) -> None:
         """Raise Wrong if this program printed a traceback, or has ended, unless it may."""
