@@ -80,9 +80,7 @@ class Client:
         """Return "TYPE NAME" of each field of a message; of a service with "---" in between."""
         return tuple(self._tell("fields", kind, of=kind))
 
-    def ask(
-        self, service: str, kind: str, values: object = None, seconds: float = START_S
-    ) -> Answer:
+    def ask(self, service: str, kind: str, values: Any = None, seconds: float = START_S) -> Answer:
         """Call a service once it is there; wait no longer than that for the response."""
         found = self._tell("ask", service, kind, values or {}, of=kind, seconds=seconds)
         if found:
@@ -140,9 +138,7 @@ class Client:
         """Return "PARENT -> CHILD" of each transform that came since the first lookup()."""
         return tuple(self._tell("transforms"))
 
-    def _tell(
-        self, what: str, *about: object, of: str = "", seconds: Optional[float] = None
-    ) -> Any:
+    def _tell(self, what: str, *about: Any, of: str = "", seconds: Optional[float] = None) -> Any:
         """Return the node's answer; None after seconds. of: the type that it is about."""
         number = next(self._numbers)
         try:
