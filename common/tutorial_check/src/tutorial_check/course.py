@@ -99,7 +99,6 @@ def check(
     eager: bool = False,
 ) -> Callable[[_Function], _Function]:
     """Make a function of a session a check: one line of the report. See model.Check."""
-
     one = Check(name, "", title, section, tuple(needs.split()), look, timeless, eager)
 
     def keep(function: _Function) -> _Function:

@@ -162,7 +162,6 @@ class Node:
         known = yaml.safe_load(self._tf[0].all_frames_as_yaml()) if self._tf else None
         return sorted(f"{about['parent']} -> {child}" for child, about in (known or {}).items())
 
-
     def answer(self, text: str) -> None:
         """Answer a line."""
         asked = json.loads(text)
