@@ -1,4 +1,4 @@
-"""Imported first, this lets Ctrl-C end a program quietly while ROS loads; a node has ending later."""
+"""Imported first, this lets Ctrl-C end a program quietly while ROS loads; later, ending does."""
 
 import signal
 
