@@ -1,11 +1,9 @@
 #!/usr/bin/python3
 """Back a bumped robot off: see fake_turtlebot_sim/safety/node.py."""
 
-import signal
 import sys
 
-signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C while ROS still loads ends this quietly
-
+import node_kit.quiet  # noqa: F401  Ctrl-C ends it quietly while ROS loads
 from fake_turtlebot_sim.safety.node import main
 
 sys.exit(main())

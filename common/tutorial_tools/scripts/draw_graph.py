@@ -1,10 +1,7 @@
 #!/usr/bin/python3
 """Draw the running nodes and topics: see tutorial_tools/graph.py."""
 
-import signal
-
-signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C ends this quietly
-
+import node_kit.quiet  # noqa: F401  Ctrl-C ends it quietly while ROS loads
 from tutorial_tools.graph import main
 
 main()

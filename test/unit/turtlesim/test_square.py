@@ -17,15 +17,16 @@ SCRIPT = f"{rospkg.RosPack().get_path('turtlesim')}/scripts/draw_square"
 def test_four_sides_return_to_the_start():
     field = Field(lambda: (0, 0, 0), 0.0)
     square, corners, now_s = runpy.run_path(SCRIPT)["square"](), [], 0.0
-    turtle, (ahead, turn) = field.turtles["turtle1"], next(square)
+    turtle, twist = field.turtles["turtle1"], next(square)
     with mock.patch.object(rospy, "loginfo", lambda _: corners.append(turtle.pose[:2])):
         while len(corners) < 9:
             now_s += PERIOD_S
             assert now_s < 60.0
-            field.call("turtle1/command", {"ahead": ahead, "left": 0.0, "turn": turn}, now_s)
+            velocity = {"ahead": twist.linear.x, "left": 0.0, "turn": twist.angular.z}
+            field.call("turtle1/command", velocity, now_s)
             field.step(now_s)
             names = ("x", "y", "theta", "linear_velocity", "angular_velocity")
-            ahead, turn = square.send(SimpleNamespace(**dict(zip(names, turtle.pose))))
+            twist = square.send(SimpleNamespace(**dict(zip(names, turtle.pose))))
     x, y = START[:2]
     for place, corner in zip(corners[1::2], [(2, 0), (2, 2), (0, 2), (0, 0)]):
         assert place == pytest.approx((x + corner[0], y + corner[1]), abs=0.4)

@@ -20,10 +20,10 @@ def pose(turtle):
 
 def driven(command, *times, theta=0.0):
     """Return a turtle that got a command at 0 s and drove until each of these times [s]."""
-    turtle = Turtle(MIDDLE, MIDDLE, theta, 0.0)
+    turtle = Turtle(MIDDLE, MIDDLE, theta)
     turtle.command(*command)
-    for now_s in times:
-        turtle.advance(now_s)
+    for before_s, now_s in zip((0.0, *times), times):
+        turtle.advance(now_s - before_s)
     return turtle
 
 
@@ -39,8 +39,7 @@ def test_a_command_is_an_arc_of_one_second_however_it_is_cut(times, theta):
 
 
 def test_a_new_command_replaces_the_old_one_where_the_turtle_is_then():
-    turtle = driven((1.0, 0.0, 0.0), 0.1)
-    turtle.advance(0.25)
+    turtle = driven((1.0, 0.0, 0.0), 0.1, 0.25)
     turtle.command(0.0, 0.0, 1.0)
     turtle.advance(9.0)
     assert pose(turtle) == approx(MIDDLE + 0.25, MIDDLE, 1.0)

@@ -14,5 +14,5 @@ from simulated_turtles import node
 def test_no_screen_no_window(monkeypatch, display, lines, hidden):
     monkeypatch.setenv("DISPLAY", display)
     with mock.patch.dict(sys.modules, hidden), mock.patch.object(rospy, "logwarn") as warned:
-        node.open_window(None)()
+        assert node.open_window() == (None, None)
     assert warned.call_count == lines

@@ -54,11 +54,13 @@ def stage(monkeypatch):
     program = SimpleNamespace(ended=False, output="", rests=lambda: True)
 
     def start(command, environment, stdin):
-        line, node, lock = socket.socket(fileno=os.dup(stdin)), client_node.Node(), threading.Lock()
+        line = socket.socket(fileno=os.dup(stdin))
 
         def serve():
             for text in line.makefile():
-                client_node._answer(node, line, lock, client_node.json.loads(text))
+                node.answer(text)
+
+        node = client_node.Node(line)
 
         threading.Thread(target=serve, daemon=True).start()
         return program
@@ -68,7 +70,8 @@ def stage(monkeypatch):
 
     own = SimpleNamespace(packages=[SimpleNamespace(name="own")])
     about = {"runner": SimpleNamespace(start=start), "environment": {}, "session": own}
-    return SimpleNamespace(**about, wait=wait, wait_for_start=wait, call=lambda _: {"/t": "T"})
+    about["call"], about["meet"] = lambda _: {"/t": "T"}, lambda _: True
+    return SimpleNamespace(**about, wait=wait, wait_for_start=wait)
 
 
 def test_messages_of_any_type_go_and_come(stage):
@@ -124,8 +127,7 @@ def test_a_service_without_a_response(stage, monkeypatch, name, why):
 
 
 def test_a_transform(stage, monkeypatch):
-    parts = {"translation": {"x": 1, "y": 2, "z": 0}, "rotation": {"x": 0, "y": 0, "z": 0, "w": 1}}
-    found = iter([None, {"transform": parts}])
+    found = iter([None, [[1, 2, 0], [0, 0, 0, 1]]])
     monkeypatch.setattr(client_node.Node, "lookup", lambda *_: next(found))
     assert Client(stage).lookup("a", "b") == Transform((1, 2, 0), (0, 0, 0, 1))
 

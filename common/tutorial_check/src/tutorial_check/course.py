@@ -94,10 +94,10 @@ def check(
     eager: bool = False,
 ) -> Callable[[_Function], _Function]:
     """Make a function of a session a check: one line of the report. See model.Check."""
+    one = Check(name, "", title, section, tuple(needs.split()), look, timeless, eager)
 
     def keep(function: _Function) -> _Function:
-        about = (name, "", title, section, tuple(needs.split()), look, timeless, eager)
-        _checks.append(Check(*about, function))
+        _checks.append(replace(one, function=function))
         return function
 
     return keep
@@ -184,9 +184,7 @@ def _load(course: Course) -> list[Check]:
         raise CannotCheck(f"{_place(error, course.folder)}: {error}") from None
     order = list(course.exercises)
     checks: dict[str, Check] = {}
-    for one in _checks:
-        if one.function.__module__ not in names:
-            continue
+    for one in (each for each in _checks if each.function.__module__ in names):
         inside = [each for each in order if f"{one.section}.".startswith(f"{each}.")]
         if not inside:
             raise CannotCheck(f"{one.id}: section {one.section} is of no exercise of {FILE}")

@@ -99,11 +99,10 @@ def complaint_of(check: str, outcomes: list[Outcome]) -> str:
     for one in outcomes:
         if one.trouble:
             return f"could not be checked: {one.id}: {one.trouble}"
-    wrong = [result for outcome in outcomes for result in outcome.wrong]
+    first = next((result for outcome in outcomes for result in outcome.wrong), None)
+    if first is None:
+        return check and f"{check} should be wrong, and nothing is"
     if not check:
-        return f"{wrong[0].id} is wrong: {wrong[0].seen}; hint: {wrong[0].hint}" if wrong else ""
-    if not wrong:
-        return f"{check} should be wrong, and nothing is"
-    if wrong[0].id != check:
-        return f"{check} should be the first that is wrong, and {wrong[0].id} is: {wrong[0].seen}"
-    return ""
+        return f"{first.id} is wrong: {first.seen}; hint: {first.hint}"
+    seen = f"{check} should be the first that is wrong, and {first.id} is: {first.seen}"
+    return "" if first.id == check else seen

@@ -15,13 +15,13 @@ from urllib.parse import urlsplit
 import rosgraph
 
 from node_kit.ros_api import Answer, call
-from tutorial_tools.cockpit_page import address
 
 ENDINGS = (".png", ".svg", ".pdf", ".dot")
 # Every node is connected to /rosout, which would hide the rest.
 DEBUG_NODES = {"/rosout"}
 DEBUG_TOPICS = {"/rosout", "/rosout_agg", "/statistics"}
-LINE = 16  # letters of a name in one line of the picture, where it can be broken
+# A line of a name in the picture: up to 16 letters that end before / or _, or one longer part.
+LINE = re.compile("(.{1,16}(?![^/_])|.[^/_]*)")
 STYLE = """\
   rankdir=LR newrank=true  // from left to right, whatever the machine
   nodesep=0.2 ranksep=0.15  // inches, as the margins
@@ -38,12 +38,7 @@ def quoted(text: str) -> str:
 
 def drawn(kind: str, name: str, shape: str) -> str:
     """Return the line of a node or a topic. A long name is broken before / and _."""
-    lines = [""]
-    for part in re.split("(?=[/_])", name):
-        if len(lines[-1] + part) > LINE and lines[-1]:
-            lines.append("")
-        lines[-1] += part
-    label = "\n".join(lines)
+    label = "\n".join(LINE.findall(name))
     return f"{quoted(f'{kind} {name}')} [label={quoted(label)} shape={shape}]"
 
 
@@ -55,8 +50,9 @@ def dot_text(state: Any, machines: dict[str, str], everything: bool = False) -> 
     /rosout, and topics without a publisher or a subscriber.
     """
     hidden = set() if everything else DEBUG_NODES
-    ends = [{topic: set(nodes) - hidden for topic, nodes in part} for part in state[:2]]
-    publishers, subscribers = ends
+    publishers, subscribers = (
+        {topic: sorted(set(nodes) - hidden) for topic, nodes in part} for part in state[:2]
+    )
     nodes = set().union(*publishers.values(), *subscribers.values())
     topics = set(publishers) & set(subscribers) - DEBUG_TOPICS
     if everything:
@@ -68,21 +64,20 @@ def dot_text(state: Any, machines: dict[str, str], everything: bool = False) -> 
     for node in sorted(nodes):
         inside[machines.get(node, "")].append(drawn("node", node, "ellipse"))
     for topic in sorted(topics):
-        senders, receivers = publishers.get(topic, set()), subscribers.get(topic, set())
-        where = {machines.get(node, "") for node in senders | receivers}
+        senders, receivers = publishers.get(topic, []), subscribers.get(topic, [])
+        where = {machines.get(node, "") for node in (*senders, *receivers)}
         inside[where.pop() if len(where) == 1 else ""].append(drawn("topic", topic, "box"))
         this = quoted(f"topic {topic}")
-        arrows += [f"{quoted(f'node {node}')} -> {this}" for node in sorted(senders)]
-        arrows += [f"{this} -> {quoted(f'node {node}')}" for node in sorted(receivers)]
+        arrows += [f"{quoted(f'node {node}')} -> {this}" for node in senders]
+        arrows += [f"{this} -> {quoted(f'node {node}')}" for node in receivers]
 
     lines = inside.pop("")
-    for machine in sorted(inside):
+    for machine, own in sorted(inside.items()):
         if len(inside) == 1:
-            lines += inside[machine]
+            lines += own
         else:
-            lines.append(f"subgraph {quoted(f'cluster {machine}')} {{")
-            lines += [f"  {line}" for line in [f"label={quoted(machine)}", *inside[machine]]]
-            lines.append("}")
+            framed = [f"  {line}" for line in (f"label={quoted(machine)}", *own)]
+            lines += [f"subgraph {quoted(f'cluster {machine}')} {{", *framed, "}"]
     return "digraph ros {\n" + STYLE + "".join(f"  {line}\n" for line in lines + arrows) + "}\n"
 
 
@@ -108,12 +103,6 @@ def picture(text: str, kind: str) -> bytes:
     if done.returncode != 0:
         fail(f"dot cannot draw this: {' '.join(done.stderr.decode(errors='replace').split())}")
     return done.stdout
-
-
-def page_of_graph() -> str | None:
-    """Return the address at which the cockpit shows the graph live; None if it does not run."""
-    page = address(rosgraph.get_master_uri())
-    return page and f"{page}#Graph"
 
 
 def fail(text: str) -> NoReturn:

@@ -1,10 +1,9 @@
-"""The windows of rqt: the cockpit's page at the tab that shows the same."""
+"""The windows of rqt: the cockpit's page at the tab that shows the same, or a program of ours."""
 
 from __future__ import annotations
 
 import os
 import shutil
-import socket
 import subprocess
 import sys
 import time
@@ -13,11 +12,14 @@ from pathlib import Path
 import rosgraph
 
 from node_kit.arguments import Parser
+from node_kit.ros_api import accepts
+from tutorial_tools import graph
 from tutorial_tools.cockpit_page import address
 from tutorial_tools.windows import TABS, place
 
 PORTS = range(8080, 8100)  # of a cockpit that is started here: the first that is free
 LOOK_S = 0.2
+PICTURE = "rosgraph.png"
 
 
 def show(shown: str) -> None:
@@ -29,19 +31,12 @@ def show(shown: str) -> None:
         subprocess.Popen(command, stdin=none, stdout=none, stderr=none, start_new_session=True)
 
 
-def is_free(port: int) -> bool:
-    try:
-        socket.create_server(("127.0.0.1", port)).close()
-    except OSError:
-        return False
-    return True
-
-
 def start_cockpit(uri: str) -> str:
     """Let this process be a cockpit, as a window would go on; return its page in a second one."""
     window = os.getpid()
     if os.fork():
-        port = next(filter(is_free, PORTS), PORTS[0])
+        free = (port for port in PORTS if not accepts(f"http://127.0.0.1:{port}/"))
+        port = next(free, PORTS[0])
         os.execvp("rosrun", ["rosrun", "cockpit", "cockpit.py", "--port", str(port)])
     while os.getppid() == window:
         page = address(uri)
@@ -54,13 +49,22 @@ def start_cockpit(uri: str) -> str:
 def main() -> None:
     """Print the address of what the window would show, and open it where there is a screen."""
     window = Path(sys.argv[0]).name
+    if window == "rqt_bag":
+        from tutorial_tools import bag  # noqa: PLC0415  which loads rosbag
+
+        bag.main()
+        return
     about = f"Shows {TABS[window] or 'all'} in a browser, on the cockpit's page."
     parser = Parser(prog=window, description=about)
     what = "a field to plot, such as /turtle1/pose/x:y, or a topic to show"
     parser.add_argument("name", nargs="*", help=what)
     names = parser.parse_args(rosgraph.myargv()[1:]).name
     uri = rosgraph.get_master_uri()
-    tab = place(window, names)
-    page = (address(uri) or start_cockpit(uri)) + (tab and f"#{tab}")
+    page, tab = address(uri), place(window, names)
+    if window == "rqt_graph" and not page:
+        graph.main([PICTURE])
+        show(PICTURE)
+        return
+    page = (page or start_cockpit(uri)) + (tab and f"#{tab}")
     print(f"{window}: see {page}", flush=True)
     show(page)

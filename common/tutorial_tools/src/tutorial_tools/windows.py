@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-import contextlib
 from pathlib import Path
 from typing import Iterator, Sequence
 from urllib.parse import urlencode
 
 # Command and package -> the tab.
 TABS = {
-    "rqt": "", "rqt_gui": "", "rqt_console": "log", "rqt_logger_level": "log", "rqt_plot": "plot",
-    "rqt_publisher": "topics", "rqt_service_caller": "topics", "rqt_topic": "topics",
+    "rqt": "", "rqt_gui": "", "rqt_bag": "Bag", "rqt_console": "log", "rqt_graph": "Graph",
+    "rqt_logger_level": "log", "rqt_plot": "plot", "rqt_publisher": "topics",
+    "rqt_service_caller": "topics", "rqt_topic": "topics",
 }  # fmt: skip
-MODEL = "common/stand_ins/rqt_gui"  # from which the others are made
-SCRIPTS = "common/tutorial_tools/scripts"
-# Package -> its one program, of the same name.
-RQT = {name: f"{MODEL}/scripts/rqt_gui" for name in sorted(set(TABS) - {"rqt_gui"})}
-RQT.update({name: f"{SCRIPTS}/{name}" for name in ("rqt_bag", "rqt_graph")})
+MODEL = "common/stand_ins/rqt_gui"  # from which the others are made, each with the same program
 
 
 def place(window: str, names: Sequence[str]) -> str:
@@ -39,14 +35,14 @@ def _fields(text: str) -> list[str]:
 
 def make_rqt(repository: Path, share: Path, folder: Path) -> Iterator[Path]:
     """Make the packages that are not below share, where ROS has its own; yield each program."""
-    for name, script in RQT.items():
-        if (share / name / "package.xml").exists():
+    for name in TABS:
+        if name == "rqt_gui" or (share / name / "package.xml").exists():
             continue
         program = folder / name / "scripts" / name
         program.parent.mkdir(parents=True, exist_ok=True)
         for file in ("CMakeLists.txt", "package.xml"):
             text = (repository / MODEL / file).read_text(encoding="utf-8")
             (folder / name / file).write_text(text.replace("rqt_gui", name), encoding="utf-8")
-        with contextlib.suppress(FileExistsError):
-            program.symlink_to(repository / script)
+        program.unlink(missing_ok=True)
+        program.symlink_to(repository / MODEL / "scripts/rqt_gui")
         yield program

@@ -11,7 +11,7 @@ import logging
 import math
 import re
 from io import BytesIO
-from typing import Callable, Mapping, Tuple
+from typing import Callable, Mapping, Sequence
 
 from PIL import Image, ImageDraw
 
@@ -28,7 +28,6 @@ SHAPE = (*RIGHT, *(one.conjugate() for one in RIGHT[:0:-1]))
 COLORS = ("#4a7c3a", "#8a6a3a", "#3a6a8a", "#7a4a7a")
 SAID = {"clear": "Clearing turtlesim.", "reset": "Resetting turtlesim."}
 LOG = logging.getLogger("rosout")  # rospy's own
-Color = Tuple[int, int, int]  # (r, g, b), each 0 to 255
 
 
 def pixel(place: complex) -> tuple[float, float]:
@@ -39,29 +38,28 @@ def pixel(place: complex) -> tuple[float, float]:
 class Turtle:
     """A turtle at a place and theta [rad]. Services and their fields are named as upstream's."""
 
-    color: Color = (179, 184, 255)  # The pen has upstream's.
+    color: Sequence[int] = (179, 184, 255)  # (r, g, b) of the pen, as upstream's
     width, is_down = 3, True  # [pixels], whether it draws
-    seen: Color  # where it is, before it draws there, as upstream's sensor
+    seen: Sequence[int]  # where it is, before it draws there, as upstream's sensor
+    velocity, turn, remaining_s = 0j, 0.0, 0.0  # ahead + left j [m/s], [rad/s], and for how long
 
-    def __init__(self, x: float, y: float, theta: float, now_s: float) -> None:
+    def __init__(self, x: float, y: float, theta: float) -> None:
         self.place = self.drawn = complex(x, y)  # and up to where its line is drawn
-        self.theta, self.velocity, self.turn = theta, 0j, 0.0  # ahead + left j [m/s], [rad/s]
-        self._time_s = self._until_s = now_s  # when it was there, and when its command ends
+        self.theta = theta
 
     def command(self, ahead: float, left: float, turn: float) -> None:
         """Obey velocities [m/s, m/s, rad/s] from now on, for COMMAND_S."""
-        self.velocity, self.turn = complex(ahead, left), turn
-        self._until_s = self._time_s + COMMAND_S
+        self.velocity, self.turn, self.remaining_s = complex(ahead, left), turn, COMMAND_S
 
-    def advance(self, now_s: float) -> None:
-        """Drive until now, on an exact arc; walls are not looked at."""
-        dt_s = max(0.0, min(now_s, self._until_s) - self._time_s)
+    def advance(self, passed_s: float) -> None:
+        """Drive for a time, on an exact arc; walls are not looked at."""
+        dt_s = min(passed_s, self.remaining_s)
         half = self.turn * dt_s / 2
         chord_s = dt_s * (math.sin(half) / half if half else 1.0)
         self.place += self.velocity * cmath.rect(chord_s, self.theta + half)
         self.theta = math.remainder(self.theta + 2 * half, math.tau)
-        self._time_s = now_s
-        if now_s >= self._until_s:
+        self.remaining_s -= dt_s
+        if not self.remaining_s:
             self.velocity, self.turn = 0j, 0.0
 
     def teleport_absolute(self, x: float, y: float, theta: float) -> None:
@@ -88,8 +86,8 @@ class Turtle:
 class Field:
     """The turtles by name, on paper of SIZE x SIZE pixels. version: of the picture."""
 
-    def __init__(self, background: Callable[[], Color], now_s: float) -> None:
-        """Begin with turtle1. background: returns the color of a blank paper."""
+    def __init__(self, background: Callable[[], Sequence[int]], now_s: float) -> None:
+        """Begin with turtle1. background: returns (r, g, b) of a blank paper."""
         self._background, self.version, self._now_s = background, 0, now_s
         self.reset()
 
@@ -125,7 +123,7 @@ class Field:
         if name and not NAME.fullmatch(name):
             raise ValueError(f"[{name}] cannot name a turtle: take letters, digits and _")
         name = name or next(one for one in self._names if one not in self.turtles)
-        self.turtles[name] = Turtle(x, y, theta, self._now_s)
+        self.turtles[name] = Turtle(x, y, theta)
         LOG.info(f"Spawning turtle [{name}] at x=[{x:f}], y=[{y:f}], theta=[{theta:f}]")
         return name
 
@@ -136,23 +134,16 @@ class Field:
 
     def step(self, now_s: float) -> None:
         """Drive all turtles until now."""
-        self._now_s = now_s
+        passed_s, self._now_s = max(0.0, now_s - self._now_s), now_s
         for turtle in self.turtles.values():
             self.version += bool(turtle.velocity or turtle.turn)
-            turtle.advance(now_s)
+            turtle.advance(passed_s)
             x, y, *_ = turtle.pose
             turtle.place = complex(*(min(max(one, 0.0), FIELD_M) for one in (x, y)))
             if turtle.place != complex(x, y):  # y from the top, as upstream
-                where = f"[x={x:f}, y={FIELD_M - y:f}]"
-                LOG.warning(f"Oh no! I hit the wall! (Clamping from {where})")
-            turtle.seen = self.color_at(*turtle.pose[:2])
+                LOG.warning(f"Oh no! I hit the wall! (Clamping from [x={x:f}, y={FIELD_M - y:f}])")
+            turtle.seen = self._paper.getpixel(tuple(map(round, pixel(turtle.place))))
         self._draw()
-
-    def color_at(self, x: float, y: float) -> Color:
-        """Return the color of a place [m] in the field."""
-        column, row = map(round, pixel(complex(x, y)))
-        red, green, blue = self._paper.getpixel((column, row))
-        return red, green, blue
 
     def picture(self, kind: str) -> bytes:
         """Return the field with its turtles and their names as an image of a kind: PNG, PPM."""
@@ -172,11 +163,10 @@ class Field:
         pen = ImageDraw.Draw(self._paper)
         for turtle in self.turtles.values():
             start, turtle.drawn = turtle.drawn, turtle.place
-            if not turtle.is_down or start == turtle.place:
-                continue
-            reach = (turtle.width - 1) / 2
-            ends = [*pixel(start), *pixel(turtle.place)]
-            ends = [round(min(max(one, -FARTHEST), FARTHEST)) for one in ends]
-            pen.line(ends, turtle.color, turtle.width)
-            for x, y in (ends[:2], ends[2:]):  # The ends are round.
-                pen.ellipse((x - reach, y - reach, x + reach, y + reach), turtle.color)
+            if turtle.is_down and start != turtle.place:
+                reach = (turtle.width - 1) / 2
+                ends = [*pixel(start), *pixel(turtle.place)]
+                ends = [round(min(max(one, -FARTHEST), FARTHEST)) for one in ends]
+                pen.line(ends, turtle.color, turtle.width)
+                for x, y in (ends[:2], ends[2:]):  # The ends are round.
+                    pen.ellipse((x - reach, y - reach, x + reach, y + reach), turtle.color)

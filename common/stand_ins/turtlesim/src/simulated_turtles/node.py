@@ -6,7 +6,7 @@ import base64
 import os
 import threading
 import time
-from typing import Any, Callable
+from typing import Any
 
 import rospy
 from geometry_msgs.msg import Twist
@@ -43,8 +43,7 @@ class Turtlesim:
         self._field = Field(background, time.monotonic())
         self._ends: dict[str, list[Any]] = {}  # each turtle's ends of topics and services
         self._open_and_close()
-        for service in SERVICES:
-            self._serve(service)
+        self._services = [self._serve(service) for service in SERVICES]
         answer("picture", self._picture)
 
     def _picture(self, known: int) -> tuple[int, str]:
@@ -74,11 +73,10 @@ class Turtlesim:
 
     def _open_and_close(self) -> None:
         """Have topics and services for exactly the turtles of the field."""
-        turtles = self._field.turtles
-        for name in self._ends.keys() - turtles.keys():
+        for name in self._ends.keys() - self._field.turtles.keys():
             for end in self._ends.pop(name):
                 end.shutdown() if isinstance(end, rospy.Service) else end.unregister()
-        for name in turtles.keys() - self._ends.keys():
+        for name in self._field.turtles.keys() - self._ends.keys():
             self._ends[name] = [
                 rospy.Publisher(f"{name}/pose", Pose, queue_size=1),
                 rospy.Publisher(f"{name}/color_sensor", Color, queue_size=1),
@@ -95,7 +93,7 @@ class Turtlesim:
 
     def spin(self) -> None:
         """Drive, publish and show until the node or its window is closed."""
-        show, due_s = open_window(self._field), time.monotonic()
+        (window, image), shown = open_window(), -1
         while not rospy.is_shutdown():
             with self._lock:
                 self._field.step(time.monotonic())
@@ -103,40 +101,33 @@ class Turtlesim:
                     pose, color, *_ = self._ends[name]
                     pose.publish(*turtle.pose)
                     color.publish(*turtle.seen)
-                show()
-            time.sleep(max(0.0, due_s - time.monotonic()))
-            due_s = max(due_s, time.monotonic() - PERIOD_S) + PERIOD_S  # A late step delays all.
+                if window and shown != self._field.version:
+                    image.put(self._field.picture("PPM"))
+                    shown = self._field.version
+                if window:
+                    window.update()
+            time.sleep(PERIOD_S - time.monotonic() % PERIOD_S)
 
 
-def background() -> tuple[int, int, int]:
-    """Return the color of the parameters; the default for what is no integer, as upstream."""
+def background() -> tuple[int, ...]:
+    """Return the background (r, g, b); the default for what is no integer, as upstream."""
     given = ((rospy.get_param(f"~{name}", 0.0), value) for name, value in BACKGROUND.items())
-    red, green, blue = (one & 255 if isinstance(one, int) else value for one, value in given)
-    return red, green, blue
+    return tuple(one & 255 if isinstance(one, int) else value for one, value in given)
 
 
-def open_window(field: Field) -> Callable[[], None]:
-    """Return what shows the field, in the main thread, where there is a screen."""
-    if not os.environ.get("DISPLAY"):
-        return lambda: None
+def open_window() -> tuple[Any, Any]:
+    """Return a window and the image in it, for the main thread; None, None without a screen."""
     try:
         import tkinter  # noqa: PLC0415
 
         root = tkinter.Tk(className="turtlesim")
     except Exception as error:  # ImportError, or TclError of the module that may be missing
-        rospy.logwarn(f"no window, for which python3-tk and a screen are needed: {error}")
-        return lambda: None
+        if os.environ.get("DISPLAY"):
+            rospy.logwarn(f"no window, for which python3-tk and a screen are needed: {error}")
+        return None, None
     root.title("TurtleSim")
     root.resizable(False, False)
     root.protocol("WM_DELETE_WINDOW", lambda: rospy.signal_shutdown("its window is closed"))
-    image, shown = tkinter.PhotoImage(width=SIZE, height=SIZE), 0
+    image = tkinter.PhotoImage(width=SIZE, height=SIZE)
     tkinter.Label(root, image=image, borderwidth=0).pack()
-
-    def show() -> None:
-        nonlocal shown
-        if shown != field.version:
-            image.put(field.picture("PPM"))
-            shown = field.version
-        root.update()
-
-    return show
+    return root, image

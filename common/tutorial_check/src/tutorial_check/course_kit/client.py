@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import itertools
 import json
 import select
 import socket
@@ -13,7 +14,7 @@ from typing import Any, Dict, List, Optional, Sequence, Tuple
 
 from tutorial_check.isolation.program import Program, Ran
 from tutorial_check.model import NO_TYPE, CannotCheck, CutShort
-from tutorial_check.record.stage import SETTLE_S, START_S, Stage
+from tutorial_check.record.stage import START_S, Stage
 from tutorial_check.source.tracebacks import last_lines
 
 Heard = Tuple[float, str, Dict[str, Any]]  # (when it came [s], from which node, its fields)
@@ -47,11 +48,11 @@ class Seen:
     types: Dict[str, str]
 
 
-def _place() -> str:
-    """Return FILE:LINE of the course that called the Client."""
-    frames = (frame for frame in traceback.extract_stack()[::-1] if frame.filename != __file__)
-    frame = next(frames)
-    return f"{Path(frame.filename).name}:{frame.lineno}"
+def _fault(why: object) -> CannotCheck:
+    """Return that the course is at fault, with FILE:LINE of it that called the Client."""
+    frames = traceback.extract_stack()[::-1]
+    frame = next(frame for frame in frames if frame.filename != __file__)
+    return CannotCheck(f"{Path(frame.filename).name}:{frame.lineno}: {why}")
 
 
 class Client:
@@ -63,7 +64,7 @@ class Client:
 
     def __init__(self, stage: Stage) -> None:
         """Start it, with the student's rights: it imports what their workspace generates."""
-        self._stage, self._number, self._buffer = stage, 0, b""
+        self._stage, self._numbers, self._buffer = stage, itertools.count(), b""
         self._answers: dict[int, Any] = {}
         self._kinds: dict[str, str] = {}  # of topics that are advertised
         self._line, theirs = socket.socketpair()
@@ -77,15 +78,12 @@ class Client:
         """Return "TYPE NAME" of each field of a message; of a service with "---" in between."""
         return tuple(self._tell("fields", kind, of=kind))
 
-    def ask(
-        self, service: str, kind: str, values: object = None, seconds: float = START_S
-    ) -> Answer:
+    def ask(self, service: str, kind: str, values: Any = None, seconds: float = START_S) -> Answer:
         """Call a service once it is there; wait no longer than that for the response."""
-        try:
-            about = service, kind, values or {}
-            return Answer(*self._tell("ask", *about, of=kind, seconds=seconds))
-        except TimeoutError:
-            known = self._tell("services")
+        found = self._tell("ask", service, kind, values or {}, of=kind, seconds=seconds)
+        if found:
+            return Answer(*found)
+        known = self._tell("services")
         trouble = f"there is no service {service}; there are: {', '.join(known) or 'none'}"
         return Answer(None, f"{service} does not respond" if service in known else trouble)
 
@@ -120,11 +118,10 @@ class Client:
         """Return whether a program has connected on these topics; wait for that. See Stage.meet."""
 
         def has_met() -> bool:
-            return all([self._tell("connections", topic) for topic in topics])
+            return all(self._tell("connections", topic) for topic in topics)
 
         self._stage.wait_for_start(lambda: program.ended or has_met())
-        self._stage.wait(lambda: program.ended or program.rests(), SETTLE_S)
-        return not program.ended and has_met()
+        return self._stage.meet(program) and has_met()
 
     def parameter(self, name: str) -> Any:
         """Return the value of a parameter, or None."""
@@ -133,44 +130,41 @@ class Client:
     def lookup(self, target: str, source: str, seconds: float = START_S) -> Optional[Transform]:
         """Return the newest transform, or None if there is none within that time."""
         found = self._stage.wait(lambda: self._tell("lookup", target, source), seconds)
-        parts = found["transform"] if found else {}
-        values = (tuple(parts[name].values()) for name in ("translation", "rotation"))
-        return Transform(*values) if found else None
+        return Transform(*map(tuple, found)) if found else None
 
     def transforms(self) -> Tuple[str, ...]:
         """Return "PARENT -> CHILD" of each transform that came since the first lookup()."""
         return tuple(self._tell("transforms"))
 
-    def _tell(self, what: str, *about: object, of: str = "", seconds: float = SLOW_S) -> Any:
-        """Return the node's answer. of: the type that it is about. Raises TimeoutError."""
-        self._number += 1
-        number = self._number
+    def _tell(self, what: str, *about: Any, of: str = "", seconds: Optional[float] = None) -> Any:
+        """Return the node's answer; None after seconds. of: the type that it is about."""
+        number = next(self._numbers)
         try:
             line = json.dumps({"id": number, "do": what, "with": about})
         except TypeError as error:
-            raise CannotCheck(f"{_place()}: {error}") from None
+            raise _fault(error) from None
         with contextlib.suppress(OSError):  # it has ended, or hangs
             self._line.sendall(f"{line}\n".encode())
-        self._stage.wait(lambda: self._has(number) or self._node.ended, seconds, what == "ask")
-        if what == "ask" and not self._has(number) and not self._node.ended:
-            raise TimeoutError
+        if seconds is None:
+            self._stage.wait(lambda: self._has(number), SLOW_S)
+        elif not self._stage.wait_for_start(lambda: self._has(number), seconds):
+            return None
         words = f"what uses {of or 'ROS'} ends, or hangs. {last_lines(self._node.output)}".strip()
         answer = self._answers.pop(number, {"fault": words})
         own = [each.name for each in self._stage.session.packages]
         if "fault" in answer and of.partition("/")[0] in own:
             raise CutShort(NO_TYPE, answer["fault"])
         if "value" not in answer:
-            raise CannotCheck(f"{_place()}: {answer.get('fault', answer.get('error'))}")
+            raise _fault(answer.get("fault", answer.get("error")))
         return answer["value"]
 
     def _has(self, number: int) -> bool:
-        """Return whether an answer has come; read what is there, of others' programs, too."""
+        """Return whether an answer has come, or none will; read what there is, of others, too."""
         if select.select([self._line], [], [], 0)[0]:
             with contextlib.suppress(OSError):
                 self._buffer += self._line.recv(1 << 20)
             if len(self._buffer) > MOST_BYTES:
-                raise CannotCheck(f"{_place()}: an answer of more than {MOST_BYTES >> 20} MB")
+                raise _fault(f"an answer of more than {MOST_BYTES >> 20} MB")
             *lines, self._buffer = self._buffer.split(b"\n")
-            found = (answer for answer in map(json.loads, lines) if answer["id"] == number)
-            self._answers.update((number, answer) for answer in found)
-        return number in self._answers
+            self._answers.update((answer["id"], answer) for answer in map(json.loads, lines))
+        return number in self._answers or self._node.ended

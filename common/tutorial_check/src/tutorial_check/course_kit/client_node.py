@@ -74,7 +74,8 @@ def _fields_of(found: Any) -> list[str]:
 class Node:
     """Its methods are what a line may ask for."""
 
-    def __init__(self) -> None:
+    def __init__(self, line: socket.socket) -> None:
+        self._line, self._sending = line, threading.Lock()
         self._publishers: dict[str, rospy.Publisher] = {}
         self._subscribers: dict[str, rospy.Subscriber] = {}
         self._heard: dict[str, list[Any]] = {}  # messages of a topic, or requests of a service
@@ -137,22 +138,22 @@ class Node:
         return time.monotonic()
 
     def connections(self, topic: str) -> int:
-        both = (self._publishers, self._subscribers)
-        ends = (topics[topic] for topics in both if topic in topics)
+        ends = [each[topic] for each in (self._publishers, self._subscribers) if topic in each]
         return min(end.get_num_connections() for end in ends)
 
     def parameter(self, name: str) -> Any:
         return rospy.get_param(name, None)
 
     def lookup(self, target: str, source: str) -> Any:
-        """Return a TransformStamped, or None as long as there is none."""
+        """Return the values of a translation and a rotation, or None as long as there are none."""
         import tf2_ros  # noqa: PLC0415  only where it is wanted
 
         if self._tf is None:
             buffer = tf2_ros.Buffer()
             self._tf = buffer, tf2_ros.TransformListener(buffer)
         try:
-            return plain(self._tf[0].lookup_transform(target, source, rospy.Time(0)))
+            found = plain(self._tf[0].lookup_transform(target, source, rospy.Time(0)).transform)
+            return [list(part.values()) for part in found.values()]
         except tf2_ros.TransformException:
             return None
 
@@ -161,28 +162,28 @@ class Node:
         known = yaml.safe_load(self._tf[0].all_frames_as_yaml()) if self._tf else None
         return sorted(f"{about['parent']} -> {child}" for child, about in (known or {}).items())
 
-
-def _answer(node: Node, line: socket.socket, sending: threading.Lock, asked: Any) -> None:
-    answer = {"id": asked["id"]}
-    try:
-        answer["value"] = getattr(node, asked["do"])(*asked["with"])
-    except Fault as fault:
-        answer["fault"] = " ".join(str(fault).split())
-    except Exception as error:
-        answer["error"] = f"{type(error).__name__}: {error}"
-    with sending:
-        line.sendall(json.dumps(answer).encode() + b"\n")
+    def answer(self, text: str) -> None:
+        """Answer a line."""
+        asked = json.loads(text)
+        answer = {"id": asked["id"]}
+        try:
+            answer["value"] = getattr(self, asked["do"])(*asked["with"])
+        except Fault as fault:
+            answer["fault"] = " ".join(str(fault).split())
+        except Exception as error:
+            answer["error"] = f"{type(error).__name__}: {error}"
+        with self._sending:
+            self._line.sendall(json.dumps(answer).encode() + b"\n")
 
 
 def main() -> None:
     """Answer until the other end of the socket is closed."""
-    line, sending = socket.socket(fileno=os.dup(0)), threading.Lock()
+    line = socket.socket(fileno=os.dup(0))
     connect_once()
     rospy.init_node(NAME, disable_signals=True, disable_rosout=True)
-    node = Node()
+    node = Node(line)
     for text in line.makefile():
-        about = node, line, sending, json.loads(text)
-        threading.Thread(target=_answer, args=about, daemon=True).start()
+        threading.Thread(target=node.answer, args=[text], daemon=True).start()
     os._exit(0)  # whatever still waits
 
 

@@ -5,7 +5,9 @@ from __future__ import annotations
 from typing import Callable, TypeVar
 
 from tutorial_check.isolation.program import Ran
+from tutorial_check.judge.packages import package_of
 from tutorial_check.judge.scripts import crash, program_of
+from tutorial_check.model import Wrong
 from tutorial_check.record.session import Session
 from tutorial_check.source.launch_xml import Lines
 
@@ -16,7 +18,9 @@ class File(Lines):
     """A file of a package, such as a program."""
 
     def __init__(self, session: Session, package: str, path: str) -> None:
-        """Read it. path: within the package."""
+        """Read it. path: within the package. Raises Wrong if there is none."""
+        if not (package_of(session, package).folder / path).is_file():
+            raise Wrong(f"{package}/{path}", "no such file in the package", hint=f"write it: {path}")
         self._session, self._package, self.where = session, package, path
         self.text = session.text(package, path)
 

@@ -5,59 +5,63 @@ from __future__ import annotations
 import difflib
 import os
 import re
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Dict, Tuple
+from typing import Sequence, Tuple
 
+from tutorial_check.course_kit.files import File
+from tutorial_check.handout.s5.launch_facts import Node
 from tutorial_check.handout.s5.record import facts_of_files
 from tutorial_check.judge.packages import package_of
 from tutorial_check.model import Wrong
 from tutorial_check.record.session import Session
 from tutorial_check.record.stage import Stage
-from tutorial_check.source.launch_xml import Fault, Lines, blamed, package_hint, parse_error, read
+from tutorial_check.source.launch_xml import (
+    Fault,
+    blamed,
+    package_hint,
+    parse_error,
+    without_comments,
+)
 
 DIED = re.compile(r"^\[([^\]]+)-\d+\] process has died", re.MULTILINE)
 
 
-@dataclass(frozen=True)
-class LaunchFile(Lines):
-    """A launch file that roslaunch can read."""
+class LaunchFile(File):
+    """A launch file that roslaunch can read. path: within src; text: without comments."""
 
-    path: str  # within src
-    where: str  # within its package
-    text: str  # without comments
-    nodes: Tuple[Dict[str, Any], ...]  # with package, type, name, namespace, args, remaps, ...
+    def __init__(self, session: Session, package: str, path: Path, nodes: Sequence[Node]) -> None:
+        """nodes: with package, type, name, namespace, args, remaps, ..."""
+        super().__init__(session, package, os.path.relpath(path, session.package(package).folder))
+        self.path, self.nodes = os.path.relpath(path, session.source), tuple(nodes)
+        self.text = without_comments(self.text)
 
 
 def launch_file(session: Session, package: str, name: str) -> LaunchFile:
     """Return a launch file, whose nodes all exist. Raises Wrong."""
     folder = package_of(session, package).folder
     session.must_be_launchable()
-    paths = sorted(path for path in folder.rglob("*launch*") if path.is_file())
-    path = next((each for each in paths if each.name == name), None)
-    if path is None:
-        near = difflib.get_close_matches(name, [each.name for each in paths], 1, 0.6)
+    paths = {path.name: path for path in sorted(folder.rglob("*launch*"))[::-1] if path.is_file()}
+    if name not in paths:
         seen, hint = "no such file in the package", f"write it: launch/{name}"
-        seen, hint = (f"a file {near[0]}", f"call it {name}") if near else (seen, hint)
+        for near in difflib.get_close_matches(name, paths, 1, 0.6):
+            seen, hint = f"a file {near}", f"call it {name}"
         raise Wrong(f"{package}/launch/{name}", seen, hint=hint)
-    found = session.recording(facts_of_files, os.path.relpath(path, session.source)).files
-    if found is None:
+    facts = session.recording(facts_of_files, os.path.relpath(paths[name], session.source)).files
+    if facts is None:
         hint = "roslaunch --nodes FILE"
         raise Wrong("a launch file that roslaunch can read", "reading it does not end", hint=hint)
-    if found[0]["fault"]:
-        fault = Fault(**found[0]["fault"])
-        blamed_file, line = blamed(fault, session.is_own)
-        where = os.path.relpath(blamed_file, folder)
-        text = Path(blamed_file).read_text(errors="replace")
+    if facts[0]["fault"]:
+        fault = Fault(**facts[0]["fault"])
+        path, line = blamed(fault, session.is_own)
+        text, where = Path(path).read_text(errors="replace"), os.path.relpath(path, folder)
         raise parse_error(fault, where, line, text, session.may_see)
-    where, inside = os.path.relpath(path, folder), os.path.relpath(path, session.source)
-    file = LaunchFile(inside, where, read(path), tuple(found[0]["nodes"]))
+    file = LaunchFile(session, package, paths[name], facts[0]["nodes"])
     for node in file.nodes:
-        if not node["found"]:
-            seen = f"Cannot locate node of type [{node['type']}] in package [{node['package']}]"
-            hint = "look at pkg= and type=: the name of the program's file, which is executable"
-            hint = package_hint(node["package"]) if node["found"] is None else hint
-            raise Wrong("nodes that exist", seen, file.at(f'"{node["type"]}"', node["type"]), hint)
+        seen = f"Cannot locate node of type [{node['type']}] in package [{node['package']}]"
+        hint = "look at pkg= and type=: the name of the program's file, which is executable"
+        hint = package_hint(node["package"]) if node["found"] is None else hint
+        words = f'"{node["type"]}" {node["type"]}'
+        file.must(node["found"], words, "nodes that exist", seen, hint)
     return file
 
 

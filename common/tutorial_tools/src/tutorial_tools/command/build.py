@@ -20,7 +20,7 @@ from pathlib import Path
 from node_kit.manifests import broken_manifests, manifests
 from tutorial_tools.hidden import hidden_stand_ins
 from tutorial_tools.system.apt import SetUpError, say
-from tutorial_tools.windows import RQT, make_rqt
+from tutorial_tools.windows import TABS, make_rqt
 
 REPOSITORY = Path(__file__).resolve().parents[5]
 # The prefix of a ROS that is not the system's own, as ./tutorial has found it.
@@ -34,7 +34,7 @@ WRONG = re.compile("rror|invalid|mismatched|not found")
 
 def stamp() -> str:
     """Return a checksum of what catkin reads; the Python files themselves are used in place."""
-    found = hashlib.sha1(f"{sys.version} {PREFIX} {COMMANDS} {RQT}".encode())
+    found = hashlib.sha1(f"{sys.version} {PREFIX} {COMMANDS} {TABS}".encode())
     for depth in ("*", "common/*", "common/stand_ins/*"):
         for name in ("CMakeLists.txt", "package.xml", "setup.py"):
             for path in sorted(REPOSITORY.glob(f"{depth}/{name}")):
