@@ -11,7 +11,7 @@ from typing import Iterator
 
 from tutorial_check.course import Course, checks_of
 from tutorial_check.launcher import examine
-from tutorial_check.model import CannotCheck, Outcome
+from tutorial_check.model import UNREACHED, WRONG, CannotCheck, Outcome
 from tutorial_check.order import Order
 
 SOLUTIONS, RIGHT, WRONG_OF, PATCH = "solutions", "right", "wrong_", ".patch"
@@ -99,9 +99,11 @@ def complaint_of(check: str, outcomes: list[Outcome]) -> str:
     for one in outcomes:
         if one.trouble:
             return f"could not be checked: {one.id}: {one.trouble}"
-    first = next((result for outcome in outcomes for result in outcome.wrong), None)
+    results = [result for outcome in outcomes for result in outcome.results]
+    first = next((one for one in results if one.status == WRONG), None)
     if first is None:
-        return check and f"{check} should be wrong, and nothing is"
+        missed = (f"; {one.id} was not reached" for one in results if one.status == UNREACHED)
+        return check and f"{check} should be wrong, and nothing is{next(missed, '')}"
     if not check:
         return f"{first.id} is wrong: {first.seen}; hint: {first.hint}"
     seen = f"{check} should be the first that is wrong, and {first.id} is: {first.seen}"

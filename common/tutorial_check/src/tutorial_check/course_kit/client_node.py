@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import socket
 import threading
 import time
@@ -100,7 +101,7 @@ class Node:
             rospy.wait_for_service(service)
             return plain(rospy.ServiceProxy(service, found)(request)), ""
         except (rospy.ServiceException, rospy.ROSException, rospy.TransportException) as error:
-            text = " ".join(str(error).split())
+            text = re.sub(r"\bb'(.*)'", r"\1", " ".join(str(error).split()))
             return None, f"{service} is of another type than {kind}" if "md5sum" in text else text
 
     def serve(self, service: str, kind: str, values: Any) -> None:

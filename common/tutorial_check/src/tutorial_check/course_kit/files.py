@@ -20,7 +20,8 @@ class File(Lines):
     def __init__(self, session: Session, package: str, path: str) -> None:
         """Read it. path: within the package. Raises Wrong if there is none."""
         if not (package_of(session, package).folder / path).is_file():
-            raise Wrong(f"{package}/{path}", "no such file in the package", hint=f"write it: {path}")
+            seen, hint = "no such file in the package", f"write it: {path}"
+            raise Wrong(f"{package}/{path}", seen, hint=hint)
         self._session, self._package, self.where = session, package, path
         self.text = session.text(package, path)
 
