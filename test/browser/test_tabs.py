@@ -151,10 +151,10 @@ def test_log_shows_what_nodes_log_by_level_and_filter_and_sets_a_logger(world, p
         page.wait_for_text("#log-lines", "look here")
     assert page.all("#log-lines [data-level=WARN]")
     page.one("#log-filter").send_keys("look")
-    wait_for(lambda: "/myjoystick2twist" not in page.text("#log-lines"), "filter")
-    assert "/probe" in page.text("#log-lines")
+    wait_for(lambda: "/myjoystick2twist" not in page.one("#log-lines").text, "filter")
+    assert "/probe" in page.one("#log-lines").text
     page.one("#log-level").send_keys("ERROR")
-    wait_for(lambda: page.text("#log-lines") == "", "nothing that is an error")
+    wait_for(lambda: page.one("#log-lines").text == "", "nothing that is an error")
     page.wait_for_text("#log-empty", "passes the filter")
     wait_for(lambda: "/observer" in page.text("#log-node"), "nodes")
     page.one("#log-node").send_keys("/observer")

@@ -4,7 +4,9 @@ import { Chart } from "./chart.js";
 import { byId, element, offer, row, say } from "./dom.js";
 import { Track, written } from "./samples.js";
 
-const PANEL = `
+export class BagTab {
+  static title = "Bag";
+  static panel = `
   <div class="card row">
     <label>Recording <select id="bag-name"></select></label>
     <button id="bag-open">Open</button>
@@ -12,7 +14,7 @@ const PANEL = `
     <button id="bag-record" disabled>Record all topics</button>
     <span id="bag-recorder" role="status"></span>
   </div>
-  <div class="card chart"><div id="bag-chart"></div></div>
+  <div class="card chart"><div id="bag-chart" data-empty="Open a recording to see its curves."></div></div>
   <div class="card">
     <label class="long">Position <output id="bag-at">0.0 s</output>
       <input type="range" id="bag-position" min="0" max="1" step="0.01" value="0"></label>
@@ -32,10 +34,6 @@ const PANEL = `
   <div class="card"><h2>Topics</h2>
     <table><thead><tr><th>Topic</th><th>Type</th><th>Messages</th></tr></thead><tbody id="bag-topics"></tbody></table>
   </div>`;
-
-export class BagTab {
-  static title = "Bag";
-  static panel = PANEL;
   static watches = { bag: false };
 
   #bag = null; // as the server described it
@@ -43,28 +41,18 @@ export class BagTab {
   #refusal = ""; // why this page may not publish now
   #scrubbed = 0; // when the slider was last moved by hand
   #position = 0; // of the recording [s], which a zoomed slider may not show
-  #hidden = new Set(); // the names of hidden curves
   #tracks = {}; // name of a curve -> Track
-  #records = false; // the cockpit records
-  #pointed = null; // the time at which the mouse points, or null
 
   constructor(link, watch, page) {
     this.link = link;
     this.watch = watch;
     this.page = page;
-    this.chart = new Chart(byId("bag-chart"), {
-      onPoint: (t) => {
-        this.#pointed = t;
-        this.#showValues();
-      },
-      onRange: () => this.#alignSlider(),
-    });
+    this.chart = new Chart(byId("bag-chart"), () => this.#showValues(), () => this.#alignSlider());
     link.on("bags", ({ names }) => {
       offer(byId("bag-name"), names.map((name) => [name]));
       if (names.length === 1 && !this.#bag) this.#ask();
     });
     link.on("recorder", ({ name }) => {
-      this.#records = Boolean(name);
       say(byId("bag-record"), name ? "Stop recording" : "Record all topics");
       say(byId("bag-recorder"), name && `Recording ${name}`);
     });
@@ -79,7 +67,14 @@ export class BagTab {
       this.#report({ playing: false });
       if (this.#bag) link.send("bag_open", { name: this.#bag.path }); // for the server this page is new
     });
-    this.#listen();
+    byId("bag-open").onclick = () => this.#ask();
+    byId("bag-record").onclick = () => link.send("record", { on: !byId("bag-recorder").textContent });
+    byId("bag-play").onclick = () => this.#play();
+    byId("bag-pause").onclick = () => link.send("bag_pause");
+    byId("bag-position").oninput = () => this.#seek(byId("bag-position").valueAsNumber);
+    // A change while it plays counts at once.
+    for (const id of ["bag-rate", "bag-loop", "bag-topic"]) byId(id).onchange = () => this.#at.playing && this.#play();
+    byId("bag-zoom").onclick = () => this.chart.wholeRange();
   }
 
   show(on) {
@@ -87,21 +82,11 @@ export class BagTab {
     if (on) requestAnimationFrame(() => this.#draw());
   }
 
-  #listen() {
-    const position = byId("bag-position");
-    byId("bag-open").onclick = () => this.#ask();
-    byId("bag-record").onclick = () => this.link.send("record", { on: !this.#records });
-    byId("bag-play").onclick = () => this.#play();
-    byId("bag-pause").onclick = () => this.link.send("bag_pause");
-    position.oninput = () => {
-      this.#scrubbed = performance.now();
-      this.#pointed = null;
-      this.#showPosition(Number(position.value));
-      this.link.send("bag_seek", { position: Number(position.value) });
-    };
-    // A change while it plays counts at once.
-    for (const id of ["bag-rate", "bag-loop", "bag-topic"]) byId(id).onchange = () => this.#at.playing && this.#play();
-    byId("bag-zoom").onclick = () => this.chart.wholeRange();
+  #seek(position) {
+    this.#scrubbed = performance.now();
+    this.chart.pointed = null;
+    this.#showPosition(position);
+    this.link.send("bag_seek", { position });
   }
 
   #ask() {
@@ -126,7 +111,6 @@ export class BagTab {
 
   /** Give the slider the chart's scale. */
   #alignSlider() {
-    if (!this.chart.seen) return;
     const { left, right, from, to } = this.chart.seen;
     const position = byId("bag-position");
     position.style.marginLeft = `${left}px`;
@@ -136,8 +120,9 @@ export class BagTab {
 
   /** The values of the curves at the mouse, or at the position. */
   #showValues() {
-    const t = this.#pointed ?? this.#position;
-    say(byId("bag-pointed"), this.#pointed === null ? "" : `At ${t.toFixed(2)} s:`);
+    const { pointed } = this.chart;
+    const t = pointed ?? this.#position;
+    say(byId("bag-pointed"), pointed === null ? "" : `At ${t.toFixed(2)} s:`);
     for (const label of byId("bag-curves").children) {
       const value = this.#tracks[label.dataset.curve].at(t);
       say(label.querySelector("output"), value === undefined ? "–" : written(value));
@@ -146,7 +131,6 @@ export class BagTab {
 
   #open(bag) {
     this.#bag = bag;
-    this.#hidden.clear();
     const seconds = bag.end - bag.start;
     this.#position = Math.min(this.#position, seconds);
     const when = bag.start > 0 ? `, recorded ${new Date(bag.start * 1000).toLocaleString()}` : "";
@@ -156,6 +140,12 @@ export class BagTab {
     byId("bag-topics").replaceChildren(...bag.topics.map(({ name, type, count }) => row(name, type, String(count))));
     const playable = bag.topics.filter(({ type }) => type === "sensor_msgs/Joy");
     offer(byId("bag-topic"), playable.map(({ name }) => [name]));
+    byId("bag-curves").replaceChildren(...Object.keys(this.#tracks).map((name, i) => {
+      const box = element("input", { type: "checkbox", checked: true });
+      box.onchange = () => this.chart.setVisible(i, box.checked);
+      return element("label", { "data-curve": name }, box, this.chart.sample(i), `${name} `, element("output"));
+    }));
+    this.#showValues();
     this.#report({ playing: false });
     this.#draw();
   }
@@ -163,16 +153,7 @@ export class BagTab {
   #draw() {
     if (!this.#bag) return;
     this.chart.show(this.#tracks, [0, Math.max(1, this.#bag.end - this.#bag.start)]);
-    byId("bag-curves").replaceChildren(...Object.keys(this.#tracks).map((name, i) => {
-      const box = element("input", { type: "checkbox", checked: !this.#hidden.has(name) });
-      box.onchange = () => {
-        this.#hidden[box.checked ? "delete" : "add"](name);
-        this.chart.setVisible(i, box.checked);
-      };
-      this.chart.setVisible(i, box.checked);
-      return element("label", { "data-curve": name }, box, this.chart.sample(i), `${name} `, element("output"));
-    }));
-    this.#showValues();
+    byId("bag-curves").querySelectorAll("input").forEach((box, i) => this.chart.setVisible(i, box.checked));
   }
 
   /** Without a connection nothing can be opened or published, and what is published is unknown. */
@@ -199,6 +180,5 @@ export class BagTab {
     byId("bag-pause").disabled = !isPlaying;
     const publishes = isPlaying ? `Publishing ${at.topic}. Pause stops the robot.` : refusal;
     say(byId("bag-state"), isOpen ? publishes : "Not connected.");
-    byId("bag").dataset.playing = isPlaying;
   }
 }

@@ -39,24 +39,23 @@ async function loadLibrary() {
   const { Dygraph } = page;
   Dygraph.PLUGINS = Dygraph.PLUGINS.filter((plugin) => plugin !== Dygraph.Plugins.Legend);
 }
-let library = null;
 
 export class Chart {
   #graph = null;
   #wanted = null; // what is shown, or is to be once the library is there
-  #waits = false; // for the library
-  #labels = [];
-  #across = ""; // what the axis across has
+  #library = null; // the wait for it
+  #labels = []; // of the axis across, and of each series
   #cursor = null;
+  pointed = null; // the time [s] at which the mouse points, or null
+  points = []; // of the curves there: {name, yval}
   #window = []; // from, to: as the page itself has set it last
   #drawn = ""; // the part of the time for which samples were chosen
 
   /**
-   * root: the element. onPoint(t, points): the mouse points at a time [s] and at
-   * these points of curves ({name, yval}), or at none (null). onRange(): another part
-   * of the time is seen.
+   * root: the element. onPoint(): the mouse points somewhere else. onRange(): another part of the
+   * time is seen.
    */
-  constructor(root, { onPoint = (_t, _points) => {}, onRange = () => {} } = {}) {
+  constructor(root, onPoint, onRange = () => {}) {
     this.root = root;
     this.onPoint = onPoint;
     this.onRange = onRange;
@@ -66,9 +65,7 @@ export class Chart {
 
   /** An element that looks as the line of a series. */
   sample(i) {
-    const made = element("i", { className: "sample" });
-    made.style.borderTop = `4px ${style(i).border} ${style(i).colour}`;
-    return made;
+    return element("i", { className: "sample", style: `border-top: 4px ${style(i).border} ${style(i).colour}` });
   }
 
   /** Whether a person chose what is shown. For dygraphs a window that the page has set is zoomed, too. */
@@ -77,12 +74,12 @@ export class Chart {
   }
 
   wholeRange() {
+    this.#point(null, []);
     this.#graph?.resetZoom();
   }
 
-  /** What is seen: {left, right} [px] of the curves in the element, {from, to} [s]; or null. */
+  /** What is seen once there are curves: {left, right} [px] of them in the element, {from, to} [s]. */
   get seen() {
-    if (!this.#graph) return null;
     const [{ x, w }, [from, to]] = [this.#graph.getArea(), this.#graph.xAxisRange()];
     return { left: x, right: this.root.clientWidth - x - w, from, to };
   }
@@ -106,18 +103,15 @@ export class Chart {
   show(tracks, window, other = null) {
     this.#wanted = [tracks, window, other];
     if (!this.root.clientWidth) return; // another tab is shown
-    if (!page.Dygraph?.PLUGINS) {
-      library ??= loadLibrary();
-      if (!this.#waits) library.then(() => this.show(...this.#wanted));
-      this.#waits = true;
+    if (!page.Dygraph) {
+      if (!this.#library) this.#library = loadLibrary().then(() => this.show(...this.#wanted));
       return;
     }
-    const labels = Object.keys(tracks);
+    const labels = [other?.label ?? TIME, ...Object.keys(tracks)];
     const [from, to] = this.isZoomed ? this.#graph.xAxisRange() : window;
-    const columns = Math.min(this.root.clientWidth, MOST_POINTS / 2 / Math.max(1, labels.length));
+    const columns = Math.min(this.root.clientWidth, MOST_POINTS / 2 / Math.max(1, labels.length - 1));
     const rows = other?.rows ?? rowsOf(Object.values(tracks), from, to, columns);
-    const across = other?.label ?? TIME;
-    const isSame = rows.length && JSON.stringify([across, labels]) === JSON.stringify([this.#across, this.#labels]);
+    const isSame = rows.length && JSON.stringify(labels) === JSON.stringify(this.#labels);
     if (other) window = around(rows);
     const range = this.isZoomed ? {} : { dateWindow: window };
     if (range.dateWindow) this.#window = [...window];
@@ -129,7 +123,6 @@ export class Chart {
     this.#graph?.destroy();
     this.#graph = null; // also while the next one is made, which calls #look()
     this.#labels = labels;
-    this.#across = across;
     if (rows.length) this.#graph = this.#make(labels, rows, range);
     if (this.#graph) this.onRange();
   }
@@ -142,24 +135,30 @@ export class Chart {
   }
 
   #make(labels, rows, range) {
-    const patterns = labels.map((label, i) => [label, { strokePattern: style(i).pattern }]);
+    const [across, ...series] = labels;
     return new page.Dygraph(this.root, rows, {
-      labels: [this.#across, ...labels],
-      xlabel: this.#across,
-      colors: labels.map((_, i) => style(i).colour),
-      series: Object.fromEntries(patterns),
-      connectSeparatedPoints: this.#across === TIME, // the series have times of their own
+      labels,
+      xlabel: across,
+      colors: series.map((_, i) => style(i).colour),
+      series: Object.fromEntries(series.map((name, i) => [name, { strokePattern: style(i).pattern }])),
+      connectSeparatedPoints: across === TIME, // the series have times of their own
       axisLineColor: "#8888",
       gridLineColor: "#8883",
       strokeWidth: 1.6,
       animatedZooms: false,
       underlayCallback: (pen, area, graph) => this.#drawCursor(pen, area, graph),
-      highlightCallback: (_, t, points) => this.onPoint(t, points),
-      unhighlightCallback: () => this.onPoint(null),
+      highlightCallback: (_, t, points) => this.#point(t, points),
+      unhighlightCallback: () => this.#point(null, []),
       drawCallback: () => this.#look(),
       axes: { y: { axisLabelWidth: 96, axisLabelFormatter: (value, _, __, graph) => this.#mark(value, graph) } },
       ...range,
     });
+  }
+
+  #point(t, points) {
+    this.pointed = t;
+    this.points = points;
+    this.onPoint();
   }
 
   #mark(value, graph) {
@@ -196,10 +195,8 @@ export class Chart {
     pen.fillStyle = backgroundColor;
     pen.fillRect(0, 0, width, height + 24);
     for (const layer of this.root.querySelectorAll("canvas")) pen.drawImage(layer, 0, 0, width, height);
-    pen.font = "12px system-ui, sans-serif";
-    pen.textBaseline = "middle";
-    pen.textAlign = "center";
-    pen.fillStyle = color;
+    Object.assign(pen, { font: "12px system-ui, sans-serif", fillStyle: color });
+    Object.assign(pen, { textAlign: "center", textBaseline: "middle" });
     const corner = this.root.getBoundingClientRect();
     for (const label of this.root.querySelectorAll(".dygraph-axis-label, .dygraph-xlabel")) {
       const box = label.getBoundingClientRect();
@@ -213,7 +210,7 @@ export class Chart {
     pen.textAlign = "left";
     pen.lineWidth = 3;
     let x = 8;
-    this.#labels.forEach((label, i) => {
+    this.#labels.slice(1).forEach((label, i) => {
       pen.fillStyle = pen.strokeStyle = style(i).colour;
       pen.setLineDash(style(i).pattern ?? []);
       pen.beginPath();

@@ -35,9 +35,7 @@ export class Link extends EventTarget {
 
   connect() {
     this.#lastHeard = performance.now();
-    const token = new URLSearchParams(location.search).get("token");
-    const query = token === null ? "" : `?token=${encodeURIComponent(token)}`;
-    const socket = new WebSocket(`${location.origin.replace("http", "ws")}/ws${query}`);
+    const socket = new WebSocket(`${location.origin.replace("http", "ws")}/ws${location.search}`); // with its token
     this.#socket = socket;
     socket.onopen = () => (this.#lastHeard = performance.now());
     socket.onmessage = (event) => this.#hear(event.data);

@@ -2,22 +2,19 @@
 
 import { byId, element, say } from "./dom.js";
 
-const SIGNS = { ok: "✓", note: "i", unknown: "?", wrong: "✗" };
+const SIGNS = { ok: "✓", note: "i", wrong: "✗" };
 
-const PANEL = `
+export class DoctorTab {
+  static title = "Doctor";
+  static panel = `
   <div class="card row">
     <button id="doctor-run" class="primary">Run again</button>
     <span id="doctor-state" role="status" aria-live="polite"></span>
   </div>
   <ul id="doctor-lines" class="card"></ul>`;
-
-export class DoctorTab {
-  static title = "Doctor";
-  static panel = PANEL;
   static watches = {};
 
   #asked = false;
-  #shown = false;
   #running = false;
   #state = ""; // the newest verdict
 
@@ -26,14 +23,13 @@ export class DoctorTab {
     link.on("hello", () => {
       this.#asked = false; // a run may have ended with its server
       this.#report("", false);
-      this.show(this.#shown);
+      this.show(!byId("doctor").hidden);
     });
     link.on("doctor", (found) => this.#show(found));
     byId("doctor-run").onclick = () => this.#ask();
   }
 
   show(on) {
-    this.#shown = on;
     if (on && !this.#asked) this.#ask();
   }
 
@@ -58,8 +54,8 @@ export class DoctorTab {
     const wrong = lines.filter(({ level }) => level === "wrong").length;
     this.#report(running ? "Checking …" : wrong ? `${wrong} wrong` : "No problem found", running);
     byId("doctor-lines").replaceChildren(...lines.map(({ level, subject, text }) =>
-      element("li", { className: level, "data-level": level },
-        element("b", { className: "sign", "aria-label": level }, SIGNS[level] ?? "·"),
+      element("li", { className: level },
+        element("b", { className: "sign", "aria-label": level }, SIGNS[level]),
         element("b", { className: "subject" }, subject && `${subject}: `), text)));
   }
 }

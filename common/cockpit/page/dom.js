@@ -39,6 +39,14 @@ export function say(target, text) {
   if (target.textContent !== text) target.textContent = text;
 }
 
+/** Append to a list, keep the newest of it, and stay at the end of what scrolls if that was seen. */
+export function appendBelow(list, parts, most, scroll = list) {
+  const atEnd = scroll.scrollHeight - scroll.scrollTop - scroll.clientHeight < 40;
+  list.append(...parts);
+  while (list.childNodes.length > most) list.firstChild.remove();
+  if (atEnd) scroll.scrollTop = scroll.scrollHeight;
+}
+
 /** Let the browser save a Blob as a file. */
 export function save(blob, name) {
   const url = URL.createObjectURL(blob);

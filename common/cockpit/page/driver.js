@@ -70,16 +70,15 @@ export class Driver {
    * and the right button, with which Firefox shows its menu whenever Shift is held.
    */
   #shunMenus() {
-    const lose = () => this.release("a menu was opened");
-    const capture = { capture: true };
-    addEventListener("contextmenu", (event) => this.isDriving && event.preventDefault(), capture);
+    addEventListener("contextmenu", (event) => this.isDriving && event.preventDefault(), { capture: true });
     // While another button is held, a pointermove reports the right one.
     for (const kind of ["pointerdown", "pointermove"]) {
-      addEventListener(kind, (/** @type {PointerEvent} */ { pointerType, button, buttons }) => {
-        if (pointerType === "mouse" && button === RIGHT && buttons & RIGHT_HELD) lose();
-      }, capture);
+      addEventListener(kind, (/** @type {any} */ { pointerType, button, buttons, target }) => {
+        const isRight = pointerType === "mouse" && button === RIGHT && buttons & RIGHT_HELD;
+        const isList = kind === "pointerdown" && target.closest?.("select");
+        if (isRight || isList) this.release("a menu was opened");
+      }, { capture: true });
     }
-    addEventListener("pointerdown", (/** @type {any} */ { target }) => target.closest?.("select") && lose(), capture);
   }
 
   #noticeAbsence() {

@@ -7,7 +7,7 @@ const NOTHING = {
   session: { driver: null, yours: false, robot: "" },
   drives: { robots: {}, who: "", ready: "", how: "", refusal: "" },
 };
-const STALE_S = 1; // an older speed is not shown
+export const STALE_S = 1; // an older speed is not shown, and other news of this age is greyed
 const CUT = "This page no longer drives: its connection was lost. Press Drive from this page to go on.";
 
 export class DriverSession {

@@ -8,6 +8,9 @@ const TRAIL_STEP_M = 0.02; // between two points of a trail
 const TRAIL_POINTS = 3000;
 const SCALE = { least: 4, start: 110, most: 1500 }; // [pixel/m]
 const GRID_PX = 45; // least distance of two lines of the grid
+const BODY = "M1 0 A1 1 0 0 1 -1 0 A1 1 0 0 1 1 0"; // of a robot, with the radius 1
+const ARROW = "M.85 0 L-.44 .41 L-.2 0 L-.44 -.41"; // on it, ahead
+const [body, arrow] = [BODY, ARROW].map((path) => new Path2D(path));
 const PAN = { ArrowLeft: [40, 0], ArrowRight: [-40, 0], ArrowUp: [0, 40], ArrowDown: [0, -40] };
 const ZOOM = { "+": 1.25, "-": 0.8 };
 
@@ -18,6 +21,7 @@ export class Floor {
   #robots = {};
   #pointers = new Map();
   #due = false;
+  around = new Surroundings(); // what is new is drawn with the robots' next places
   #free = { left: 0, top: 0, right: 0, bottom: 0 }; // the part of the canvas that nothing covers [pixel]
 
   /** toolbar, glass: what covers the canvas from above, and maybe from below. Texts are between. */
@@ -27,8 +31,6 @@ export class Floor {
     this.glass = glass;
     this.follow = true;
     this.look = ""; // the robot that is followed
-    this.onFollow = (_on) => {};
-    this.around = new Surroundings(() => this.#drawSoon());
     new ResizeObserver(() => this.#drawSoon()).observe(canvas);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.#drawSoon());
     this.#listen();
@@ -66,7 +68,7 @@ export class Floor {
   /** Keep the chosen robot in the middle, or leave the view where it is. */
   setFollow(on) {
     this.follow = on;
-    this.onFollow(on);
+    this.toolbar.querySelector("#follow").setAttribute("aria-pressed", on);
   }
 
   zoom(factor, at = this.#middle()) {
@@ -117,29 +119,26 @@ export class Floor {
 
   #toFloor([px, py]) {
     const [mx, my] = this.#middle();
-    const [cx, cy] = this.#centre;
-    return [cx + (px - mx) / this.#scale, cy - (py - my) / this.#scale];
+    return [this.#centre[0] + (px - mx) / this.#scale, this.#centre[1] - (py - my) / this.#scale];
   }
 
   #toPixels([x, y]) {
     const [mx, my] = this.#middle();
-    const [cx, cy] = this.#centre;
-    return [mx + (x - cx) * this.#scale, my - (y - cy) * this.#scale];
+    return [mx + (x - this.#centre[0]) * this.#scale, my - (y - this.#centre[1]) * this.#scale];
   }
 
   #listen() {
     const { canvas } = this;
-    const on = (kind, act) => canvas.addEventListener(kind, act, { passive: false });
     const at = (event) => [event.offsetX, event.offsetY];
-    on("wheel", (event) => {
+    canvas.onwheel = (event) => {
       event.preventDefault();
       this.zoom(Math.exp(-event.deltaY / 400), at(event));
-    });
-    on("pointerdown", (event) => {
+    };
+    canvas.onpointerdown = (event) => {
       canvas.setPointerCapture(event.pointerId);
       this.#pointers.set(event.pointerId, at(event));
-    });
-    on("pointermove", (event) => {
+    };
+    canvas.onpointermove = (event) => {
       const before = this.#pointers.get(event.pointerId);
       if (!before) return;
       const now = at(event);
@@ -151,16 +150,14 @@ export class Floor {
         this.pan(now[0] - before[0], now[1] - before[1]);
       }
       this.#pointers.set(event.pointerId, now);
-    });
-    for (const kind of ["pointerup", "pointercancel", "lostpointercapture"]) {
-      on(kind, (event) => this.#pointers.delete(event.pointerId));
-    }
-    on("keydown", (event) => {
+    };
+    canvas.onlostpointercapture = (event) => this.#pointers.delete(event.pointerId); // also of a lifted one
+    canvas.onkeydown = (event) => {
       if (event.key in PAN) this.pan(...PAN[event.key]);
       else if (event.key in ZOOM) this.zoom(ZOOM[event.key]);
       else return;
       event.preventDefault();
-    });
+    };
   }
 
   #drawSoon() {
@@ -239,20 +236,18 @@ export class Floor {
     const isChosen = name === this.look;
     const [px, py] = this.#toPixels([x, y]);
     const radius = Math.max(5, BODY_RADIUS_M * this.#scale);
+    pen.save();
+    pen.translate(px, py);
+    pen.rotate(-yaw);
+    pen.scale(radius, radius);
     pen.globalAlpha = age >= 1 ? 0.4 : 1; // no news
     pen.fillStyle = colour(isChosen ? "--accent" : "--muted");
-    pen.beginPath();
-    pen.arc(px, py, radius, 0, 2 * Math.PI);
-    pen.fill();
+    pen.fill(body);
     pen.fillStyle = colour("--floor");
-    pen.beginPath();
-    for (const [angle, share] of [[0, 0.85], [2.4, 0.6], [Math.PI, 0.2], [-2.4, 0.6]]) { // an arrow ahead
-      pen.lineTo(
-        px + radius * share * Math.cos(yaw + angle), py - radius * share * Math.sin(yaw + angle));
-    }
-    pen.fill();
+    pen.fill(arrow);
     pen.globalAlpha = 1;
-    drawBumpers(paper, [px, py], yaw, radius, bumpers ?? []);
+    drawBumpers(paper, radius, bumpers ?? []);
+    pen.restore();
     return { name, x: px, y: py, radius, isChosen };
   }
 }

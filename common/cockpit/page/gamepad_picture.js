@@ -3,7 +3,7 @@
 import { handsOf, heldBy } from "./f710.js";
 
 const PICTURE = `
-<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 320 204" role="img">
+<svg viewBox="0 0 320 204" role="img">
   <g class="shoulder">
     <g data-name="LT"><rect x="62" y="4" width="52" height="20" rx="8"/><text x="88" y="18">LT</text></g>
     <g data-name="RT"><rect x="206" y="4" width="52" height="20" rx="8"/><text x="232" y="18">RT</text></g>
@@ -14,8 +14,8 @@ const PICTURE = `
     232 164 H88 C70 172 58 196 40 198 C20 200 6 178 12 140 C20 92 30 52 72 52 Z"/>
   <g class="dpad" transform="translate(76 92)">
     <path d="M-8 -24 H8 V-8 H24 V8 H8 V24 H-8 V8 H-24 V-8 H-8 Z"/>
-    <path data-way="up" d="M0 -21 L6 -12 H-6 Z"/><path data-way="down" d="M0 21 L6 12 H-6 Z"/>
-    <path data-way="left" d="M-21 0 L-12 -6 V6 Z"/><path data-way="right" d="M21 0 L12 -6 V6 Z"/>
+    <path data-name="up" d="M0 -21 L6 -12 H-6 Z"/><path data-name="down" d="M0 21 L6 12 H-6 Z"/>
+    <path data-name="left" d="M-21 0 L-12 -6 V6 Z"/><path data-name="right" d="M21 0 L12 -6 V6 Z"/>
   </g>
   <g class="face">
     <g data-name="Y"><circle cx="244" cy="72" r="11"/><text x="244" y="76">Y</text></g>
@@ -35,9 +35,8 @@ const TRAVEL = 12; // of a stick's knob, in units of the picture
 
 export class GamepadPicture {
   constructor(root) {
-    const svg = new DOMParser().parseFromString(PICTURE.trim(), "image/svg+xml").documentElement;
-    root.replaceChildren(document.importNode(svg, true));
-    this.svg = root.firstChild;
+    root.innerHTML = PICTURE;
+    this.svg = root.querySelector("svg");
     this.show();
   }
 
@@ -46,8 +45,10 @@ export class GamepadPicture {
     const mode = axes.length === 8 ? "X" : "D";
     const hands = handsOf(mode, names[mode], axes, buttons);
     const held = heldBy(hands);
+    const [dx, dy] = hands.dpad;
+    const ways = { left: dx > 0, right: dx < 0, up: dy > 0, down: dy < 0 };
     for (const part of this.svg.querySelectorAll("[data-name]")) {
-      part.classList.toggle("held", held.has(part.dataset.name));
+      part.classList.toggle("held", ways[part.dataset.name] ?? held.has(part.dataset.name));
     }
     for (const side of ["left", "right"]) {
       const [x, y] = hands[side].map((v) => -v * TRAVEL);
@@ -55,13 +56,7 @@ export class GamepadPicture {
       knob.setAttribute("transform", `translate(${x} ${y})`);
       knob.classList.toggle("moved", Math.hypot(x, y) > 0.01);
     }
-    const [dx, dy] = hands.dpad;
-    const ways = { left: dx > 0, right: dx < 0, up: dy > 0, down: dy < 0 };
-    for (const [way, on] of Object.entries(ways)) {
-      this.svg.querySelector(`[data-way=${way}]`).classList.toggle("held", on);
-    }
     const words = [...held, ...hands.left.map((v) => v.toFixed(2))].join(" ");
     this.svg.setAttribute("aria-label", `F710 at ${mode}; held and left stick: ${words}`);
-    this.svg.dataset.held = [...held].join(" ");
   }
 }

@@ -6,6 +6,16 @@ const SIZE = { height: 34, letter: 7.2, padding: 24, between: 16, bend: 6, layer
 const ROWS = 14; // of boxes in a column; a layer with more has several columns, about as wide as high
 const BEND = "bend "; // of a long arrow: a place in each column between, where no box may be
 
+/** Of edges: before, the items that lead to an item, by its name; after, those to which it leads. */
+export function neighbours(edges) {
+  const found = { before: {}, after: {} };
+  for (const { from, to } of edges) {
+    (found.before[to] ??= []).push(from);
+    (found.after[from] ??= []).push(to);
+  }
+  return found;
+}
+
 /**
  * items: names such as "node /a" and "topic /b". edges: [{from, to}].
  * Returns {width, height, boxes: {name: {x, y, w, h}}, arrows: [{from, to, path}]} in pixels.
@@ -80,17 +90,9 @@ function curve(stopped, tip) {
   }, "");
 }
 
-/** {item: those that pairs [item, other] lead to}. */
-function grouped(pairs) {
-  const found = {};
-  for (const [item, other] of pairs) (found[item] ??= []).push(other);
-  return found;
-}
-
 /** Each item one layer after the last of those that lead to it; an arrow that closes a loop does not count. */
 function layers(items, edges) {
-  const after = grouped(edges.map(({ from, to }) => [from, to]));
-  const before = grouped(edges.map(({ from, to }) => [to, from]));
+  const { before, after } = neighbours(edges);
   const seen = new Set();
   const order = []; // each item after those that follow it
   const visit = (item) => {
@@ -103,8 +105,7 @@ function layers(items, edges) {
   const layer = {};
   const found = [];
   for (const item of order.reverse()) {
-    const known = (before[item] ?? []).filter((one) => one in layer);
-    layer[item] = 1 + Math.max(-1, ...known.map((one) => layer[one]));
+    layer[item] = 1 + Math.max(-1, ...(before[item] ?? []).map((one) => layer[one] ?? -1));
     (found[layer[item]] ??= []).push(item);
   }
   return found;

@@ -1,7 +1,7 @@
 /** The tab Graph: the nodes and their topics, live. */
 
 import { byId, byName, element, say } from "./dom.js";
-import { layout } from "./graph_layout.js";
+import { layout, neighbours } from "./graph_layout.js";
 
 // Every node is connected to /rosout, which would hide the rest; as draw_graph has it.
 const DEBUG = ["node /rosout", "topic /rosout", "topic /rosout_agg", "topic /statistics"];
@@ -15,7 +15,9 @@ function svg(tag, attributes = {}, ...children) {
   return made;
 }
 
-const PANEL = `
+export class GraphTab {
+  static title = "Graph";
+  static panel = `
   <div class="row">
     <button id="graph-in" aria-label="Zoom in">+</button>
     <button id="graph-out" aria-label="Zoom out">−</button>
@@ -29,10 +31,6 @@ const PANEL = `
     <div class="card"><h2 id="graph-title" aria-live="polite"></h2>
       <div id="graph-details"><p class="hint">Choose a node or a topic.</p></div></div>
   </div>`;
-
-export class GraphTab {
-  static title = "Graph";
-  static panel = PANEL;
   static watches = { graph: false };
 
   #chosen = null; // "node /a" or "topic /b"
@@ -44,7 +42,6 @@ export class GraphTab {
   constructor(link, watch) {
     this.watch = watch;
     this.picture = byId("graph-picture");
-    this.details = byId("graph-details");
     link.on("graph", (graph) => this.#draw((this.#graph = graph)));
     byId("graph-all").onchange = () => this.#draw(this.#graph);
     byId("graph-in").onclick = () => this.#zoom(1.25);
@@ -177,26 +174,27 @@ export class GraphTab {
   #showDetails() {
     const [kind, name] = this.#chosen.split(" ");
     const { nodes, topics, edges } = this.#graph;
-    const next = (item) => edges.filter(({ from }) => from === item).map(({ to }) => to);
-    const last = (item) => edges.filter(({ to }) => to === item).map(({ from }) => from);
+    const { before, after } = neighbours(edges);
+    const beside = (side, ...items) => items.flatMap((item) => side[item] ?? []);
+    const [sources, targets] = [beside(before, this.#chosen), beside(after, this.#chosen)];
     const { machine, services } = nodes.find((node) => node.name === name) ?? {};
-    const [before, after] = [last(this.#chosen), next(this.#chosen)];
-    const others = new Set([...before.flatMap(last), ...after.flatMap(next)]);
+    const others = new Set([...beside(before, ...sources), ...beside(after, ...targets)]);
     others.delete(this.#chosen);
-    const entries = kind === "topic" ? [
-      ["Type", "type", topics.find((topic) => topic.name === name)?.type || "–"],
-      ["Publishers", "publishers", this.#links(before)],
-      ["Subscribers", "subscribers", this.#links(after)],
-      ["Rate and messages", "messages", element("a", { href: `#topics${name}` }, "in the tab Topics")],
-    ] : [
-      ["Machine", "machine", machine || "–"],
-      ["Publishes", "publishes", this.#links(after)],
-      ["Subscribes to", "subscribes", this.#links(before)],
-      ["Connected to", "speaks_to", this.#links([...others])],
-      ["Services", "services", services?.join(", ") || "–"],
-    ];
-    this.details.replaceChildren(element("dl", { className: "details" }, ...entries.map(([title, key, value]) =>
-      element("div", {}, element("dt", {}, title), element("dd", { "data-value": key }, ...[value].flat())))));
+    const entries = kind === "topic" ? {
+      Type: topics.find((topic) => topic.name === name)?.type || "–",
+      Publishers: this.#links(sources),
+      Subscribers: this.#links(targets),
+      "Rate and messages": element("a", { href: `#topics${name}` }, "in the tab Topics"),
+    } : {
+      Machine: machine || "–",
+      Publishes: this.#links(targets),
+      "Subscribes to": this.#links(sources),
+      "Connected to": this.#links([...others]),
+      Services: services?.join(", ") || "–",
+    };
+    const parts = Object.entries(entries).map(([title, value]) =>
+      element("div", {}, element("dt", {}, title), element("dd", {}, ...[value].flat())));
+    byId("graph-details").replaceChildren(element("dl", { className: "details" }, ...parts));
   }
 
   /** Buttons that choose nodes or topics, or a dash. */

@@ -44,23 +44,22 @@ function watch(fields) {
 
 /** Show a line for a while [ms] or without end (Infinity), or none (""). */
 function notice(text, duration = NOTICE_MS) {
-  byId("notice").hidden = !text;
   say(byId("notice"), text);
   clearTimeout(noticeEnd);
-  if (duration < Infinity) noticeEnd = setTimeout(() => (byId("notice").hidden = true), duration);
+  if (duration < Infinity) noticeEnd = setTimeout(() => say(byId("notice"), ""), duration);
 }
 
 const tablist = document.querySelector("[role=tablist]");
-for (const { title, panel } of TABS) {
-  const id = title.toLowerCase();
-  tablist.append(element("button", { role: "tab", id: `tab-${id}`, "aria-controls": id }, title));
-  const section = element("section", { role: "tabpanel", id, "aria-labelledby": `tab-${id}`, tabIndex: -1 });
-  section.innerHTML = panel;
-  document.querySelector("main").append(section);
-}
 const page = { notice, look: () => tabs.robot.look, moved: (_back) => {} };
 /** @type {Object<string, any>} */
-const tabs = Object.fromEntries(TABS.map((Tab) => [Tab.title.toLowerCase(), new Tab(link, watch, page)]));
+const tabs = {};
+for (const Tab of TABS) {
+  const id = Tab.title.toLowerCase();
+  tablist.append(element("button", { role: "tab", id: `tab-${id}`, "aria-controls": id }, Tab.title));
+  document.querySelector("main").append(element("section",
+    { role: "tabpanel", id, "aria-labelledby": `tab-${id}`, tabIndex: -1, innerHTML: Tab.panel }));
+  tabs[id] = new Tab(link, watch, page);
+}
 link.on("refused", ({ what, why }) => {
   if (what !== "input") notice(`Not possible: ${why}.`); // the loss of the session has a message of its own
 });

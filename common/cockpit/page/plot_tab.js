@@ -7,10 +7,8 @@ import { rowsAgainst, rowsOfArrays, Track, written } from "./samples.js";
 const MOST = 20; // fields at a time, as the server has it
 const LISTED = 200; // of the fields that are found
 const FIRST = 20; // of a chosen array's entries, which are offered before a search
-const WINDOWS = [[10, "10 s"], [30, "30 s"], [120, "2 min"], [600, "10 min"]];
 const MOST_ROWS = 4000; // against another field
 const KEEP_S = 600; // the longest window; of a fast topic less, see MOST of samples.js
-const CSV_ROWS = 1000; // of a file, that are made at a time
 const DRAW_MS = 100;
 const SET_BACK_S = 1; // by so much and more
 
@@ -20,18 +18,22 @@ function setBack(points, last) {
   return points.findLastIndex(([t], i) => t < times[i] - SET_BACK_S);
 }
 
-const PANEL = `
+export class PlotTab {
+  static title = "Plot";
+  static panel = `
   <div class="wide">
     <div class="card row">
       <button id="plot-pause" aria-pressed="false">Pause</button>
       <button id="plot-zoom">Whole range</button>
       <button id="plot-clear">Clear</button>
-      <label>Last <select id="plot-window"></select></label>
+      <label>Last <select id="plot-window">
+        <option value="10">10 s</option><option value="30" selected>30 s</option>
+        <option value="120">2 min</option><option value="600">10 min</option></select></label>
       <label>against <select id="plot-x"></select></label>
       <button id="plot-csv">Save CSV</button>
       <button id="plot-png">Save PNG</button>
     </div>
-    <div class="card chart"><div id="plot-chart"></div></div>
+    <div class="card chart"><div id="plot-chart" data-empty="Choose fields from the list."></div></div>
     <p class="hint">Drag, or turn the wheel, to zoom, with Shift to pan; Whole range ends it. <output id="plot-at"></output></p>
     <div class="legend" id="plot-values" role="group" aria-label="Values"></div>
   </div>
@@ -40,43 +42,26 @@ const PANEL = `
       <input type="search" id="plot-search" placeholder="Search, e.g. odom linear" autocomplete="off">
       <ul id="plot-fields"></ul></div>
   </div>`;
-
-export class PlotTab {
-  static title = "Plot";
-  static panel = PANEL;
   static watches = { fields: [], field_list: false };
 
   #samples = {}; // field -> Track, times since #zero
-  #arrays = {}; // field that is a whole array -> its newest entries
   #other = null; // another axis across than time, as the chart has it
   #zero = null; // time of the first sample [s]
   #all = [];
   #fresh = false;
   #frozen = null; // the newest time that is shown while the plot is paused
-  #pointed = null; // the time at which the mouse points, or null
-  #points = []; // of the curves, there
-  #shown = false;
 
   constructor(link, watch, page) {
     this.watch = watch;
     this.page = page;
-    this.chart = new Chart(byId("plot-chart"), {
-      onPoint: (t, points) => {
-        this.#pointed = t;
-        this.#points = points ?? [];
-        this.#showValues(this.#points);
-      },
-    });
+    this.chart = new Chart(byId("plot-chart"), () => this.#showValues(this.chart.points));
     link.on("fields", ({ fields }) => {
       if (fields.join() === this.#all.join()) return; // a list in use is left alone
       this.#all = fields;
       this.#list();
     });
     link.on("plot", ({ samples }) => this.#take(samples));
-    offer(byId("plot-window"), WINDOWS);
-    byId("plot-window").value = 30;
-    byId("plot-window").onchange = () => this.#showLast(byId("plot-window").value);
-    byId("plot-x").onchange = () => this.#showLast(byId("plot-window").value);
+    byId("plot-window").onchange = byId("plot-x").onchange = () => this.#showLast(byId("plot-window").value);
     byId("plot-search").oninput = () => this.#list();
     byId("plot-pause").onclick = () => this.#pause(this.#frozen === null);
     byId("plot-zoom").onclick = () => this.#showLast(KEEP_S);
@@ -87,7 +72,6 @@ export class PlotTab {
   }
 
   show(on) {
-    this.#shown = on;
     this.#fresh = on;
     this.watch({ field_list: on, fields: this.fields });
   }
@@ -104,9 +88,6 @@ export class PlotTab {
     const tracks = fields.slice(0, MOST).map((field) => [field, this.#samples[field] ?? new Track()]);
     this.#samples = Object.fromEntries(tracks);
     const last = Math.min(KEEP_S, Math.max(1, Math.round(Number(query.get("last")) || 30)));
-    const isListed = WINDOWS.some(([seconds]) => seconds === last);
-    offer(byId("plot-window"), [...WINDOWS, ...(isListed ? [] : [[last, `${last} s`]])]);
-    byId("plot-x").value = "";
     this.#list();
     byId("plot-x").value = fields.includes(query.get("x")) ? query.get("x") : "";
     this.#showLast(last);
@@ -120,8 +101,8 @@ export class PlotTab {
     const known = Object.entries(samples).filter(([field]) => this.#samples[field]);
     const isArray = ([, [[, value]]]) => Array.isArray(value);
     for (const [field, points] of known.filter(isArray)) {
-      const [before, now] = [this.#arrays[field], points.at(-1)[1]];
-      if (this.#frozen === null) this.#arrays[field] = now;
+      const [before, now] = [this.#samples[field].entries, points.at(-1)[1]];
+      if (this.#frozen === null) this.#samples[field].entries = now;
       if (before?.length !== now.length) this.#list();
     }
     const wanted = known.filter((one) => !isArray(one));
@@ -143,17 +124,17 @@ export class PlotTab {
   }
 
   #draw() {
-    if (!this.#shown || !this.#fresh) return;
+    if (byId("plot").hidden || !this.#fresh) return;
     const from = Math.max(0, this.#newest - Number(byId("plot-window").value));
     this.#other = this.#across(from);
     this.chart.show(this.#samples, [from, Math.max(this.#newest, from + 1)], this.#other);
     this.#fresh = false;
-    this.#showValues(this.#other ? this.#points : []);
+    this.#showValues(this.#other ? this.chart.points : []);
   }
 
   /** The axis across and its rows where that is not time. */
   #across(from) {
-    const arrays = this.fields.map((field) => this.#arrays[field] ?? []);
+    const arrays = Object.values(this.#samples).map(({ entries }) => entries ?? []);
     if (arrays.some(({ length }) => length)) return { label: "index", rows: rowsOfArrays(arrays) };
     const label = byId("plot-x").value;
     if (!label) return null;
@@ -163,21 +144,22 @@ export class PlotTab {
 
   /** The values at the mouse, where a point is drawn that of the point; or the newest. */
   #showValues(points) {
-    const t = this.#pointed ?? this.#newest;
+    const { pointed } = this.chart;
+    const t = pointed ?? this.#newest;
     const unit = this.#other ? ` of ${this.#other.label}` : " s";
-    say(byId("plot-at"), this.#pointed === null ? "" : `At ${t.toFixed(2)}${unit}:`);
-    byId("plot-values").replaceChildren(...this.fields.map((field, i) => {
-      const value = points.find(({ name }) => name === field)?.yval ?? this.#samples[field].at(this.#other ? this.#newest : t);
-      const entries = this.#arrays[field] && `${this.#arrays[field].length} entries`;
+    say(byId("plot-at"), pointed === null ? "" : `At ${t.toFixed(2)}${unit}:`);
+    byId("plot-values").replaceChildren(...Object.entries(this.#samples).map(([field, track], i) => {
+      const value = points.find(({ name }) => name === field)?.yval ?? track.at(this.#other ? this.#newest : t);
+      const none = track.entries ? `${track.entries.length} entries` : "–";
       return element("span", { "data-field": field }, this.chart.sample(i), `${field} `,
-        element("output", {}, value === undefined ? entries ?? "–" : written(value)));
+        element("output", {}, value === undefined ? none : written(value)));
     }));
   }
 
   #list() {
     const words = byId("plot-search").value.toLowerCase().split(/\s+/).filter(Boolean);
-    const entries = Object.entries(this.#arrays).flatMap(([field, values]) =>
-      values.slice(0, words.length ? LISTED : FIRST).map((_, i) => `${field}[${i}]`));
+    const entries = Object.entries(this.#samples).flatMap(([field, track]) =>
+      track.entries?.slice(0, words.length ? LISTED : FIRST).map((_, i) => `${field}[${i}]`) ?? []);
     const found = [...entries, ...this.#all].filter((field) => words.every((word) => field.toLowerCase().includes(word)));
     const matching = [...new Set([...this.fields, ...found])]; // the chosen ones first
     const listed = matching.slice(0, LISTED);
@@ -202,7 +184,6 @@ export class PlotTab {
   #choose(field, on) {
     if (on) this.#samples[field] = new Track();
     else delete this.#samples[field];
-    delete this.#arrays[field];
     if (!this.fields.length) this.#zero = null;
     this.watch({ fields: this.fields });
     this.#fresh = true;
@@ -213,8 +194,7 @@ export class PlotTab {
   /** Show the last seconds, however the chart was zoomed. */
   #showLast(seconds) {
     byId("plot-window").value = seconds;
-    this.#pointed = null;
-    this.#points = [];
+    if (!byId("plot-window").value) byId("plot-window").append(new Option(`${seconds} s`, seconds, true, true));
     this.chart.wholeRange();
     this.#fresh = true;
     this.page.moved();
@@ -234,16 +214,10 @@ export class PlotTab {
     this.#fresh = true;
   }
 
-  /** A row for each sample; the browser keeps each part outside of the page's own memory. */
+  /** A row for each sample; the browser keeps each field outside of the page's own memory. */
   #saveCsv() {
-    /** @type {BlobPart[]} */
-    const parts = ["time,field,value\n"];
-    for (const [field, { times, values }] of Object.entries(this.#samples)) {
-      for (let first = 0; first < times.length; first += CSV_ROWS) {
-        const part = times.slice(first, first + CSV_ROWS);
-        parts.push(new Blob(part.map((t, i) => `${t + this.#zero},${field},${values[first + i]}\n`)));
-      }
-    }
-    save(new Blob(parts, { type: "text/csv" }), "plot.csv");
+    const fields = Object.entries(this.#samples).map(([field, { times, values }]) =>
+      new Blob(times.map((t, i) => `${t + this.#zero},${field},${values[i]}\n`)));
+    save(new Blob(["time,field,value\n", ...fields], { type: "text/csv" }), "plot.csv");
   }
 }

@@ -3,9 +3,8 @@
 import { byId, byName, element, number, offer, row, say } from "./dom.js";
 import { Floor } from "./floor.js";
 import { GamepadPicture } from "./gamepad_picture.js";
-import { DriverSession } from "./driver_session.js";
+import { DriverSession, STALE_S } from "./driver_session.js";
 
-const STALE_S = 1; // older news is greyed
 const ODOMETRY = [ // name, title, unit, digits
   ["x", "x", " m", 2], ["y", "y", " m", 2], ["yaw", "heading", "°", 1],
   ["v", "speed", " m/s", 2], ["w", "turning", " rad/s", 2], ["covered", "covered", " m", 2],
@@ -17,7 +16,9 @@ const KOBUKI = [ // name, title, unit, before its first command
 const values = (rows) => rows.map(([name, title, unit]) => `
         <div><dt>${title}</dt><dd><output data-value="${name}">–</output>${unit}</dd></div>`).join("");
 
-const PANEL = `
+export class RobotTab {
+  static title = "Robot";
+  static panel = `
   <div class="floor">
     <canvas id="floor" tabindex="0" role="img" aria-label="The floor from above, with the robots"></canvas>
     <div class="toolbar" role="group" aria-label="View of the floor">
@@ -35,10 +36,10 @@ const PANEL = `
       <div id="stick" role="img" aria-label="Stick: drag it with a thumb, or use the arrow keys"><div id="knob"></div></div>
     </div>
   </div>
-  <div id="turtles" role="group" aria-label="Turtles" hidden></div>
+  <div id="turtles" role="group" aria-label="Turtles"></div>
   <div class="panel">
     <div class="card" id="drive">
-      <h2><label for="look">Robot</label> <select id="look"></select> <small id="me"></small></h2>
+      <h2 class="row"><label for="look">Robot</label> <select id="look"></select> <small id="me"></small></h2>
       <p id="ready" role="status" aria-live="polite"></p>
       <div class="row">
         <button id="take" class="primary" disabled>Drive from this page</button>
@@ -72,10 +73,6 @@ const PANEL = `
         <tbody id="robots"></tbody></table>
     </div>
   </div>`;
-
-export class RobotTab {
-  static title = "Robot";
-  static panel = PANEL;
   static watches = { robots: true, look: null, turtles: false };
 
   #names = []; // of the robots
@@ -105,7 +102,12 @@ export class RobotTab {
     link.on("turtles", ({ pictures }) => this.#showTurtles(pictures));
     link.on("pad", (pad) => this.#showPad(pad));
     link.on("drives", () => this.#showTeleop()); // after the session has taken it
-    this.#listen();
+    byId("zoom-in").onclick = () => this.floor.zoom(1.25);
+    byId("zoom-out").onclick = () => this.floor.zoom(0.8);
+    byId("show-all").onclick = () => this.floor.showAll();
+    byId("clear-trail").onclick = () => this.floor.clearTrails();
+    byId("follow").onclick = () => this.floor.setFollow(!this.floor.follow);
+    byId("look").onchange = () => this.#ask(byId("look").value);
   }
 
   get look() {
@@ -120,21 +122,9 @@ export class RobotTab {
     this.watch({ turtles: on });
   }
 
-  #listen() {
-    const { floor } = this;
-    byId("zoom-in").onclick = () => floor.zoom(1.25);
-    byId("zoom-out").onclick = () => floor.zoom(0.8);
-    byId("show-all").onclick = () => floor.showAll();
-    byId("clear-trail").onclick = () => floor.clearTrails();
-    byId("follow").onclick = () => floor.setFollow(!floor.follow);
-    floor.onFollow = (on) => byId("follow").setAttribute("aria-pressed", on);
-    byId("look").onchange = () => this.#ask(byId("look").value);
-  }
-
   #showNames(names) {
     this.#names = names;
     byId("class").hidden = names.length < 2;
-    this.#arrange();
     this.#rows = new Map(names.map((name) => [name, this.#rows.get(name) ?? this.#rowOf(name)]));
     byId("robots").replaceChildren(...this.#rows.values());
     if (this.#look === null && names.length) this.lookAt(names[0]);
@@ -151,12 +141,11 @@ export class RobotTab {
   }
 
   #ask(name) {
-    this.asked = name;
-    this.lookAt(name);
+    this.goTo(name);
     this.page.moved(true);
   }
 
-  /** Look at the robot that the address names. */
+  /** Look at the robot that a person has chosen, or the address names. A driver sees the driven robot. */
   goTo(name) {
     if (name === null || name === this.#look || this.session.yours || !/^[\w/]{0,200}$/.test(name)) return;
     this.asked = name;
@@ -178,6 +167,7 @@ export class RobotTab {
     this.floor.show(robots);
     const names = Object.keys(robots).sort(byName);
     if (JSON.stringify(names) !== JSON.stringify(this.#names)) this.#showNames(names);
+    byId("floor").parentElement.hidden = byId("turtles").hasChildNodes() && !names.length; // turtles alone
     const placed = names.filter((name) => "x" in robots[name]);
     if (placed.length && JSON.stringify(placed) !== this.#onFloor) {
       this.#onFloor = JSON.stringify(placed);
@@ -202,9 +192,7 @@ export class RobotTab {
   #rowOf(name) {
     const line = row(element("button", { className: "link" }, name || "TurtleBot"), "", "", "");
     line.dataset.robot = name;
-    line.onclick = () => {
-      if (!this.session.yours && name !== this.#look) this.#ask(name); // a driver sees the driven robot
-    };
+    line.onclick = () => this.#ask(name);
     return line;
   }
 
@@ -230,13 +218,6 @@ export class RobotTab {
       return figure;
     });
     byId("turtles").replaceChildren(...figures);
-    byId("turtles").hidden = !figures.length;
-    this.#arrange();
-  }
-
-  /** The floor has its place unless there are turtles alone. */
-  #arrange() {
-    byId("floor").parentElement.hidden = !byId("turtles").hidden && !this.#names.length;
   }
 
   #showPad({ robot, axes, buttons, age }) {

@@ -18,6 +18,7 @@ export function firstAt(times, t) {
 export class Track {
   times = []; // [s]
   values = [];
+  entries = null; // the newest, of a field that is a whole array
 
   /** points: [[t, value], ...]. */
   constructor(points = []) {

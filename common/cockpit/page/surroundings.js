@@ -8,17 +8,11 @@ export class Surroundings {
   #scan = { name: null, points: [] }; // [m], of that robot
   #covered = ""; // the corners of the newest map
 
-  /** onChange(): called when something must be drawn again. */
-  constructor(onChange) {
-    this.onChange = onChange;
-  }
-
   /** map: without cells there is none. Returns whether it covers another part of the floor than the one before. */
   showMap(map) {
     this.#map = map.cells ? { ...map, bytes: Uint8Array.from(atob(map.cells), (c) => c.charCodeAt(0)) } : null;
     this.#scan.name = null; // of another world, or a server that has ended
     this.#pictures.clear();
-    this.onChange();
     const [before, corners] = [this.#covered, this.corners().join()];
     this.#covered = corners || before;
     return this.#covered !== before;
@@ -29,7 +23,6 @@ export class Surroundings {
     const [c, s] = [Math.cos(place.yaw), Math.sin(place.yaw)];
     const onFloor = ([x, y]) => [place.x + c * x - s * y, place.y + s * x + c * y];
     this.#scan = { name, points: points.map(onFloor) };
-    this.onChange();
   }
 
   /** A robot with its place in the map, if there is one, in place of that of its odometry. */
@@ -86,17 +79,17 @@ export class Surroundings {
   }
 }
 
-/** Left (0), center (1) and right (2), each over a third of the front half. */
-export function drawBumpers({ pen, colour }, [x, y], yaw, radius, pressed) {
+/** Left (0), center (1) and right (2), each over a third of the front half. radius: the pen's unit [pixel]. */
+export function drawBumpers({ pen, colour }, radius, pressed) {
   const width = Math.max(4, radius / 5);
   for (const { name, edge } of [{ name: "--floor", edge: 2 }, { name: "--bumper", edge: 0 }]) { // whatever is below
     pen.strokeStyle = colour(name);
-    pen.lineWidth = width + 2 * edge;
+    pen.lineWidth = (width + 2 * edge) / radius;
     for (const bumper of pressed) {
-      const middle = -yaw - ((1 - bumper) * Math.PI) / 3;
+      const middle = ((bumper - 1) * Math.PI) / 3;
       const angle = Math.PI / 6 + edge / radius;
       pen.beginPath();
-      pen.arc(x, y, radius + 1, middle - angle, middle + angle);
+      pen.arc(0, 0, 1 + 1 / radius, middle - angle, middle + angle);
       pen.stroke();
     }
   }

@@ -3,12 +3,7 @@
  * ?robot=robot_7#topics/odom, #plot?f=/odom/pose/pose/position/x&last=30. A reload keeps it, Back goes back.
  */
 
-/** The index of the tab to which a key leads from the one that has the focus, or undefined. */
-function nextIndex(tabs, key) {
-  const [now, last] = [tabs.indexOf(document.activeElement), tabs.length - 1];
-  const next = { ArrowRight: now === last ? 0 : now + 1, ArrowLeft: now <= 0 ? last : now - 1, Home: 0, End: last };
-  return now < 0 ? undefined : next[key];
-}
+const nameOf = (tab) => tab.getAttribute("aria-controls");
 
 /**
  * onChoose(name) is called with the name of the view that is shown: "robot", "graph" ...; go(name, path, query)
@@ -17,7 +12,6 @@ function nextIndex(tabs, key) {
  */
 export function makeTabs(tablist, { onChoose, go, placeOf, robot }) {
   const tabs = [...tablist.querySelectorAll("[role=tab]")];
-  const nameOf = (tab) => tab.getAttribute("aria-controls");
   let shown = tabs[0];
   let handled = ""; // the address that is shown; null while it is being shown
 
@@ -45,14 +39,16 @@ export function makeTabs(tablist, { onChoose, go, placeOf, robot }) {
 
   for (const tab of tabs) tab.onclick = () => choose(tab, true);
   tablist.addEventListener("keydown", (event) => {
-    const next = tabs[nextIndex(tabs, event.key)];
-    if (!next) return;
+    const now = tabs.indexOf(document.activeElement);
+    const places = { ArrowRight: (now + 1) % tabs.length, ArrowLeft: now - 1, Home: 0, End: -1 };
+    if (!(event.key in places)) return;
+    const next = tabs.at(places[event.key]);
     event.preventDefault();
     choose(next, true);
     next.focus();
   });
   const chooseByAddress = () => {
-    if (location.href === handled) return; // both events say so
+    if (location.href === handled) return;
     const [, name, path, query] = /^#?([^/?]*)([^?]*)\??(.*)$/.exec(location.hash);
     const tab = tabs.find((one) => nameOf(one) === name.toLowerCase()) ?? tabs[0];
     handled = null;
@@ -60,8 +56,7 @@ export function makeTabs(tablist, { onChoose, go, placeOf, robot }) {
     handled = location.href;
     choose(tab, false);
   };
-  addEventListener("popstate", chooseByAddress);
-  addEventListener("hashchange", chooseByAddress); // typed in the address bar
+  addEventListener("popstate", chooseByAddress); // also of what is typed in the address bar
   chooseByAddress();
   return moved;
 }

@@ -3,7 +3,8 @@
  * call a service, or set a parameter.
  */
 
-import { byId, byName, element, offer, row, say } from "./dom.js";
+import { appendBelow, byId, byName, element, offer, row, say } from "./dom.js";
+import { neighbours } from "./graph_layout.js";
 
 const LISTED = 100; // of the names that are found
 const MOST_RATES = 40, LONGEST_RATES = 3000; // topics, and characters of their names, as the server takes them
@@ -16,7 +17,9 @@ const FORMS = { // of each kind: what the server is asked to describe, and what 
   parameters: { what: "parameter", title: "Set this parameter", act: "Set" },
 };
 
-const PANEL = `
+export class TopicsTab {
+  static title = "Topics";
+  static panel = `
   <div class="wide">
     <div class="card row">
       <label>Show <select id="topics-kind"></select></label>
@@ -42,15 +45,12 @@ const PANEL = `
       <p class="row"><button id="topics-send" class="primary"></button>
         <label id="topics-repeat">at <input type="number" id="topics-rate" min="0.1" max="50" step="any"
           placeholder="once"> Hz</label></p>
-      <pre id="topics-answer" role="status" hidden></pre></form>
+      <pre id="topics-answer" role="status"></pre></form>
   </div>`;
-
-export class TopicsTab {
-  static title = "Topics";
-  static panel = PANEL;
   static watches = { rates: [], topic: null };
 
   #shown = false;
+  #paused = false; // messages
   #drives = false; // whether this page may publish and call
   #graph = { topics: [], services: [], parameters: [], edges: [] };
   #repeats = 0; // the timer of what is published again and again, or 0
@@ -69,11 +69,16 @@ export class TopicsTab {
       this.#list();
     });
     link.on("rates", ({ rates }) => this.#showRates(rates));
-    link.on("topic", ({ name, echo }) => name === this.#chosen && !this.#isPaused && this.#showEcho(echo));
+    link.on("topic", ({ name, echo }) => {
+      if (name !== this.#chosen || this.#paused) return;
+      appendBelow(byId("topics-echo"), echo.map(([, text]) => `${text}\n---\n`), ECHOED);
+    });
     link.on("form", (form) => [this.#type, this.#chosen].includes(form.name) && this.#showForm(form));
-    link.on("answer", ({ name, text }) => name === this.#chosen && this.#answer(text || "(an empty answer)"));
+    link.on("answer", ({ name, text }) => {
+      if (name === this.#chosen) say(byId("topics-answer"), text || "(an empty answer)");
+    });
     link.on("refused", ({ what, why }) => {
-      if (what === "call") this.#answer(why);
+      if (what === "call") say(byId("topics-answer"), why);
       if (["publish", "again"].includes(what)) this.#rest();
     });
     document.addEventListener("visibilitychange", () => this.#rest());
@@ -81,15 +86,12 @@ export class TopicsTab {
     byId("topics-kind").onchange = () => this.#choose(null);
     byId("topics-search").oninput = () => this.#list();
     byId("topics-plot").onchange = () => (location.hash = `#plot?f=${this.#chosen}${byId("topics-plot").value}`);
-    byId("topics-pause").onclick = () => this.#pause(!this.#isPaused);
+    byId("topics-pause").onclick = () => this.#pause(!this.#paused);
     byId("topics-copy").onclick = () => {
       getSelection().selectAllChildren(byId("topics-echo"));
       document.execCommand("copy"); // navigator.clipboard is not there over http from elsewhere
     };
-    byId("topics-form").onsubmit = (event) => {
-      event.preventDefault();
-      this.#send();
-    };
+    byId("topics-form").onsubmit = (event) => this.#send(event);
     setInterval(() => this.#shown && this.watch({ rates: this.#inSight }), LOOK_MS);
   }
 
@@ -107,7 +109,6 @@ export class TopicsTab {
     this.watch({ graph: on, rates: [], topic: on && this.#isTopics ? this.#chosen : null });
     if (!on) return this.#rest();
     this.#list();
-    this.#describe();
   }
 
   connect() {
@@ -122,10 +123,6 @@ export class TopicsTab {
 
   get #isTopics() {
     return this.#kind === "topics";
-  }
-
-  get #isPaused() {
-    return byId("topics-pause").getAttribute("aria-pressed") === "true";
   }
 
   /** The topics whose rows are seen. */
@@ -143,17 +140,14 @@ export class TopicsTab {
   #list() {
     if (!this.#shown) return;
     const { topics, edges } = this.#graph;
-    const users = { to: new Map(), from: new Map() }; // how many edges lead to a topic, and from it
-    for (const edge of edges) {
-      for (const [side, counts] of Object.entries(users)) counts.set(edge[side], (counts.get(edge[side]) ?? 0) + 1);
-    }
+    const { before, after } = neighbours(edges);
     const all = this.#isTopics ? topics : this.#graph[this.#kind].map((name) => ({ name, type: "" }));
     const words = byId("topics-search").value.toLowerCase().split(/\s+/).filter(Boolean);
     const found = all.filter(({ name, type }) => words.every((word) => `${name} ${type}`.toLowerCase().includes(word)));
     const listed = found.sort((a, b) => byName(a.name, b.name)).slice(0, LISTED);
     this.#rows = new Map(listed.map(({ name, type }) => {
       const line = this.#rows.get(name) ?? this.#rowOf(name);
-      const counts = Object.values(users).map((side) => side.get(`topic ${name}`) ?? 0);
+      const counts = [before, after].map((nodes) => nodes[`topic ${name}`]?.length ?? 0);
       [type, ...counts].forEach((text, i) => say(line.cells[i + 1], String(text)));
       line.classList.toggle("chosen", name === this.#chosen);
       return [name, line];
@@ -161,18 +155,16 @@ export class TopicsTab {
     byId("topics-rows").replaceChildren(...this.#rows.values());
     const rest = found.length - listed.length;
     say(byId("topics-count"), `${found.length} of ${all.length}${rest ? `: the first ${LISTED} are listed` : ""}`);
-    if (this.#chosen && this.#isTopics) this.#showTopic();
+    if (this.#chosen && this.#isTopics) this.#showTopic(before, after);
+    this.#describe();
   }
 
   /** What is known of the chosen topic, also once it is there. */
-  #showTopic() {
-    const { topics, edges } = this.#graph;
-    const item = `topic ${this.#chosen}`;
-    const nodes = (near, far) => edges.filter((edge) => edge[near] === item).map((edge) => edge[far].slice(5)).join(", ");
-    this.#type = topics.find(({ name }) => name === this.#chosen)?.type ?? "";
-    say(byId("topics-about"), `${this.#type || "No such topic now"}. Publishers: ${nodes("to", "from") || "none"}.`
-      + ` Subscribers: ${nodes("from", "to") || "none"}.`);
-    this.#describe();
+  #showTopic(before, after) {
+    const names = (nodes) => nodes[`topic ${this.#chosen}`]?.map((node) => node.slice(5)).join(", ") ?? "none";
+    this.#type = this.#graph.topics.find(({ name }) => name === this.#chosen)?.type ?? "";
+    say(byId("topics-about"), `${this.#type || "No such topic now"}. Publishers: ${names(before)}.`
+      + ` Subscribers: ${names(after)}.`);
   }
 
   #rowOf(name) {
@@ -197,13 +189,11 @@ export class TopicsTab {
     byId("topics-echo").replaceChildren();
     this.#pause(false);
     say(byId("topics-title"), name ?? "Choose a name.");
-    say(byId("topics-about"), "");
-    say(byId("topics-definition"), "");
-    for (const part of ["plots", "form", "answer"]) byId(`topics-${part}`).hidden = true;
+    for (const part of ["about", "definition", "answer"]) say(byId(`topics-${part}`), "");
+    for (const part of ["plots", "form"]) byId(`topics-${part}`).hidden = true;
     byId("topics-echoes").hidden = !this.#isTopics || !name;
     if (this.#shown) this.watch({ topic: this.#isTopics ? name : null });
     this.#list();
-    this.#describe();
     this.page.moved(true);
   }
 
@@ -215,15 +205,8 @@ export class TopicsTab {
     }
   }
 
-  #showEcho(echo) {
-    const pre = byId("topics-echo");
-    const atEnd = pre.scrollHeight - pre.scrollTop - pre.clientHeight < 40;
-    pre.append(...echo.map(([, text]) => `${text}\n---\n`));
-    while (pre.childNodes.length > ECHOED) pre.firstChild.remove();
-    if (atEnd) pre.scrollTop = pre.scrollHeight;
-  }
-
   #pause(on) {
+    this.#paused = on;
     byId("topics-pause").setAttribute("aria-pressed", String(on));
     say(byId("topics-pause"), on ? "Resume" : "Pause");
   }
@@ -244,9 +227,9 @@ export class TopicsTab {
     byId("topics-form").hidden = false;
   }
 
-  #send() {
-    const inputs = [...byId("topics-fields").querySelectorAll("input")].filter(({ value }) => value !== "");
-    const values = Object.fromEntries(inputs.map(({ name, value }) => [name, value]));
+  #send(event) {
+    event.preventDefault();
+    const values = Object.fromEntries([...new FormData(event.target)].filter(([, value]) => value !== ""));
     const period = 1 / byId("topics-rate").valueAsNumber || null;
     if (this.#kind === "services") this.link.send("call", { service: this.#chosen, values });
     else if (this.#kind === "parameters") this.link.send("set", { parameter: this.#chosen, values });
@@ -264,10 +247,5 @@ export class TopicsTab {
     this.#repeats = 0;
     this.link.send("publish_end");
     say(byId("topics-send"), "Publish");
-  }
-
-  #answer(text) {
-    byId("topics-answer").hidden = false;
-    say(byId("topics-answer"), text);
   }
 }

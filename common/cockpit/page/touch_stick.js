@@ -48,9 +48,8 @@ export class TouchStick {
       move(event);
     });
     // A lifted pointer loses its capture as well, but only after pointerup.
-    for (const kind of ["pointercancel", "lostpointercapture"]) {
-      target.addEventListener(kind, (event) => holds(event) && this.onLost("the browser took the pointer"));
-    }
+    target.onpointercancel = target.onlostpointercapture =
+      (event) => holds(event) && this.onLost("the browser took the pointer");
   }
 
   /** [left, up] of a pointer from the middle of the stick, at most 1 long. */
