@@ -11,6 +11,13 @@ from tutorial_testing.waiting import tolerance, wait_for
 PERIOD_S, SILENCE_S = 0.05, 0.2  # of what is published, and the silence more that ends it
 
 
+def publishes(page):
+    """Whether the page publishes at a rate; else begin, and again where a busy machine ended it."""
+    if page.text("#topics-send") == "Publish":
+        page.press("#topics-send")
+    return page.text("#topics-send") != "Publish"
+
+
 def test_a_link_shows_what_it_names_reload_keeps_it_and_back_goes_back(world, page):
     def at(place):
         wait_for(lambda: page.driver.current_url == f"{world.address}{place}", place)
@@ -51,13 +58,8 @@ def test_topics_shows_rates_and_messages_publishes_calls_and_sets(world, page, r
     page.one("#topics-rate").send_keys("20")
     with world.run("rostopic", "hz", "/probe") as hz:
         wait_for(lambda: page.ask(cells)[3:4] == ["1"], "its subscriber")
-
-        def rate():
-            if page.text("#topics-send") == "Publish":  # a busy machine ends it
-                page.press("#topics-send")
-            return re.search(r"average rate: (1\d|2[01])\.", hz.output)
-
-        found = wait_for(rate, "20 Hz")
+        rate = r"average rate: (1\d|2[01])\."
+        found = wait_for(lambda: publishes(page) and re.search(rate, hz.output), "20 Hz")
         page.tab("Log")
         wait_for(lambda: "no new messages" in hz.output[found.end() :], "end with its tab")
     page.driver.get(f"{world.address}#topics/probe/rate?kind=parameters")
@@ -83,13 +85,8 @@ def test_a_page_that_is_killed_or_hangs_publishes_a_zero_and_nothing_more(world,
         wait_for(lambda: page.all("[name='linear/x']"), "form")
         page.one("[name='linear/x']").send_keys("0.1")
         page.one("#topics-rate").send_keys(str(1 / PERIOD_S))
-
-        def is_heard():
-            if page.text("#topics-send") == "Publish":  # a busy machine ends it
-                page.press("#topics-send")
-            return echo.output.endswith(",0.1\n") and world.moves
-
-        wait_for(is_heard, "motion")
+        is_heard = lambda: echo.output.endswith(",0.1\n") and world.moves  # noqa: E731
+        wait_for(lambda: publishes(page) and is_heard(), "motion")
         late_s, lost_at = tolerance(), page.signal(number)
         world.wait_for_rest()
         bound_s = PERIOD_S + SILENCE_S + late_s()

@@ -49,9 +49,7 @@ LEFT_OUT = {
 ELSEWHERE = {
     "Two machines": "test_two_hosts.py runs it on two hosts",
     "Exercises of your own": "test/exercises/test_course.py runs it",
-    "From here to ROS 2": "test/ros2 runs it",
-    "Both side by side": "test/ros2 runs it",
-    "With colcon": "test/ros2 runs it",
+    **dict.fromkeys(("From here to ROS 2", "Both side by side", "With colcon"), "test/ros2"),
 }
 STUDENTS_SHELL = "./tutorial shell --in ~/catkin_ws"
 

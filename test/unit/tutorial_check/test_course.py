@@ -3,8 +3,8 @@
 import pytest
 
 from tutorial_check.course import checks_of, read_course
-from tutorial_check.model import CannotCheck
-from tutorial_check.self_test import patch
+from tutorial_check.model import UNREACHED, CannotCheck, Outcome, Result
+from tutorial_check.self_test import complaint_of, patch
 
 YAML = 'title: T\ndocument: sheet\nexercises: {"2": two, "1": {title: one, points: 3}}\n'
 CHECKS = """
@@ -112,3 +112,8 @@ def test_a_patch_changes_adds_and_removes(tmp_path):
         diff.write_text(text)
         with pytest.raises(CannotCheck, match=r"there is no (\.\./)?gone"):
             patch(tmp_path, diff)
+
+
+def test_the_check_that_was_not_reached_is_named():
+    outcomes = [Outcome("1", [Result("K3", UNREACHED, "")])]
+    assert complaint_of("K5", outcomes).endswith("; K3 was not reached")

@@ -177,3 +177,5 @@ def test_a_file_names_the_line_of_the_first_word_that_is_there(make_session):
         with pytest.raises(Wrong) as wrong:
             file.must([], words, "this", 7)
         assert (wrong.value.seen, wrong.value.where) == ("7", where)
+    with pytest.raises(Wrong, match="no such file in the package"):
+        File(session, "p", "b.py")
