@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import threading
 from io import BytesIO
 from typing import Any, Callable, ClassVar, Iterable, Mapping, Sequence
@@ -64,7 +65,9 @@ def read(name: str, slot_type: str, written: str) -> Any:
     try:
         return json.loads(written)
     except (ValueError, RecursionError):
-        raise ValueError(f"{name}: {slot_type} must be as 0.5, true or [1, 2]") from None
+        is_number = re.fullmatch(r"(u?int|float)\d+|byte|char", slot_type)
+        wanted = "a number" if is_number else "as 0.5, true or [1, 2]"
+        raise ValueError(f"{name}: {slot_type} must be {wanted}") from None
 
 
 class Forms(Source):
