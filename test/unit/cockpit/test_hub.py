@@ -26,7 +26,7 @@ class Made(Hub):
 
     def opened(self, role=DRIVER):
         """(a page that has joined, what it is sent)."""
-        client, sent = page(role, number=next(self.numbers))
+        client, sent = page(role, number=next(self.page_numbers))
         self.join(client)
         return client, sent
 

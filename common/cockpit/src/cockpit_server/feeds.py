@@ -19,7 +19,7 @@ from cockpit_server.guard import Guard
 PERIOD_S = 0.05  # how often a topic is read of which only the newest message is wanted
 # One thread for all questions to the master that may wait: they are asked one after the other.
 _worker = ThreadPoolExecutor(1, thread_name_prefix="to_the_master")
-_queued: set[Callable[[], Any]] = set()  # by later_once()
+_queued: set[Callable[[], Any]] = set()  # later_once() queues each once.
 
 
 def later(action: Callable[..., Any], *arguments: Any) -> None:

@@ -33,7 +33,7 @@ class Hub:
         self._handlers: dict[str, Callable[..., None]] = {WATCH: self._on_watch}
         for one in sources:
             self._handlers.update({kind: getattr(one, f"on_{kind}") for kind in one.messages})
-        self.numbers = itertools.count(1)  # of pages
+        self.page_numbers = itertools.count(1)
         self._messages = limits.Budget(limits.MESSAGES_BURST_S, limits.MESSAGE_S)
         self._sending = limits.Budget(limits.SENDING_BURST_S, 0.0)
         self._requests = limits.Budget(  # HTTP

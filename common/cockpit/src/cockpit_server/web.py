@@ -139,8 +139,8 @@ class _Socket(_Guarded, WebSocketHandler):
         self.settings["pages"].add(self.stream)
         self.bound_reads()
         self.client = Client(
-            next(self.hub.numbers), str(self.role), self.address, self.send, self.stream.writing,
-            self.is_cut, self.stream.close,
+            next(self.hub.page_numbers), str(self.role), self.address, self.send,
+            self.stream.writing, self.is_cut, self.stream.close,
         )  # fmt: skip
         self.hub.join(self.client)
 

@@ -23,10 +23,10 @@ class Order:
     only_first: bool = False  # end at the first check that is wrong
     own: bool = True  # the caller's own workspace, whose links may lead into the home folder
     course: Path = OURS
-    variant: Variant = field(default_factory=dict)  # of the student
+    variant: Variant = field(default_factory=dict)  # The student's task names it.
     folder: Path = Path()  # for this order alone; the copy of the workspace is in it
-    layout: Layout = field(default_factory=Layout)  # of the workspace as it was handed in
-    environment: Dict[str, str] = field(default_factory=dict)  # of a shell with the underlay
+    layout: Layout = field(default_factory=Layout)  # Messages name places as they were handed in.
+    environment: Dict[str, str] = field(default_factory=dict)  # A shell with the underlay has it.
     kept: Tuple[Path, ...] = ()  # what the student's programs need of the suite
     shown: Tuple[Path, ...] = ()  # what they may read
     apart: bool = False  # in namespaces of its own, by bubblewrap

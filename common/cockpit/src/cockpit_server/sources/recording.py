@@ -25,9 +25,9 @@ class Recording(NamedTuple):
     """What is in a bag."""
 
     duration: float  # [s]
-    types: dict[str, str]  # of topics
+    types: dict[str, str]  # Each topic has one.
     joys: dict[str, list[Message]]  # topic -> [(time since the start [s], axes, buttons)]
-    message: str  # what pages get of it
+    message: str  # Pages get this of it.
 
 
 def read(path: Path) -> Recording:
