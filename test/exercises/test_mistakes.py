@@ -47,5 +47,6 @@ def test_a_mistake_is_found(row, literal, examined):
 def test_a_mistake_is_found_in_all_exercises(row, literal, underlay):
     """Its cause is reported, maybe by an earlier check, and it keeps no other one from a verdict."""
     apply(row[2], literal)
-    wrong = wrong_of(examine(Order(literal.parent, underlay, read_course().by_default)))
+    order = Order(literal.parent, underlay, read_course().by_default)
+    wrong = wrong_of(examine(order, side_by_side=True))
     assert any(is_reported(one, row[4]) for one in wrong), [lines_of(one) for one in wrong]

@@ -19,7 +19,8 @@ def test_each_exercise_and_all_of_them(tmp_path, figure):
     parts = {f"{name} {course.exercises[name].title}": [name] for name in course.by_default}
     for what, exercises in {**parts, "all of them": course.by_default}.items():
         began_s = time.monotonic()
-        outcomes = examine(Order(tmp_path / "ws", os.environ["TUTORIAL_UNDERLAY"], exercises))
+        order = Order(tmp_path / "ws", os.environ["TUTORIAL_UNDERLAY"], exercises)
+        outcomes = examine(order, side_by_side=True)
         took_s = time.monotonic() - began_s
         assert all(outcome.passed for outcome in outcomes), outcomes
         longest_s = ALL_S if exercises[1:] else ONE_S

@@ -2,11 +2,13 @@
 
 import json
 from dataclasses import dataclass
+from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
 
 from tutorial_check import launcher, worker_process
+from tutorial_check.ask_once import AskOnce
 from tutorial_check.isolation import bubblewrap
 from tutorial_check.model import CannotCheck, Check
 from tutorial_check.order import Order
@@ -97,3 +99,26 @@ def test_what_was_found_before_the_time_was_over(examine, monkeypatch):
 def test_a_worker_that_records_nothing_gives_no_verdict(examine, answers, why):
     with pytest.raises(CannotCheck, match=why):
         examine(answers)
+
+
+def test_two_workers_record_each_thing_once():
+    asked, shared = [], {}
+
+    def worker(name, ends=False):
+        def ask(question):
+            asked.append((name, question["recorder"]))
+            if ends:
+                raise worker_process.Ended
+            return {"seen": f"/{name}/ws"}
+
+        return AskOnce(ask, Path(f"/{name}"), shared)
+
+    one, other = worker("one"), worker("other")
+    assert other({"recorder": "talk"}) == {"seen": "/other/ws"}
+    assert one({"recorder": "talk"}) == {"seen": "/one/ws"}  # A path is its own.
+    assert one({"recorder": "talk"}) == {"seen": "/one/ws"}  # A second look is a new recording.
+    with pytest.raises(worker_process.Ended):
+        worker("last", ends=True)({"recorder": "drive"})
+    one({"recorder": "drive"})
+    talk, drive = [("other", "talk"), ("one", "talk")], [("last", "drive"), ("one", "drive")]
+    assert asked == talk + drive

@@ -175,7 +175,7 @@ def _look(options: argparse.Namespace, only_first: bool = False) -> list[Outcome
             own=not (options.gradescope or options.classroom),
             course=options.course.folder, variant=variant_of(options.course, options, ""),
         )  # fmt: skip
-        outcomes = examine(order, terminal.result)
+        outcomes = examine(order, terminal.result, side_by_side=order.own)
     finally:
         terminal.busy("")
     for one in outcomes:

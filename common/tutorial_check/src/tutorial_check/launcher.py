@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import compileall
+import contextlib
 import functools
 import itertools
 import json
@@ -10,11 +11,13 @@ import os
 import shlex
 import shutil
 import subprocess
+import threading
 import time
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, Callable, cast
+from typing import Any, Callable, Iterator, cast
 
+from tutorial_check.ask_once import HANDED_IN, Answers, Ask, AskOnce
 from tutorial_check.course import FILE, OURS, Course, checks_of, read_course
 from tutorial_check.isolation import bubblewrap, privileges
 from tutorial_check.isolation.environment import environment_of
@@ -34,9 +37,7 @@ SUITE = Path(__file__).resolve().parents[4]
 NUMBERS = itertools.count(os.getpid() * 100)
 
 
-Ask = Callable[[Line], Line]  # the worker: question -> answer
 Report = Callable[[Outcome, Result], None]
-HANDED_IN = "{handed_in}"  # in recordings: the folder with the copy of the workspace
 
 
 class Case(Session):
@@ -103,17 +104,42 @@ class Case(Session):
         return Result(**found)
 
 
-def examine(asked: Order, report: Report = lambda outcome, result: None) -> list[Outcome]:
-    """Return the Outcomes of a workspace; report each result as it comes. Raises CannotCheck."""
+def examine(
+    asked: Order,
+    report: Report = lambda outcome, result: None,
+    side_by_side: bool = False,
+) -> list[Outcome]:
+    """Return the Outcomes of a workspace; report each result as it comes. Raises CannotCheck.
+
+    side_by_side: a second worker may record what the last exercises need while the first are made.
+    """
     if not os.path.isfile(asked.underlay):
         why = "no such file, or may not be read; ./tutorial setup builds it"
         raise CannotCheck(f"{asked.underlay}: {why}")
+    # A worker, which writes nothing, would compile our modules each time.
+    compileall.compile_dir(str(Path(__file__).parent), quiet=2)
+    course = read_course(asked.course)
+    try:
+        with contextlib.ExitStack() as stack:
+            order, worker = stack.enter_context(_worker(asked))
+            ask: Ask = worker.ask
+            several = len(asked.exercises) > 1 and len(os.sched_getaffinity(0)) > 1
+            if side_by_side and several and order.apart:
+                ask = stack.enter_context(_with_another(asked, course, ask, order.folder))
+            outcomes = judge(order, course, ask, report)
+        remark = "" if order.own else bubblewrap.instead()
+        return [replace(one, place=order.layout.place, remark=remark) for one in outcomes]
+    except Ended as error:  # before a first result
+        raise CannotCheck(str(error)) from None
+
+
+@contextlib.contextmanager
+def _worker(asked: Order) -> Iterator[tuple[Order, Worker]]:
+    """Yield the whole order and a worker that can record."""
     user = privileges.unused_user(next(NUMBERS)) if os.geteuid() == 0 else None
     # Isolated, a worker does not reach the folder itself.
     folder, cleaner = privileges.folder_until_end("tutorial_check_")
     try:
-        # A worker, which writes nothing, would compile our modules each time.
-        compileall.compile_dir(str(Path(__file__).parent), quiet=2)
         order = prepared(asked, Path(folder))
         wrapper = bubblewrap.command(folder, order.shown, SUITE)
         order = replace(order, apart=bool(wrapper))
@@ -122,15 +148,30 @@ def examine(asked: Order, report: Report = lambda outcome, result: None) -> list
             privileges.open_to(user, folder)
         with Worker(order, [*wrapper, *privileges.as_user(user)]) as worker:
             worker.begin()
-            outcomes = judge(order, read_course(asked.course), worker.ask, report)
-        remark = "" if order.own else bubblewrap.instead()
-        return [replace(one, place=order.layout.place, remark=remark) for one in outcomes]
-    except Ended as error:  # before a first result
-        raise CannotCheck(str(error)) from None
+            yield order, worker
     finally:
         if user is not None:
             subprocess.run([*privileges.as_user(user), "sh", "-c", "kill -KILL -1"], check=False)
         cleaner.communicate()
+
+
+@contextlib.contextmanager
+def _with_another(asked: Order, course: Course, ask: Ask, folder: Path) -> Iterator[Ask]:
+    """Yield ask() of a worker, while another one makes the checks from the last exercise on."""
+    shared: Answers = {}
+    with _worker(replace(asked, exercises=asked.exercises[::-1])) as (order, other):
+
+        def make_checks() -> None:
+            with contextlib.suppress(Exception, Ended):  # what it knows by then is of use
+                judge(order, course, AskOnce(other.ask, order.folder, shared))
+
+        thread = threading.Thread(target=make_checks)
+        thread.start()
+        try:
+            yield AskOnce(ask, folder, shared)
+        finally:
+            other.end()
+            thread.join()
 
 
 def prepared(asked: Order, folder: Path) -> Order:

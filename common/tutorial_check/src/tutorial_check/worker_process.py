@@ -69,17 +69,28 @@ class Worker:
         return self
 
     def __exit__(self, *_: object) -> None:
-        self._line.close()  # so that it ends
         try:
+            self.end()
             with contextlib.suppress(subprocess.TimeoutExpired):
-                self._process.wait(0 if self._order.apart else END_S)
+                self._process.wait(END_S)
         finally:
-            if self._process.poll() is None:
-                # With it all of its namespaces. Its group: bubblewrap's child, until it may go on,
-                # would wait without end for a parent that is gone.
-                os.killpg(self._process.pid, signal.SIGKILL)
+            self._kill()
             self._process.wait()
+            self._line.close()
             self._log.close()
+
+    def end(self) -> None:
+        """Let it answer no more: who waits for an answer gets Ended."""
+        with contextlib.suppress(OSError):  # it has ended
+            self._line.shutdown(socket.SHUT_RDWR)
+        if self._order.apart:
+            self._kill()
+
+    def _kill(self) -> None:
+        if self._process.poll() is None:
+            # With it all of its namespaces. Its group: bubblewrap's child, until it may go on,
+            # would wait without end for a parent that is gone.
+            os.killpg(self._process.pid, signal.SIGKILL)
 
     def begin(self) -> None:
         """Give it the order; wait until it can record. Raises CannotCheck, or Ended."""
