@@ -10,13 +10,13 @@ import shutil
 import signal
 import subprocess
 import tempfile
-import time
 from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
 
-from tutorial_testing.processes import signal_all, with_environment
+from tutorial_testing.processes import command_line, signal_all, with_environment
+from tutorial_testing.waiting import wait_for
 
 RESULTS = Path(os.environ["TUTORIAL_RESULTS"]) / "rostests"
 ONE = Path(__file__).with_name("one.test")
@@ -100,6 +100,10 @@ def own_network():
 
 def end_all(home):
     """Kill what rostests started, known by ROS_HOME: roslaunch gives each node its own session."""
-    for pids in iter(lambda: with_environment(f"ROS_HOME={home}"), []):
+
+    def left():
+        pids = with_environment(f"ROS_HOME={home}")
         signal_all(pids, signal.SIGKILL)
-        time.sleep(0.05)
+        return [f"{pid}: {command_line(pid)}".replace("\0", " ") for pid in pids]
+
+    wait_for(lambda: not left(), f"end of all that has ROS_HOME={home}", seen=left)
