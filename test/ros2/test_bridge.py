@@ -3,6 +3,7 @@
 import os
 import re
 import shutil
+import threading
 from pathlib import Path
 
 import pytest
@@ -15,10 +16,10 @@ from sensor_msgs.msg import Image
 from std_msgs.msg import String
 
 from node_kit import ros2_python
-from node_kit.raw_messages import senders, subscribe
-from node_kit.rospy_patches.connections import sender_of
+from node_kit.raw_messages import RawPublisher, senders, subscribe
+from node_kit.rospy_patches.connections import header_of, sender_of
 from tutorial_testing.robot import Robot
-from tutorial_testing.waiting import wait_for
+from tutorial_testing.waiting import DEADLINE_S, wait_for
 
 SOURCES = REPOSITORY / "common/ros2_bridge/src/ros2_bridge"
 PROGRAMS = CLASS.parent
@@ -30,26 +31,16 @@ HOSTILE = "\u00e4 { } %s \\ \n <script>"  # without \0, which ends a text of ROS
 VELOCITY = {"/cmd_vel": "to_ros1"}
 
 
-def latching(twists):
-    """[(velocity, "1" if its connection latches)]"""
-    return [(each.linear.x, each._connection_header["latching"]) for each in twists]
-
-
 def latched(topic, message):
     publisher = rospy.Publisher(topic, type(message), queue_size=1, latch=True)
     publisher.publish(message)
     return publisher
 
 
-@pytest.fixture
-def twists(ear):
-    return ear("/cmd_vel", Twist)
-
-
-def test_every_joy_becomes_one_twist_equal_to_the_bit(bridge, start, start_ros2, twists, stick):
+def test_every_joy_becomes_one_twist_equal_to_the_bit(bridge, start, start_ros2, ear, stick):
     """One after the other, without an age limit: so none is late on a busy machine."""
     bridge({"/joy": "to_ros2", **VELOCITY})
-    start_ros2(CLASS)
+    twists, _ = ear("/cmd_vel", Twist), start_ros2(CLASS)
     wait_for(lambda: stick.push(0.5, 0.25) in carried(twists), "a first Twist")
     for number in range(int(RATE * SECONDS)):
         sent = stick.push(0.001 * number, 0.002 * number)
@@ -70,19 +61,34 @@ def test_the_launch_file_has_the_bridge_in_place_of_joy2twist(start):
 
 
 @pytest.mark.parametrize("topics", [None, VELOCITY], ids=["with our age limit", "without a limit"])
-def test_drivers_of_any_quality_are_carried_in_turn(bridge, start_ros2, twists, topics):
-    """And no velocity is latched that has an age limit."""
+def test_drivers_of_any_quality_are_carried_in_turn(bridge, start, start_ros2, topics):
+    """Also to a subscriber that is busy while the next one is carried to another subscriber.
+
+    And no velocity is latched that has an age limit.
+    """
+    heard, are_carried = [], [threading.Event() for _ in range(6)]  # by the driver's number
+
+    def hear(twist):
+        speed = int(twist.linear.x)
+        heard.append((speed, header_of(twist)["latching"]))
+        are_carried[speed + 1].wait(DEADLINE_S)
+
     bridge(topics)
+    subscriber = rospy.Subscriber("/cmd_vel", Twist, hear)
+    other = start("rostopic", "echo", "-p", "/cmd_vel/linear/x")
     kept, plain = "transient_local", "volatile"
     for speed, (durability, reliability) in enumerate(
         [(kept, "reliable"), (plain, "best_effort"), (kept, "best_effort"), (plain, "reliable")], 1
     ):
         driver = start_ros2(DRIVER, durability, reliability, speed)
-        now = speed, "1" if topics and durability == kept else "0"
-        wait_for(lambda now=now: latching(twists)[-1:] == [now], f"driver {speed}")
+        wait_for(lambda text=f",{speed}.0\n": text in other.output, f"driver {speed}")
+        are_carried[speed].set()
+        now = speed, "1" if topics else "0"
+        wait_for(lambda now=now: heard[-1:] == [now], f"driver {speed} at the busy subscriber")
         driver.interrupt()
         driver.wait()
-    assert topics or {latches for _, latches in latching(twists)} == {"0"}
+    are_carried[-1].set()
+    subscriber.unregister()
 
 
 def test_quality_of_service_and_what_is_kept_for_late_subscribers(start_ros2):
@@ -98,14 +104,20 @@ def test_quality_of_service_and_what_is_kept_for_late_subscribers(start_ros2):
 
 
 def test_the_first_message_of_a_connection_is_known_and_who_is_connected():
-    heard, old = [], latched("/old", String("old"))
+    """What a late subscriber gets was latched; a message that was not replaces it."""
+    heard, publisher = [], RawPublisher("/old", "std_msgs/String", 10, is_latched=False)
+    publisher.publish(b"old", True)
     subscriber = subscribe("/old", heard.append, 10)
     wait_for(lambda: heard, "what was latched")
-    old.publish("new")
+    publisher.publish(b"new", False)
     wait_for(lambda: len(heard) == 2, "a second message")
-    assert [(raw.is_latched, raw.is_first) for raw in heard] == [(True, True), (True, False)]
+    subscriber.unregister()
+    subscriber = subscribe("/old", heard.append, 10)
+    wait_for(lambda: publisher.publish(b"next", False) or len(heard) > 2, "a third message")
+    seen = [(raw.data, raw.is_latched, raw.is_first) for raw in heard[:3]]
+    assert seen == [(b"old", True, True), (b"new", True, False), (b"next", False, True)]
     assert senders(subscriber) == {rospy.get_name()}
-    old.unregister()
+    publisher.end()
     wait_for(lambda: not senders(subscriber), "an end of the connection")
     subscriber.unregister()
 

@@ -47,7 +47,10 @@ class RawPublisher:
     """Publishes bytes as messages of a type that is known by its name."""
 
     def __init__(self, topic: str, kind: str, depth: int, is_latched: bool) -> None:
-        """Take the type as package/Name. Raises LookupError if ROS 1 has no such type here."""
+        """Take the type as package/Name. Raises LookupError if ROS 1 has no such type here.
+
+        is_latched: what the connections' headers say until a first message is published.
+        """
         known = roslib.message.get_message_class(kind)
         if known is None or not issubclass(known, genpy.Message):
             raise LookupError(f"{kind}: ROS 1 has no such type here")
@@ -57,10 +60,15 @@ class RawPublisher:
             topic, self._class, queue_size=depth, latch=is_latched, tcp_nodelay=True
         )
 
-    def publish(self, data: bytes) -> None:
-        """Send the bytes of a message."""
+    def publish(self, data: bytes, is_latched: bool) -> None:
+        """Send the bytes of a message. is_latched: keep it for late subscribers, until the next."""
         message = self._class()
         message._buff = data
+        # A new rospy.Publisher in its place may lose subscribers: one that has not yet closed the
+        # old connection takes itself for connected to this node, and does not connect again.
+        impl = self._publisher.impl
+        impl.latch = message  # before is_latch, because another thread of rospy reads both
+        impl.is_latch = is_latched
         self._publisher.publish(message)
 
     def end(self) -> None:

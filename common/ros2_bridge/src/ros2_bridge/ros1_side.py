@@ -40,8 +40,7 @@ class Ros1Side:
         self._latched: dict[tuple[str, str], Frame] = {}
         self._last_seen_s: dict[str, float] = {}  # by topic: when the last latched sender was there
         self._subscribers: dict[str, rospy.Subscriber] = {}
-        # By topic, with the type and whether it is latched.
-        self._publishers: dict[str, tuple[tuple[str, bool], RawPublisher | None]] = {}
+        self._publishers: dict[str, tuple[str, RawPublisher | None]] = {}  # by topic, with the type
         self._lock = threading.Lock()
         self._not_carried: dict[str, str] = {}  # by topic: why it is not carried
         self._sign_s, self._wrong = -SILENT_S, ""  # last sign of life of the other side; its lines
@@ -158,16 +157,15 @@ class Ros1Side:
         if route and route.to_ros1 and not is_late(frame, route.longest_s):
             publisher = self._publisher(route, frame)
             if publisher and not frame.announces:
-                publisher.publish(frame.data)
+                publisher.publish(frame.data, frame.is_latched)
                 self._not_carried.pop(frame.topic, None)
 
     def _publisher(self, route: Route, frame: Frame) -> RawPublisher | None:
-        (kind, is_latched), publisher = self._publishers.get(frame.topic, (("", False), None))
-        if (kind, is_latched) == (frame.type, frame.is_latched):
+        kind, publisher = self._publishers.get(frame.topic, ("", None))
+        if kind == frame.type:
             return publisher
         if publisher:
-            if kind != frame.type:
-                self._warn(f"{frame.topic} is now {frame.type} in ROS 2, and no more {kind}")
+            self._warn(f"{frame.topic} is now {frame.type} in ROS 2, and no more {kind}")
             publisher.end()
             publisher = None
         self._not_carried.pop(frame.topic, None)
@@ -176,7 +174,7 @@ class Ros1Side:
             publisher = RawPublisher(frame.topic, name, route.depth, frame.is_latched)
         except LookupError as error:
             self._warn_of(frame.topic, str(error))
-        self._publishers[frame.topic] = (frame.type, frame.is_latched), publisher
+        self._publishers[frame.topic] = frame.type, publisher
         return publisher
 
 
