@@ -14,15 +14,11 @@ CHOSEN = {
 NARROW = (320, 256)  # 1280 x 1024 at 400 %: WCAG 2.2, 1.4.10
 VIEWS = {"dark": (1280, 800), "light": NARROW}
 WCAG = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22a", "wcag22aa"]
-
-
 # The widest of what is shown, beside pictures and tables that may be scrolled.
 WIDEST = """Math.max(document.documentElement.scrollWidth,
   ...[...document.querySelectorAll("body *")].filter((one) => one.getClientRects().length
     && !one.closest("#graph-picture svg, pre, .unseen, table"))
     .map((one) => one.getBoundingClientRect().right))"""
-
-
 # What is wrong alone is looked at closely, and comes back: all else would take twice as long.
 AXE = """const [given, done] = arguments, options = {runOnly: given, resultTypes: ["violations"]};
 axe.run(document, options).then((found) => done(found.violations));"""

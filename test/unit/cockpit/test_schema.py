@@ -11,8 +11,6 @@ from tutorial_testing.socket_page import GOOD
 
 SOURCES = [one for one in Source.__subclasses__() if one.__module__.startswith("cockpit_server.")]
 SCHEMA = Schema(SOURCES)
-
-
 LONG = "x" * 41
 
 
