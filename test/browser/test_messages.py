@@ -2,7 +2,7 @@
 
 # A tab of its own beside that of the page. hear() is a message of the server; `sent` is what the
 # tab asks for.
-TAB = """const [given, done] = arguments, sent = [], handlers = {};
+TAB = """const [done] = arguments, sent = [], handlers = {};
 const watch = (fields) => sent.push(["watch", fields]);
 const link = {isOpen: true, send(kind, fields) { return sent.push([kind, fields]); },
               on(kind, handler) { (handlers[kind] ??= []).push(handler); }};
@@ -10,19 +10,10 @@ const hear = (kind, message) => handlers[kind].forEach((one) => one({kind, ...me
 const byId = (id) => document.getElementById(id);
 import('/page/%s').then((tabs) => { %s });"""
 
-ROBOT_TAB = """const buttons = {D: [], X: []};
-const hello = (names) => {
-  hear("hello", {id: 1, role: "driver", buttons});
-  hear("robots", {robots: Object.fromEntries(names.map((name) => [name, {}]))});
-};
-const rowOf = (name) => document.querySelector(`#robots [data-robot=${name}]`);
-const tab = new tabs.RobotTab(link, watch, {notice() {}, moved() {}});"""
-TWO = ["robot_1", "robot_2"]
-
 
 def run(page, module, script):
-    """Make a tab of this module; return what the script calls done() with. given: TWO."""
-    return page.driver.execute_async_script(TAB % (module, script), TWO)
+    """Make a tab of this module; return what the script calls done() with."""
+    return page.driver.execute_async_script(TAB % (module, script))
 
 
 def test_new_connection_opens_the_recording_again_and_publishes_nothing(page):
@@ -52,16 +43,20 @@ def test_log_keeps_1000_lines_on_a_change_of_tab_and_none_on_a_new_connection(pa
 
 
 def test_a_driver_who_is_handed_a_robot_looks_at_no_other(page):
-    script = """hello(given);
+    script = """const tab = new tabs.RobotTab(link, watch, {notice() {}, moved() {}});
+    const robots = {robot_1: {}, robot_2: {}};
+    const choose = () => document.querySelector("#robots [data-robot=robot_1]").click();
+    hear("hello", {id: 1, role: "driver", buttons: {D: [], X: []}});
+    hear("robots", {robots});
     const session = {driver: 1, name: "x", robot: "robot_2", plays: false, armed: false, why: ""};
     hear("session", {...session, yours: false});
     const before = tab.look;
     hear("session", {...session, yours: true});
     const watched = sent.filter(([kind]) => kind === "watch").at(-1)[1];
-    hear("robots", {robots: {robot_1: {}, robot_2: {}}});
-    rowOf("robot_1").click();
+    hear("robots", {robots});
+    choose();
     const driving = [tab.look, tab.floor.look, watched.look];
     hear("session", {...session, driver: null, yours: false});
-    rowOf("robot_1").click();
+    choose();
     done([before, driving, tab.look]);"""
-    assert run(page, "robot_tab.js", ROBOT_TAB + script) == ["robot_1", ["robot_2"] * 3, "robot_1"]
+    assert run(page, "robot_tab.js", script) == ["robot_1", ["robot_2"] * 3, "robot_1"]

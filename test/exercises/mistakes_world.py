@@ -10,7 +10,6 @@ BUMPER, STOP, WANDER = (f"{B}/scripts/{name}" for name in NAMES)
 SOLVED = [write(f"{B}/scripts/{name}", (OURS / name).read_text()) for name in NAMES]
 bumper, stop, wander = (mistake_in("7", path, *SOLVED) for path in (BUMPER, STOP, WANDER))
 
-
 # What a busy machine may do: rospy is connected long before it attaches the callback.
 LATE = """import rospy
 import time

@@ -6,17 +6,8 @@ from typing import Dict
 
 import pytest
 
-from node_kit.parameters import (
-    checked,
-    is_number,
-    number,
-    parameter,
-    switch,
-    table,
-    text,
-    unknown,
-    whole_number,
-)
+from node_kit import parameters
+from node_kit.parameters import number, parameter, switch, text, whole_number
 
 
 @dataclass(frozen=True)
@@ -42,7 +33,7 @@ class Entry:
 
 def message_of(given, kind=Parameters, **more):
     with pytest.raises(ValueError) as caught:
-        checked(kind, given, **more)
+        parameters.checked(kind, given, **more)
     return str(caught.value)
 
 
@@ -61,7 +52,7 @@ def message_of(given, kind=Parameters, **more):
 )  # fmt: skip
 def test_what_is_allowed(name, good, bad, allowed):
     for value in good:
-        kept = checked(Parameters, {name: value})[name]
+        kept = parameters.checked(Parameters, {name: value})[name]
         assert kept == value
         assert isinstance(kept, type(getattr(Parameters(), name)))
     for value in bad:
@@ -69,9 +60,9 @@ def test_what_is_allowed(name, good, bad, allowed):
 
 
 def test_a_number_is_finite_and_fits_in_a_float():
-    assert [is_number(value) for value in (1.7e308, -1, 0, 10**308)] == [True] * 4
+    assert [parameters.is_number(value) for value in (1.7e308, -1, 0, 10**308)] == [True] * 4
     bad = [nan, inf, -inf, 10**309, -(10**309), True, "1", None]
-    assert [is_number(value) for value in bad] == [False] * len(bad)
+    assert [parameters.is_number(value) for value in bad] == [False] * len(bad)
 
 
 TABLE = """\
@@ -88,15 +79,15 @@ TABLE = """\
 
 
 def test_the_table_in_a_readme():
-    assert table(Parameters) == TABLE
-    assert table(Entry, where="").endswith("\n| `topic` |  | a text |  |\n")
+    assert parameters.table(Parameters) == TABLE
+    assert parameters.table(Entry, where="").endswith("\n| `topic` |  | a text |  |\n")
 
 
 def test_each_set_of_defaults_has_a_map_of_its_own():
-    values = checked(Parameters, {})
+    values = parameters.checked(Parameters, {})
     assert Parameters(**values) == Parameters()
     values["robots"]["ada"] = 1.0
-    assert checked(Parameters, {})["robots"] == {}
+    assert parameters.checked(Parameters, {})["robots"] == {}
 
 
 def test_a_missing_one_and_where_it_is():
@@ -104,5 +95,5 @@ def test_a_missing_one_and_where_it_is():
     assert line == "entry 2: topic: missing; as in topic: a"
     line = "entry 2: topci: 1: no such parameter; did you mean topic?"
     assert message_of({"topci": 1}, Entry, where="entry 2: ") == line
-    assert unknown("topci", 1, ["topic"], where="~entry 2: ") == f"~{line}"
-    assert checked(Entry, {"topic": "/odom"}) == {"topic": "/odom"}
+    assert parameters.unknown("topci", 1, ["topic"], where="~entry 2: ") == f"~{line}"
+    assert parameters.checked(Entry, {"topic": "/odom"}) == {"topic": "/odom"}

@@ -57,7 +57,6 @@ class Raw:
 
 RawJoy, RawTwist = type("RawJoy", (Raw, Joy), {}), type("RawTwist", (Raw, Twist), {})
 
-
 # Cut, or with wrong lengths; of what is too long rospy reads the beginning.
 BROKEN = (b"", bytes(20), serialised(HELD)[:-3], b"\xff" * 100_000)
 

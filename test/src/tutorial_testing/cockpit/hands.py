@@ -61,13 +61,12 @@ class Hands:
 class Keys(Hands):
     codes = ("ShiftLeft", "ArrowUp")
 
-    def hold(self):
+    def hold(self, repeats=False):
         for code in self.codes:
-            self.browser.key("rawKeyDown", code)
+            self.browser.key("rawKeyDown", code, repeats)
 
     def still_held(self):
-        for code in self.codes:
-            self.browser.key("rawKeyDown", code, repeats=True)
+        self.hold(repeats=True)
 
     def release(self):
         for code in self.codes:
