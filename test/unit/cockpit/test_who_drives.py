@@ -11,8 +11,8 @@ from cockpit_server.clients import LOOKS_ONLY, RefusedError
 from cockpit_server.driving.player import Player
 from cockpit_server.driving.teleop import DEADMAN, SILENT, Teleop
 from cockpit_server.driving.who_drives import CONNECT_S, Driving
-from cockpit_server.driving.words import Report
-from cockpit_server.graph import JOY, Graph
+from cockpit_server.driving.words import NO_ROBOT, TURTLES, Report
+from cockpit_server.graph import JOY, POSE, Graph
 from tutorial_testing.session_room import ANNA, BOB, DRIVE, REST, Topics, look, page
 
 ADA = {"robot": "ada", "mode": "D"}
@@ -118,6 +118,13 @@ def test_page_is_told_beforehand_what_drive_would_be_refused_for(
     if refusal:
         with pytest.raises(RefusedError, match=refusal):
             made.on_drive(made.anna[0], 0.0, robot, "D")
+
+
+@pytest.mark.parametrize(("nodes", "refusal"), [((), NO_ROBOT), ({"/sim"}, TURTLES)])
+def test_without_a_robot_the_page_says_what_is_running(nodes, refusal):
+    made, topic = Made(), "/turtle1/pose"
+    made._graphs.graph = Graph(publishers={topic: nodes}, types={topic: POSE})
+    assert made.refusal(made.anna[0], "", 0.0) == refusal
 
 
 def test_pages_are_sent_each_change_of_the_driver(driven):

@@ -8,7 +8,7 @@ from typing import Any, Container, Dict, FrozenSet, Iterable, Iterator
 from cockpit_server.clients import RefusedError
 
 Column = Dict[str, FrozenSet[str]]
-ODOMETRY, JOY = "nav_msgs/Odometry", "sensor_msgs/Joy"
+ODOMETRY, JOY, POSE = "nav_msgs/Odometry", "sensor_msgs/Joy", "turtlesim/Pose"
 
 
 @dataclass(frozen=True)
@@ -37,6 +37,11 @@ class Graph:
     def robots(self) -> set[str]:
         """Return all robots, which have an odometry or hear a /joy; "" has no namespace."""
         return self.robots_with_odometry() | self._robots_with("/joy", JOY, self.subscribers)
+
+    def turtlesims(self) -> set[str]:
+        """Return the nodes that publish where turtles are."""
+        topics = [topic for topic, kind in self.types.items() if kind == POSE]
+        return {node for topic in topics for node in self.publishers.get(topic, ())}
 
     def _robots_with(self, end: str, kind: str, column: Column) -> set[str]:
         topics = [topic for topic, nodes in column.items() if nodes and topic.endswith(end)]

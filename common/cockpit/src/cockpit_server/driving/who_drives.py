@@ -80,9 +80,12 @@ class Driving(Source):
 
     def refusal(self, client: Client, robot: str, now: float) -> str:
         """Return why a page may not drive a robot now, or ""."""
-        robots = self._graphs.graph.robots()
+        graph = self._graphs.graph
+        robots = graph.robots()
+        if not robots:
+            return words.TURTLES if graph.turtlesims() else words.NO_ROBOT
         if robot not in robots:
-            return f"there is no robot {robot!r}" if robots else words.NO_ROBOT
+            return f"there is no robot {robot!r}"
         if not client.drives:
             return LOOKS_ONLY
         rival = self._joysticks.rival(robot, now - RIVAL_S)

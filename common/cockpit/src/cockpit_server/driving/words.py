@@ -7,6 +7,7 @@ from gamepad.gamepads import F710
 from node_kit.arming import DRIVING
 
 NO_ROBOT = "no robot is running yet: start one, for example with ./tutorial demo"
+TURTLES = "only turtles are running, which turtle_teleop_key moves: ./tutorial demo starts a robot"
 
 
 class Report(NamedTuple):

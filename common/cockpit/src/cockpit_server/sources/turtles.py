@@ -12,7 +12,6 @@ from cockpit_server.graph_watch import GraphWatch
 from cockpit_server.schema import switch
 from node_kit.ros_api import Answer, call
 
-POSE = "turtlesim/Pose"
 PERIOD_S, TIMEOUT_S = 0.1, 0.5  # between two questions to a node; for its answer
 LONGEST_PICTURE = 1_000_000  # characters of base64
 
@@ -33,10 +32,7 @@ class Turtles(Source):
         if not watched or self._is_asking or now < self._next_s:
             return
         self._is_asking, self._next_s = True, now + PERIOD_S
-        graph = self._graphs.graph
-        topics = [topic for topic, kind in graph.types.items() if kind == POSE]
-        nodes = {node for topic in topics for node in graph.publishers.get(topic, ())}
-        self._asker.submit(self._ask, sorted(nodes))
+        self._asker.submit(self._ask, sorted(self._graphs.graph.turtlesims()))
 
     def _ask(self, nodes: Sequence[str]) -> None:
         found = {node: self._newest(node, *self._pictures.get(node, (-1, ""))) for node in nodes}
