@@ -60,6 +60,7 @@ def test_topics_shows_rates_and_messages_publishes_calls_and_sets(world, page, r
         wait_for(lambda: page.ask(cells)[3:4] == ["1"], "its subscriber")
         rate = r"average rate: (1\d|2[01])\."
         found = wait_for(lambda: publishes(page) and re.search(rate, hz.output), "20 Hz")
+        page.wait_for_text("#topics-about", "Publishers: /cockpit")
         page.tab("Log")
         wait_for(lambda: "no new messages" in hz.output[found.end() :], "end with its tab")
     page.driver.get(f"{world.address}#topics/probe/rate?kind=parameters")

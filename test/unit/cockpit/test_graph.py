@@ -33,8 +33,9 @@ def test_robots_hear_a_joystick_or_have_an_odometry():
     assert without("/cockpit", column, ["/joy"]) == {"/odom": {"/sim"}, "/joy": {"/cockpit"}}
 
 
+PUBLISHERS = [["/odom", ["/sim"]], ["/x", ["/cockpit"]], ["/rosout", ["/cockpit"]]]
 WELL = {
-    "getSystemState": (Answer.WELL, [[["/odom", ["/sim"]]], [], []]), "getPid": (Answer.WELL, 7),
+    "getSystemState": (Answer.WELL, [PUBLISHERS, [], []]), "getPid": (Answer.WELL, 7),
     "getTopicTypes": (Answer.WELL, [["/odom", ODOMETRY]]), "getParamNames": (Answer.WELL, ["/a"]),
     "lookupNode": (Answer.WELL, "http://here:1/"),
 }  # fmt: skip
@@ -57,6 +58,7 @@ def master(monkeypatch):
 @pytest.mark.parametrize(("question", "answer"), GONE)
 def test_master_that_has_gone_is_noticed(master, question, answer):
     watch = graph_watch.GraphWatch("/cockpit")
+    assert watch.graph.published == ["/odom", "/x"]  # by another node, and from a form
     is_lost = threading.Event()
     watch.start(is_lost.set)
     master[question] = (Answer.SILENT, None)

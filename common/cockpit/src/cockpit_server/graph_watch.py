@@ -10,7 +10,7 @@ from urllib.parse import urlsplit
 import rosgraph
 
 from cockpit_server.clients import Client, Source, encoded
-from cockpit_server.graph import JOY, Graph, topic_of, without
+from cockpit_server.graph import Graph, topic_of, without
 from cockpit_server.schema import switch
 from node_kit.ros_api import Answer, call
 
@@ -18,7 +18,7 @@ PERIOD_S = 1.0
 
 
 class GraphWatch(Source):
-    """The newest Graph, without this node except as a joystick; another one after each change."""
+    """The newest Graph, of this node only what it publishes; another one after each change."""
 
     watches: ClassVar = {"graph": (switch, False)}
 
@@ -67,9 +67,8 @@ class GraphWatch(Source):
         if {answer, answered} != {Answer.WELL} or pid != self._pid:
             self._is_lost = True
             return
-        types = dict(types or [])
-        joysticks = {topic for topic, kind in types.items() if kind == JOY}
-        publishers = without(self._own_name, state[0], shown_in=joysticks)
+        types, shown = dict(types or []), {topic for topic, _ in state[0]} - {"/rosout"}
+        publishers = without(self._own_name, state[0], shown_in=shown)
         subscribers, services = [without(self._own_name, part) for part in state[1:]]
         known = self.graph.machines
         graph = Graph(publishers, subscribers, services, types, parameters=sorted(parameters or []))
