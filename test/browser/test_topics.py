@@ -69,8 +69,11 @@ def test_topics_shows_rates_and_messages_publishes_calls_and_sets(world, page, r
     page.press("#topics-rows .link")
     page.wait_for_text("#topics-definition", "[1, 2]")
     page.one("#topics-fields input").clear()
+    page.click("Set")
+    page.wait_for_text("#notice", "write a value")
     page.one("#topics-fields input").send_keys("0.5")
     page.click("Set")
+    assert page.text("#notice") == ""
     wait_for(lambda: ros("rosparam", "get", "/probe/rate") == "0.5\n", "value")
     ros("rosparam", "delete", "/probe")
     page.driver.get(f"{world.address}#topics/rosout/get_loggers?kind=services")

@@ -28,7 +28,7 @@ export class Link extends EventTarget {
     setInterval(() => this.#watch(), 250);
   }
 
-  /** Call handler(message) for each message of a kind. */
+  /** Call handler(message) for each message of a kind, or handler(kind) for each that was "sent". */
   on(kind, handler) {
     this.addEventListener(kind, (/** @type {any} */ event) => handler(event.detail));
   }
@@ -50,6 +50,7 @@ export class Link extends EventTarget {
   send(kind, fields = {}) {
     if (!this.isOpen || this.#socket.bufferedAmount > FULL) return false;
     this.#socket.send(JSON.stringify({ kind, ...fields }));
+    this.dispatchEvent(new CustomEvent("sent", { detail: kind }));
     return true;
   }
 

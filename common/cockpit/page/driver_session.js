@@ -30,10 +30,7 @@ export class DriverSession {
     });
     byId("take").onclick = () => link.send("drive", { robot: tab.look, mode: byId("mode").value });
     byId("stop").onclick = () => this.#stop();
-    byId("reset").onclick = () => {
-      notice("");
-      link.send("reset", { robot: tab.look });
-    };
+    byId("reset").onclick = () => link.send("reset", { robot: tab.look });
     byId("give").onclick = () => {
       const heir = byId("heir");
       if (heir.reportValidity()) link.send("hand_over", { to: heir.valueAsNumber });

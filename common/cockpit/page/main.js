@@ -19,12 +19,14 @@ import { TopicsTab } from "./topics_tab.js";
  */
 const TABS = [RobotTab, GraphTab, TopicsTab, BagTab, PlotTab, LogTab, DoctorTab];
 const NOTICE_MS = 8000;
+const BY_ITSELF = ["watch", "input", "release", "again", "publish_end"]; // sent without a person's action
 const WORDS = { open: "Connected", lost: "Connection lost – trying again", gone: "No cockpit – trying again" };
 const GONE = `The cockpit has exited, or the network to it is down. Start it again, with the launch file or with
  ./tutorial cockpit: this page then reconnects. With --lan, open the new address that it prints.`;
 
 const watched = Object.assign({}, ...TABS.map((Tab) => Tab.watches));
 let noticeEnd = null;
+let refusal = ""; // the newest one's line
 
 const link = new Link((state) => {
   byId("connection").dataset.state = state;
@@ -61,7 +63,12 @@ for (const Tab of TABS) {
   tabs[id] = new Tab(link, watch, page);
 }
 link.on("refused", ({ what, why }) => {
-  if (what !== "input") notice(`Not possible: ${why}.`); // the loss of the session has a message of its own
+  if (what === "input") return; // the loss of the session has a message of its own
+  refusal = `Not possible: ${why}.`;
+  notice(refusal);
+});
+link.on("sent", (kind) => { // what is refused again is shown again
+  if (!BY_ITSELF.includes(kind) && byId("notice").textContent === refusal) notice("");
 });
 page.moved = makeTabs(tablist, {
   onChoose(name) {
