@@ -141,6 +141,13 @@ def test_plot_has_whole_arrays_another_axis_the_value_at_the_mouse_and_a_wheel(w
     before = axis(page)[0]
     page.send("Input.dispatchMouseEvent", **{**wheel, "modifiers": SHIFT})
     wait_for(lambda: axis(page)[0] < before, "pan")
+    page.driver.get(f"{world.address}#plot?f=/later/data")
+    page.one("#plot-search").send_keys("/later")
+    page.wait_for_text("#plot-fields", "No published topic has /later.")
+    page.wait_for_text("#plot-missing", "No published topic has /later/data:")
+    with world.run("rostopic", "pub", "-r", "10", "/later", "std_msgs/Float64", "7"):
+        page.wait_for_text("#plot-values", "/later/data 7")
+        wait_for(lambda: page.text("#plot-missing") == "", "topic")
 
 
 def test_log_shows_what_nodes_log_by_level_and_filter_and_sets_a_logger(world, page, ros):

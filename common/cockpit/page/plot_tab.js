@@ -18,6 +18,9 @@ function setBack(points, last) {
   return points.findLastIndex(([t], i) => t < times[i] - SET_BACK_S);
 }
 
+/** A field without the parts that the list of fields lacks: indices, and the two numbers of a time. */
+const plain = (field) => field.replaceAll(/\[\d+\]|\/n?secs$/g, "");
+
 export class PlotTab {
   static title = "Plot";
   static panel = `
@@ -35,6 +38,7 @@ export class PlotTab {
     </div>
     <div class="card chart"><div id="plot-chart" data-empty="Choose fields from the list."></div></div>
     <p class="hint">Drag, or turn the wheel, to zoom, with Shift to pan; Whole range ends it. <output id="plot-at"></output></p>
+    <p class="row" id="plot-missing" role="status"></p>
     <div class="legend" id="plot-values" role="group" aria-label="Values"></div>
   </div>
   <div class="panel">
@@ -170,7 +174,9 @@ export class PlotTab {
       return element("li", {}, element("label", {}, box, ` ${field}`));
     }));
     const rest = matching.length - listed.length;
-    if (rest) byId("plot-fields").append(element("li", { className: "hint" }, `… and ${rest} more: search by name.`));
+    const hint = rest ? `… and ${rest} more: search by name.`
+      : found.length || !this.#all.length ? "" : `No published topic has ${byId("plot-search").value.trim()}.`;
+    if (hint) byId("plot-fields").append(element("li", { className: "hint" }, hint));
     this.#limit();
   }
 
@@ -179,6 +185,10 @@ export class PlotTab {
     for (const box of byId("plot-fields").querySelectorAll("input")) {
       box.disabled = !box.checked && this.fields.length >= MOST;
     }
+    const known = new Set(this.#all.map(plain));
+    const missing = known.size ? this.fields.filter((field) => !known.has(plain(field))) : []; // once the list is there
+    say(byId("plot-missing"), missing.length
+      ? `No published topic has ${missing.join(" or ")}: a curve begins once its topic is published.` : "");
   }
 
   #choose(field, on) {
