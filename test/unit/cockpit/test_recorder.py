@@ -8,7 +8,7 @@ from tutorial_testing.session_room import page
 from tutorial_testing.waiting import wait_for
 
 # In the place of rosbag record: its file has a line once it has ended as it is asked to.
-FAKE = 'trap \'echo whole > "$0"; exit\' INT; touch "$0.active"; while :; do sleep 0.1; done'
+FAKE = 'trap \'echo whole > "$0"; exit\' INT; touch "$0.active"; for n in {1..99}; do sleep 1; done'
 
 
 @pytest.fixture
@@ -37,3 +37,12 @@ def test_one_recording_ends_whole(one, tmp_path):
     wait_for(lambda: one._name == "", "its name")
     one.send_to(driver, 0.0)
     assert [said["name"] for said in sent] == ["", path.name, ""]
+
+
+def test_a_recording_ends_whole_with_the_thread_that_started_it(one, monkeypatch, tmp_path):
+    """As a cockpit does that is killed, all threads at once."""
+    wait = lambda _: not wait_for(lambda: list(tmp_path.glob("*.active")), "begin")  # noqa: E731
+    monkeypatch.setattr(recorder.Popen, "wait", wait)
+    one.on_record(page()[0], 0.0, on=True)
+    [path] = wait_for(lambda: list(tmp_path.glob("page_*.bag")), "file")
+    wait_for(lambda: path.read_text() == "whole\n", "its end")

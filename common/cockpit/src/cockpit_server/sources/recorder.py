@@ -17,6 +17,8 @@ from cockpit_server.schema import switch
 
 # It ends at 150 MB, as Bag opens up to 200 MB, or after an hour.
 COMMAND = ("rosbag", "record", "-q", "-a", "--size=150", "--duration=1h", "-O")
+# Linux sends rosbag this signal, too, once the thread that started it has gone, as by kill -9.
+ENDS_WITH_US = ("setpriv", "--pdeathsig", "INT")
 
 
 class Recorder(Source):
@@ -45,7 +47,7 @@ class Recorder(Source):
             threading.Thread(target=self._record, daemon=True).start()
 
     def _record(self) -> None:
-        command = [*COMMAND, self._name]
+        command = [*ENDS_WITH_US, *COMMAND, self._name]
         self._process = Popen(command, start_new_session=True, stdin=DEVNULL, stdout=DEVNULL)
         if self._is_over:
             self._stop()
