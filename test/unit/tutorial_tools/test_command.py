@@ -73,6 +73,11 @@ def test_a_mistake_is_one_line(monkeypatch, capsys, line, words):
     assert words in said and end.value.code == 2
 
 
+def test_the_list_of_words_names_courses(capsys):
+    assert read(Path("/ws"), ["--help"]) is None
+    assert "workspace; --course wiki, or FOLDER: others\n" in capsys.readouterr().out
+
+
 @pytest.mark.parametrize(
     ("typed", "found"),
     [

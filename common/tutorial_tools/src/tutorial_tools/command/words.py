@@ -23,7 +23,10 @@ PROGRAMS["cockpit"] = str(REPOSITORY / "common" / "cockpit" / "scripts" / "cockp
 PYPI = "python:test/requirements.txt"
 WORDS = {  # word: (arguments as the help shows them, what it does)
     "demo": ("[--for SECONDS] [NAME:=VALUE ...]", "a recorded joystick drives the simulated robot"),
-    "check": ("--in WORKSPACE [EXERCISE ...]", "which exercises are done in your workspace"),
+    "check": (
+        "--in WORKSPACE [EXERCISE ...]",
+        "which exercises are done in your workspace; --course wiki, or FOLDER: others",
+    ),
     "ros2": ("[--yes] [PROGRAM ...]", "a Python program with ROS 2, beside ROS 1"),
     "scheduler": ("[--host HOST]", "distribute what check --all --cluster is to check"),
     "worker": ("ADDRESS [--jobs N]", "check for such a scheduler"),
