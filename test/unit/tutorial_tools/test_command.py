@@ -1,11 +1,13 @@
 """The words of ./tutorial: what they set up and start, their mistakes, completion, the build."""
 
 import os
+import subprocess
 from pathlib import Path
 
 import pytest
 
 from tutorial_tools.command import build
+from tutorial_tools.command.environment import environment_of
 from tutorial_tools.command.words import candidates, plan, read
 from tutorial_tools.system import apt
 from tutorial_tools.system.packages import packages
@@ -36,6 +38,14 @@ def test_what_a_word_sets_up_and_starts(monkeypatch, line, sections, program, re
     assert (os.path.basename(first), others) == (program, rest.split())
     assert made["builds"][0] == "workspace"
     assert "student" not in made
+
+
+def test_the_help_of_check_needs_nothing_built(tmp_path):
+    made = plan("check", ["--course", "wiki", "--help"])
+    assert made["builds"] == []
+    environment = environment_of(tmp_path, "check", "")
+    done = subprocess.run(made["command"], env=environment, capture_output=True, check=True)
+    assert done.stdout.startswith(b"usage: ./tutorial check ")
 
 
 def test_a_students_workspace_is_absolute_and_built_last(tmp_path, monkeypatch):

@@ -21,7 +21,9 @@ def environment_of(workspace: Path, word: str, student: str) -> dict[str, str]:
     lower, etc = workspace / "lower" / "devel", str(REPOSITORY / "common/node_kit/etc/ros")
     own = {"TUTORIAL_UNDERLAY": f"{lower}/setup.bash"}
     if word in ("check", "worker", "scheduler"):
-        libraries = f"{lower}/lib/python3/dist-packages"
+        # Their sources, too: nothing may be built yet, for the help of check.
+        sources = (f"{REPOSITORY}/common/{name}/src" for name in ("tutorial_check", "node_kit"))
+        libraries = ":".join((f"{lower}/lib/python3/dist-packages", *sources))
         return {**given, **own, "PYTHONPATH": libraries, "ROS_ETC_DIR": etc}
     setup = workspace / "devel" / "setup.bash"
     if student:  # the underlay's, if the student has built nothing over it

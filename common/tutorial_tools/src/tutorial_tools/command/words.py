@@ -58,6 +58,7 @@ KINDS = {  # kinds of tests
     "mutation": "whether the unit tests notice small changes to the rules; hours",
 }
 CLUSTER = "--cluster"  # option of check --all
+HELP = {"-h", "--help"}
 IN_WORDS = ("shell", "run", "doctor", "check")  # which know --in
 OWN_PARSER = {  # programs that read their options themselves, and those for completion
     "check": ("--in", "--all", "--watch", "--hints", "--solution", "--course", "--self-test"),
@@ -182,8 +183,8 @@ def options_of(arguments: list[str]) -> set[str]:
 def refuse(word: str, arguments: list[str]) -> None:
     """Refuse what would fail only after a set-up of minutes."""
     options = options_of(arguments)
-    own = {"--in", "--all", "--self-test", "--package", "--show-variant", "-h", "--help"}
-    named = os.environ.get("TUTORIAL_IN") or options & own
+    own = {"--in", "--all", "--self-test", "--package", "--show-variant"}
+    named = os.environ.get("TUTORIAL_IN") or options & (own | HELP)
     if word == "check" and not named:
         words = " ".join(["./tutorial check --in ~/ros/hydro/catkin_ws", *arguments])
         fail(f"check: which workspace? For example: {words}")
@@ -217,6 +218,8 @@ def plan(word: str, arguments: list[str]) -> Plan:
         own = [PROGRAMS[word]] if word in PROGRAMS else ["/usr/bin/python3", "-m", *module]
         if of_cluster or CLUSTER in options_of(arguments):
             made["sections"].append("cluster")
+        if word == "check" and HELP & options_of(arguments):
+            made["builds"] = []
         return {**made, "command": [*own, *arguments]}
     if word in ("bench", "lint", "docs"):
         parsed = parser_of(word).parse_known_args(arguments)
@@ -263,7 +266,7 @@ def read(workspace: Path, typed: list[str]) -> Plan | None:
     if word == "":
         show_help(sys.stderr)
         sys.exit(2)
-    if word in ("help", "-h", "--help"):
+    if word in {"help", *HELP}:
         show_help(sys.stdout)
         return None
     if word == "completion":
