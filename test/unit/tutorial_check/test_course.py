@@ -1,9 +1,12 @@
 """A professor's own course: what is read, what is refused in one line, and which check is where."""
 
+from dataclasses import replace
+
 import pytest
 
 from tutorial_check.course import checks_of, read_course
-from tutorial_check.model import UNREACHED, CannotCheck, Outcome, Result
+from tutorial_check.judge.packages import package_of
+from tutorial_check.model import UNREACHED, CannotCheck, Outcome, Result, Wrong
 from tutorial_check.self_test import complaint_of, patch
 
 YAML = 'title: T\ndocument: sheet\nexercises: {"2": two, "1": {title: one, points: 3}}\n'
@@ -52,11 +55,12 @@ def test_a_course_and_its_checks_in_its_order(course):
 @pytest.mark.parametrize(
     ("text", "why"),
     [
-        ("", "a map of title, document, sheet, exercises, variants is wanted"),
+        ("", "a map of title, document, sheet, exercises, variants, packages is"),
         ("title: [", "no YAML"),
         ("title: T\n", "exercises: "),
         ("points: 3\n", "points is not known; known are title, document, sheet, exercises"),
         ("title: 3\nexercises: {'1': a}\n", "title: 3 is no str"),
+        ("packages: [p]\n", "packages: ['p'] is no dict"),
         ("exercises: {1: a}\n", 'exercise 1: write "1", in quotes'),
         ("exercises: {'1': {title: a, points: many}}\n", "points: 'many' is no float"),
         ("exercises: {'1': {title: a, points: .nan}}\n", "exercise 1: points: 0 to 1000000"),
@@ -91,6 +95,18 @@ def test_a_course_that_is_shipped_has_a_name():
     assert read_course("wiki").folder.name == "wiki"
     with pytest.raises(CannotCheck, match="or one of square, wiki"):
         read_course("viki")
+
+
+def test_page_and_hint_of_the_wiki_name_the_same_dependencies(make_session):
+    course, session = read_course("wiki"), make_session("p", "5")
+    session.order = replace(session.order, course=course.folder)
+    page = " ".join((course.folder / "README.md").read_text().split())
+    assert "turtlesim_cleaner" in course.packages
+    for name, depends in course.packages.items():
+        assert f"`{depends}` for `{name}`" in page
+        with pytest.raises(Wrong) as wrong:
+            package_of(session, name)
+        assert wrong.value.hint == f"catkin_create_pkg {name} {depends}"
 
 
 def test_a_patch_changes_adds_and_removes(tmp_path):

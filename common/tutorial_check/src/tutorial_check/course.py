@@ -26,7 +26,7 @@ PACKAGE = "tutorial_course"
 
 # Of what YAML gives, by the type of a field; of others anything.
 KINDS: dict[str, tuple[type, ...]] = {
-    "str": (str,), "bool": (bool,), "float": (int, float), "tuple": (list,)
+    "str": (str,), "bool": (bool,), "float": (int, float), "tuple": (list,), "dict": (dict,)
 }  # fmt: skip
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
@@ -62,7 +62,10 @@ class Value:
 
 @dataclass(frozen=True)
 class Course:
-    """What course.yaml says. exercises: in their order, by the number that the student knows."""
+    """What course.yaml says. exercises: in their order, by the number that the student knows.
+
+    packages: {name: what else catkin_create_pkg is given}.
+    """
 
     folder: Path
     title: str = ""
@@ -70,6 +73,7 @@ class Course:
     sheet: str = ""  # what a task sheet is made from, if not variants.SHEET
     exercises: dict[str, Exercise] = field(default_factory=dict, hash=False)
     variants: dict[str, Value] = field(default_factory=dict, hash=False)
+    packages: dict[str, str] = field(default_factory=dict, hash=False)
 
     @property
     def by_default(self) -> list[str]:
@@ -130,7 +134,7 @@ def read_course(folder: str | Path = OURS) -> Course:
     try:
         about = _known(Course, given)
         named, varied = about.pop("exercises", None), about.pop("variants", {})
-        if not isinstance(named, dict) or not named:
+        if not named:
             raise ValueError('exercises: {"1": TITLE, ...} is missing')
         course = Course(folder=file.parent, **about)
         for number, what in named.items():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from tutorial_check.course import read_course
 from tutorial_check.model import Wrong
 from tutorial_check.record.session import Session
 from tutorial_check.source.workspace import Package
@@ -11,5 +12,6 @@ def package_of(session: Session, name: str) -> Package:
     """Return the package of that name. Raises Wrong."""
     if not session.has(name):
         there = ", ".join(each.name for each in session.packages) or "no package at all"
-        raise Wrong(f"a package {name} in src", there, hint=f"catkin_create_pkg {name} rospy")
+        depends = read_course(session.order.course).packages.get(name, "rospy")
+        raise Wrong(f"a package {name} in src", there, hint=f"catkin_create_pkg {name} {depends}")
     return session.package(name)
