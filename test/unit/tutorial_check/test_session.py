@@ -5,6 +5,7 @@ import os
 from dataclasses import dataclass, replace
 from pathlib import Path
 from types import SimpleNamespace
+from typing import Tuple
 
 import pytest
 
@@ -27,6 +28,28 @@ class Seen:
 
 def look(ground) -> Seen:
     """Recorded by the worker of the test below."""
+
+
+@dataclass(frozen=True)
+class Way:
+    places: list
+
+
+@dataclass(frozen=True)
+class Drive:
+    bumps: int
+    ways: Tuple[Way, ...]
+
+
+def drive(ground) -> Drive:
+    """Recorded by nobody."""
+
+
+def test_a_recording_that_cannot_be_read_again_is_refused_before_it_is_made(order):
+    with pytest.raises(CannotCheck) as error:
+        Case(order, Task({}), ask=None).recording(drive)
+    why = "Way.places: its type has to say what is in it, as Tuple[float, ...]"
+    assert str(error.value) == why
 
 
 @pytest.mark.parametrize(

@@ -13,9 +13,9 @@ import shutil
 import subprocess
 import threading
 import time
-from dataclasses import replace
+from dataclasses import is_dataclass, replace
 from pathlib import Path
-from typing import Any, Callable, Iterator, cast
+from typing import Any, Callable, Iterator, cast, get_args, get_origin, get_type_hints
 
 from tutorial_check.ask_once import HANDED_IN, Answers, Ask, AskOnce
 from tutorial_check.course import FILE, OURS, Course, checks_of, read_course
@@ -63,6 +63,8 @@ class Case(Session):
         return cast(Recorded, self._runs[key])
 
     def _asked(self, recorder: Recorder[object], arguments: tuple[object, ...]) -> object:
+        kind = recorded_by(recorder)
+        must_be_whole(kind)
         name = f"{recorder.__module__}:{recorder.__name__}"
         question = {"recorder": name, "arguments": as_json(arguments)}
         answer = self._ask(question)
@@ -76,7 +78,7 @@ class Case(Session):
             if end.kind == UNREADABLE and self.broken:
                 return unreadable(self.broken)
             return end.as_wrong()
-        return from_json(recorded_by(recorder), answer["recording"])
+        return from_json(kind, answer["recording"])
 
     def second_look(self, explained: bool) -> bool:
         """Return whether to look again at what programs do; then forget what they did.
@@ -102,6 +104,20 @@ class Case(Session):
             for name, words in vars(result).items()
         }
         return Result(**found)
+
+
+def must_be_whole(recorded: type) -> None:
+    """Raise CannotCheck for a recording with a list or map in it that does not say of what."""
+    kinds: list[Any] = [recorded]
+    for kind in kinds:
+        for name, hint in get_type_hints(kind).items():
+            parts = [hint]
+            for part in parts:
+                if (get_origin(part) or part) in (list, tuple, dict) and not get_args(part):
+                    how = "its type has to say what is in it, as Tuple[float, ...]"
+                    raise CannotCheck(f"{kind.__name__}.{name}: {how}")
+                parts += get_args(part)
+            kinds += [each for each in parts if is_dataclass(each) and each not in kinds]
 
 
 def examine(
