@@ -32,11 +32,7 @@ class Runner:
     """All programs of one check of one workspace."""
 
     def __init__(
-        self,
-        environment: Mapping[str, str],
-        alone: bool = False,
-        reader: int | None = None,
-        ruleset: int | None = None,
+        self, environment: Mapping[str, str], alone: bool, reader: int, ruleset: int | None
     ) -> None:
         """alone: in a PID namespace of their own. reader: a socket whose other end waits for what
         is found. ruleset: see landlock.
@@ -49,8 +45,7 @@ class Runner:
         self.trusted = {os.getsid(0), os.getpid()}
         self.clock = CpuClock(self.trusted)
         self._selector = selectors.PollSelector()  # what programs print
-        if reader is not None:
-            self._selector.register(reader, selectors.EVENT_READ)
+        self._selector.register(reader, selectors.EVENT_READ)
 
     def start(
         self,
