@@ -58,13 +58,6 @@ def is_broad(handler: ast.ExceptHandler) -> bool:
     return not handler.type or text_of(handler.type) in ("Exception", "BaseException")
 
 
-def _nodes(text: str) -> list[ast.AST]:
-    try:
-        return list(ast.walk(ast.parse(text)))
-    except (SyntaxError, ValueError):
-        return []
-
-
 def _joined(lines: Iterable[str]) -> str:
     return "".join(f"{line}\n" for line in lines)
 
@@ -78,7 +71,7 @@ def unmasked(text: str) -> str | None:
 def without_name(text: str, name: str) -> str | None:
     """Return the program without something that it imports; None if it does not import it by name."""
     lines = python_lines(text)
-    for node in _nodes(text):
+    for node in ast.walk(ast.parse(text)):
         if not isinstance(node, ast.ImportFrom):
             continue
         if name in {each.asname or each.name for each in node.names}:
@@ -91,7 +84,7 @@ def without_name(text: str, name: str) -> str | None:
 
 def flipped_anonymous(text: str, wanted: bool) -> str | None:
     """Return the program with anonymous=wanted in its init_node; None if it has none that is plain."""
-    for node in _nodes(text):
+    for node in ast.walk(ast.parse(text)):
         if not (isinstance(node, ast.Call) and last_name(node) == "init_node"):
             continue
         given = [word.value for word in node.keywords if word.arg == "anonymous"]
