@@ -79,10 +79,7 @@ def not_xml(error: str, text: str) -> tuple[int | None, str]:
         return line_of(text, curly.start()), 'curly quotes came from the PDF: type " instead'
     if re.search("mismatched tag|no element found", error):
         return _not_closed(text)
-    found = re.search(r"line (\d+), column (\d+)", error)
-    if not found:
-        return None, "each <tag> needs its </tag> or />"
-    line, column = map(int, found.groups())
+    line, column = map(int, re.findall(r"\d+", error)[-2:])  # "...: line 3, column 4"
     if "junk after" in error:
         return line, "nothing may follow </launch>: put it before"
     start = sum(len(each) + 1 for each in text.split("\n")[: line - 1])
