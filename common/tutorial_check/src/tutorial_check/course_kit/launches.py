@@ -15,13 +15,7 @@ from tutorial_check.judge.packages import package_of
 from tutorial_check.model import Wrong
 from tutorial_check.record.session import Session
 from tutorial_check.record.stage import Stage
-from tutorial_check.source.launch_xml import (
-    Fault,
-    blamed,
-    package_hint,
-    parse_error,
-    without_comments,
-)
+from tutorial_check.source import launch_xml
 
 DIED = re.compile(r"^\[([^\]]+)-\d+\] process has died", re.MULTILINE)
 
@@ -33,7 +27,7 @@ class LaunchFile(File):
         """nodes: with package, type, name, namespace, args, remaps, ..."""
         super().__init__(session, package, os.path.relpath(path, session.package(package).folder))
         self.path, self.nodes = os.path.relpath(path, session.source), tuple(nodes)
-        self.text = without_comments(self.text)
+        self.text = launch_xml.without_comments(self.text)
 
 
 def launch_file(session: Session, package: str, name: str) -> LaunchFile:
@@ -51,15 +45,15 @@ def launch_file(session: Session, package: str, name: str) -> LaunchFile:
         hint = "roslaunch --nodes FILE"
         raise Wrong("a launch file that roslaunch can read", "reading it does not end", hint=hint)
     if facts[0]["fault"]:
-        fault = Fault(**facts[0]["fault"])
-        path, line = blamed(fault, session.is_own)
+        fault = launch_xml.Fault(**facts[0]["fault"])
+        path, line = launch_xml.blamed(fault, session.is_own)
         text, where = Path(path).read_text(errors="replace"), os.path.relpath(path, folder)
-        raise parse_error(fault, where, line, text, session.may_see)
+        raise launch_xml.parse_error(fault, where, line, text, session.may_see)
     file = LaunchFile(session, package, paths[name], facts[0]["nodes"])
     for node in file.nodes:
         seen = f"Cannot locate node of type [{node['type']}] in package [{node['package']}]"
         hint = "look at pkg= and type=: the name of the program's file, which is executable"
-        hint = package_hint(node["package"]) if node["found"] is None else hint
+        hint = launch_xml.package_hint(node["package"]) if node["found"] is None else hint
         words = f'"{node["type"]}" {node["type"]}'
         file.must(node["found"], words, "nodes that exist", seen, hint)
     return file
