@@ -108,8 +108,7 @@ class Cluster:
         version = _version(order, order.course)
         about = _packed({"submission": order.workspace, **own}), order, version
         try:
-            outcomes: list[Outcome] = self._client.submit(_examine, *about, pure=False).result()
-            return outcomes
+            return self._client.submit(_examine, *about, pure=False).result()
         except self._dask.KilledWorker:
             why = f"abandoned: {TRIES} workers have ended while they checked it"
             raise CannotCheck(why) from None
