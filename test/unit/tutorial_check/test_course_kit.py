@@ -70,7 +70,7 @@ def stage(monkeypatch):
 
     own = SimpleNamespace(packages=[SimpleNamespace(name="own")])
     about = {"runner": SimpleNamespace(start=start), "environment": {}, "session": own}
-    about["call"], about["meet"] = lambda _: {"/t": "T"}, lambda _: True
+    about["driver"], about["meet"] = SimpleNamespace(types=lambda: {"/t": "T"}), lambda _: True
     return SimpleNamespace(**about, wait=wait, wait_for_start=wait)
 
 
@@ -163,7 +163,8 @@ def test_a_launch_file_is_read(make_session, monkeypatch, name, text, seen, wher
 
 def test_what_a_launch_file_has_started():
     program = SimpleNamespace(output="[n/m-2] process has died [pid 1]\n", ended=False)
-    about = {"launch": lambda words: program, "call": lambda _: ({"/rosout": ["/b", "/a"]},)}
+    driver = SimpleNamespace(state=lambda: ({"/rosout": ("/b", "/a")},))
+    about = {"launch": lambda words: program, "driver": driver}
     about["session"] = SimpleNamespace(source=Path("src"))
     launch = Launch(SimpleNamespace(**about), "a.launch")
     assert launch.is_over and launch.died == ("n/m",) and launch.nodes == ("/a", "/b")

@@ -78,7 +78,9 @@ class Client:
         """Return "TYPE NAME" of each field of a message; of a service with "---" in between."""
         return tuple(self._tell("fields", kind, of=kind))
 
-    def ask(self, service: str, kind: str, values: Any = None, seconds: float = START_S) -> Answer:
+    def ask(
+        self, service: str, kind: str, values: object = None, seconds: float = START_S
+    ) -> Answer:
         """Call a service once it is there; wait no longer than that for the response."""
         found = self._tell("ask", service, kind, values or {}, of=kind, seconds=seconds)
         if found:
@@ -101,7 +103,7 @@ class Client:
     def seen(self, program: Program, *names: str, answers: Sequence[object] = ()) -> Seen:
         """Return what was seen until now. names: of topics and services."""
         heard = {name: tuple(values for *_, values in self.heard(name)) for name in names}
-        return Seen(program.ran, heard, tuple(answers), self._stage.call("types"))
+        return Seen(program.ran, heard, tuple(answers), self._stage.driver.types())
 
     def count(self, name: str) -> int:
         return int(self._tell("count", name))
@@ -123,7 +125,7 @@ class Client:
         self._stage.wait_for_start(lambda: program.ended or has_met())
         return self._stage.meet(program) and has_met()
 
-    def parameter(self, name: str) -> Any:
+    def parameter(self, name: str) -> object:
         """Return the value of a parameter, or None."""
         return self._tell("parameter", name)
 

@@ -34,7 +34,7 @@ class Fault(Exception):
     """There is no such type, or values do not fit it."""
 
 
-def class_of(kind: str, of_service: bool = False) -> Any:
+def class_of(kind: str, of_service: bool = False) -> type[genpy.Message]:
     """Return the class of a type, as it was generated. Raises Fault."""
     find = roslib.message.get_service_class if of_service else roslib.message.get_message_class
     try:
@@ -46,7 +46,7 @@ def class_of(kind: str, of_service: bool = False) -> Any:
     return found
 
 
-def plain(value: Any) -> Any:
+def plain(value: object) -> object:
     """Return a message, or a value of it, in maps, lists, texts and numbers."""
     if isinstance(value, (genpy.Time, genpy.Duration)):
         return {"secs": value.secs, "nsecs": value.nsecs}
@@ -55,7 +55,7 @@ def plain(value: Any) -> Any:
     return list(map(plain, value)) if isinstance(value, (list, tuple, bytes)) else value
 
 
-def message_of(kind: Any, values: Any) -> Any:
+def message_of(kind: type[genpy.Message], values: object) -> genpy.Message:
     """Return a message of a class with values as rostopic pub takes them. Raises Fault."""
     message, now = kind(), rospy.Time.now()
     words = values if isinstance(values, list) else [values]
@@ -79,7 +79,8 @@ class Node:
         self._line, self._sending = line, threading.Lock()
         self._publishers: dict[str, rospy.Publisher] = {}
         self._subscribers: dict[str, rospy.Subscriber] = {}
-        self._heard: dict[str, list[Any]] = {}  # messages of a topic, or requests of a service
+        # Messages of a topic, or requests of a service.
+        self._heard: dict[str, list[tuple[float, str, object]]] = {}
         self._tf: Any = None
 
     def fields(self, kind: str) -> list[str]:
@@ -93,7 +94,7 @@ class Node:
         found = rosgraph.Master(NAME).getSystemState()[2]
         return sorted(name for name, _ in found if not name.endswith(("loggers", "logger_level")))
 
-    def ask(self, service: str, kind: str, values: Any) -> tuple[Any, str]:
+    def ask(self, service: str, kind: str, values: object) -> tuple[object, str]:
         """Return (response, "") or (None, why there is none)."""
         found = class_of(kind, of_service=True)
         request = message_of(found._request_class, values)
@@ -104,7 +105,7 @@ class Node:
             text = re.sub(r"\bb'(.*)'", r"\1", " ".join(str(error).split()))
             return None, f"{service} is of another type than {kind}" if "md5sum" in text else text
 
-    def serve(self, service: str, kind: str, values: Any) -> None:
+    def serve(self, service: str, kind: str, values: object) -> None:
         found = class_of(kind, of_service=True)
         answer = message_of(found._response_class, values)
         self._heard[service] = []
@@ -124,7 +125,7 @@ class Node:
             caller = str(message._connection_header.get("callerid", ""))
             self._heard[name].append((time.monotonic(), caller, plain(message)))
 
-    def heard(self, name: str, since: int) -> list[Any]:
+    def heard(self, name: str, since: int) -> list[tuple[float, str, object]]:
         return self._heard[name][since:]
 
     def count(self, name: str) -> int:
@@ -133,7 +134,7 @@ class Node:
     def advertise(self, topic: str, kind: str) -> None:
         self._publishers[topic] = rospy.Publisher(topic, class_of(kind), queue_size=1000)
 
-    def send(self, topic: str, values: Any) -> float:
+    def send(self, topic: str, values: object) -> float:
         publisher = self._publishers[topic]
         publisher.publish(message_of(publisher.data_class, values))
         return time.monotonic()
@@ -142,10 +143,10 @@ class Node:
         ends = [each[topic] for each in (self._publishers, self._subscribers) if topic in each]
         return min(end.get_num_connections() for end in ends)
 
-    def parameter(self, name: str) -> Any:
+    def parameter(self, name: str) -> object:
         return rospy.get_param(name, None)
 
-    def lookup(self, target: str, source: str) -> Any:
+    def lookup(self, target: str, source: str) -> list[list[float]] | None:
         """Return the values of a translation and a rotation, or None as long as there are none."""
         import tf2_ros  # noqa: PLC0415  only where it is wanted
 
@@ -153,8 +154,9 @@ class Node:
             buffer = tf2_ros.Buffer()
             self._tf = buffer, tf2_ros.TransformListener(buffer)
         try:
-            found = plain(self._tf[0].lookup_transform(target, source, rospy.Time(0)).transform)
-            return [list(part.values()) for part in found.values()]
+            found = self._tf[0].lookup_transform(target, source, rospy.Time(0)).transform
+            both = (found.translation, found.rotation)
+            return [[getattr(each, name) for name in each.__slots__] for each in both]
         except tf2_ros.TransformException:
             return None
 

@@ -70,7 +70,7 @@ class Launch:
     @property
     def nodes(self) -> Tuple[str, ...]:
         """The nodes that the master knows, without the checker's."""
-        return tuple(sorted(self._stage.call("state")[0].get("/rosout", [])))
+        return tuple(sorted(self._stage.driver.state()[0].get("/rosout", ())))
 
     @property
     def died(self) -> Tuple[str, ...]:

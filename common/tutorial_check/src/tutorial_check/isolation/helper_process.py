@@ -2,27 +2,40 @@
 
 from __future__ import annotations
 
+import functools
 import multiprocessing
 import os
 import signal
 import threading
 import time
 from multiprocessing.connection import Connection
-from typing import Any, Callable, Mapping
+from typing import Any, Callable, Generic, Mapping, TypeVar, cast
 
 from tutorial_check.model import CannotCheck
 
 ASK_AGAIN_S = 1.0  # whether an answer may still come
 FORK = multiprocessing.get_context("fork")
+Served = TypeVar("Served")
 
 
-class Helper:
+class Remote:
+    """Stands for an object in another process: call(method, *arguments) calls its methods."""
+
+    def __init__(self, call: Callable[..., object]) -> None:
+        self._call = call
+
+    def __getattr__(self, method: str) -> Callable[..., object]:
+        return functools.partial(self._call, method)
+
+
+class Helper(Generic[Served]):
     """An object in a forked process; its methods are called through a socket, which, unlike a pipe,
     no path in /proc opens: a student's program may plant a link to that.
     """
 
-    def __init__(self, make: Callable[[], object], environment: Mapping[str, str]) -> None:
+    def __init__(self, make: Callable[[], Served], environment: Mapping[str, str]) -> None:
         """make(): the object, called in the new process, in that environment."""
+        self.remote = cast(Served, Remote(self.call))
         self._line, theirs = FORK.Pipe()
         self._trouble = ""  # why it is asked no more
         about = (make, environment, theirs, self._line)
@@ -41,7 +54,7 @@ class Helper:
         *arguments: object,
         deadline_s: float = 60.0,
         in_vain: Callable[[], bool] = lambda: False,
-    ) -> Any:
+    ) -> object:
         """Return what the method returns. Raises CannotCheck if it fails or hangs, or did so once.
 
         in_vain(): whether it will never answer; asked when it has not for a while.

@@ -19,6 +19,7 @@ from sensor_msgs.msg import Joy, LaserScan
 from std_msgs.msg import String
 
 from node_kit.rospy_patches.connections import connect_once
+from tutorial_check.record.recording import Heard, HeardText, Topics
 
 NAME = "tutorial_check"
 JOY = "/joy"  # that it answers
@@ -123,13 +124,18 @@ class Driver:
         """Return how many publishers our subscriber is connected to."""
         return int(self._subscribers[topic].get_num_connections())
 
-    def ends_of(self, topic: str) -> list[str]:
-        """Return the methods that count the other ends of a topic of ours."""
-        ours = {"listeners": self._publishers, "publishers": self._subscribers}
-        return [method for method, topics in ours.items() if topic in topics]
+    def has_met(self, topic: str) -> bool:
+        """Return whether each of our ends of a topic has another end."""
+        ours = (self._publishers.get(topic), self._subscribers.get(topic))
+        return all(end.get_num_connections() for end in ours if end)
 
-    def received(self, topic: str, since: int = 0) -> list[tuple[float, str, object]]:
+    def received(self, topic: str, since: int = 0) -> list[Heard]:
+        """Return the messages of a topic of numbers."""
         return self._received[topic][since:]
+
+    def texts(self, topic: str) -> list[HeardText]:
+        """Return the messages of a topic of std_msgs/String."""
+        return self._received[topic]
 
     def count(self, topic: str) -> int:
         return len(self._received[topic])
@@ -166,8 +172,8 @@ class Driver:
     def end_stream(self, topic: str) -> None:
         self._streams[topic].set()
 
-    def state(self) -> tuple[dict[str, list[str]], ...]:
-        """Return publishers and subscribers, each {topic: [nodes]}, without ourselves."""
+    def state(self) -> tuple[Topics, ...]:
+        """Return publishers and subscribers, without ourselves."""
         with contextlib.suppress(OSError, rosgraph.MasterException):
             return tuple(map(_others, self._master.getSystemState()[:2]))
         return {}, {}  # the master has gone; see Stage.master_lives
@@ -195,8 +201,9 @@ class Driver:
         rospy.set_param(name, value)
 
 
-def _others(topics: Sequence[tuple[str, list[str]]]) -> dict[str, list[str]]:
-    found = ((topic, [n for n in nodes if not n.startswith(f"/{NAME}")]) for topic, nodes in topics)
+def _others(topics: Sequence[tuple[str, list[str]]]) -> Topics:
+    ours = f"/{NAME}"
+    found = ((topic, tuple(n for n in nodes if not n.startswith(ours))) for topic, nodes in topics)
     return {topic: nodes for topic, nodes in found if nodes}
 
 

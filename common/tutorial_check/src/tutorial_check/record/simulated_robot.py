@@ -35,29 +35,29 @@ class SimulatedRobot:
         """Start it, with parameters such as _world:=room or _initial_x:=1.0. Raises CannotCheck."""
         self._stage = stage
         self._poses = TRUTH if any("_world:=" in each for each in arguments) else ODOM
-        stage.call("listen", self._poses, "Odometry")
-        stage.call("listen", BUMPER, "BumperEvent")
+        stage.driver.listen(self._poses, "Odometry")
+        stage.driver.listen(BUMPER, "BumperEvent")
         robot = stage.start_ours("fake_turtlebot_sim", "fake_turtlebot.py", *arguments)
-        stage.wait(lambda: robot.ended or stage.call("count", self._poses), START_S)
-        if robot.ended or not stage.call("count", self._poses):
+        stage.wait(lambda: robot.ended or stage.driver.count(self._poses), START_S)
+        if robot.ended or not stage.driver.count(self._poses):
             raise CannotCheck(f"the simulated robot does not start: {robot.output[-200:]}")
 
     @property
     def path(self) -> tuple[Sample, ...]:
         """All that it did so far, 50 samples a second."""
-        return tuple(map(_sample, self._stage.call("received", self._poses)))
+        return tuple(map(_sample, self._stage.driver.received(self._poses)))
 
     @property
     def moves(self) -> bool:
         """Whether it moved within the last second."""
-        count = self._stage.call("count", self._poses)
-        newest = self._stage.call("received", self._poses, max(0, count - NEWEST))
+        count = self._stage.driver.count(self._poses)
+        newest = self._stage.driver.received(self._poses, max(0, count - NEWEST))
         return any(one.v or one.w for one in map(_sample, newest))
 
     @property
     def bumps(self) -> int:
         """How often a bumper was pressed or released."""
-        return int(self._stage.call("count", BUMPER))
+        return int(self._stage.driver.count(BUMPER))
 
     def drive(self, program: Program, longest_s: float = LONGEST_DRIVE_S) -> tuple[Sample, ...]:
         """Return its path until it has moved and rests for a second, or for longest_s."""

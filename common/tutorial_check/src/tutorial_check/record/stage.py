@@ -6,13 +6,16 @@ import shutil
 import socket
 import uuid
 from pathlib import Path
-from typing import Any, Callable, Sequence
+from typing import TYPE_CHECKING, Any, Callable, Sequence, cast
 
-from tutorial_check.isolation import helper_process
+from tutorial_check.isolation.helper_process import Helper, MasterProcess, Remote, Served
 from tutorial_check.isolation.program import Program
 from tutorial_check.isolation.runner import Value
 from tutorial_check.model import CANNOT_START, CannotCheck, CutShort
 from tutorial_check.record.builder import Builder
+
+if TYPE_CHECKING:  # it loads ROS
+    from tutorial_check.record.driver import Driver, Echo
 
 START_S = 8.0  # a node of the student's has this long to appear
 SETTLE_S = 0.5  # once connected, a thread of it has this long to attach its callback
@@ -39,31 +42,32 @@ class Stage:
         # logs are elsewhere: the student's may not write in folders of ours.
         own = dict.fromkeys(("HOME", "ROS_HOME", "ROS_LOG_DIR"), str(session.folder / "ours"))
         self._ours = {**session.underlay_environment, **master, **own}
-        self._helpers: list[helper_process.Helper] = []
-        self._master = self.help(lambda: helper_process.MasterProcess(port))
-        if not self._master.call("uri"):
+        self._helpers: list[Helper[Any]] = []
+        self._master = self.help(lambda: MasterProcess(port))
+        if not self._master.remote.uri():
             raise CannotCheck("no ROS master can be started here")
         self._driver = self.help(driver.Driver)
+        self.driver = cast("Driver", Remote(self._call))
         # As roscore does; else two roslaunch at once would each make up one, and one of them fail.
-        self.call("set_parameter", "/run_id", str(uuid.uuid4()))
+        self.driver.set_parameter("/run_id", str(uuid.uuid4()))
         # As common/node_kit/etc/ros/roscore.xml, which says why.
-        self.call("set_parameter", "/rosout_disable_topics_generation", False)
+        self.driver.set_parameter("/rosout_disable_topics_generation", False)
 
     def start(self, package: str, script: str, *arguments: str) -> Program:
         return self.launch([*self.session.command(package, script), *arguments])
 
-    def help(self, make: Callable[[], object]) -> helper_process.Helper:
-        helper = helper_process.Helper(make, self._ours)
+    def help(self, make: Callable[[], Served]) -> Helper[Served]:
+        helper = Helper(make, self._ours)
         self.runner.trusted.add(helper.pid)
         self._helpers.append(helper)
         return helper
 
-    def echo(self, axis: int) -> tuple[helper_process.Helper, str]:
-        """Return a Helper with an Echo of an axis, and the topic on which it answers."""
+    def echo(self, axis: int) -> tuple[Echo, str]:
+        """Return an Echo of an axis, and the topic on which it answers."""
         from tutorial_check.record import driver  # noqa: PLC0415
 
         joy = self._topics.get(driver.JOY, driver.JOY)
-        return self.help(lambda: driver.Echo(joy, axis)), driver.ECHO
+        return self.help(lambda: driver.Echo(joy, axis)).remote, driver.ECHO
 
     def start_ours(self, package: str, program: str, *arguments: str) -> Program:
         """Start a program of the suite's. Without rosrun, which searches it for half a second."""
@@ -78,7 +82,7 @@ class Stage:
             seen = f"{Path(command[0]).name}: {error.strerror}"
             raise CutShort(CANNOT_START, seen) from None
 
-    def call(self, method: str, *arguments: object) -> Any:
+    def _call(self, method: str, *arguments: object) -> object:
         """Call a method of the driver. Stop waiting if the master has ended: rospy would retry without end."""
         if arguments:
             arguments = (self._topics.get(str(arguments[0]), arguments[0]), *arguments[1:])
@@ -101,8 +105,7 @@ class Stage:
         """
 
         def has_met() -> bool:
-            ends = [(end, topic) for topic in topics for end in self.call("ends_of", topic)]
-            return all([self.call(end, topic) for end, topic in ends])
+            return all([self.driver.has_met(topic) for topic in topics])
 
         self.wait_for_start(lambda: program.ended or has_met())
         self.wait(lambda: program.ended or program.rests(), SETTLE_S)

@@ -58,30 +58,30 @@ class Second:
 def talk(ground: Ground, talker: str, listener: str) -> Talk:
     """Start the programs of these paths, and send STRINGS to the listener."""
     with ground.stage() as stage:
-        stage.call("listen", TOPIC, "String")
+        stage.driver.listen(TOPIC, "String")
         first, listens = stage.start(PACKAGE, talker), stage.start(PACKAGE, listener)
         published: dict[str, str] = {}
 
         def is_right() -> bool:
             """Note what is published; return whether it is a String on /chatter."""
-            topics, types = stage.call("state")[0], stage.call("types")
+            topics, types = stage.driver.state()[0], stage.driver.types()
             published.update({t: types.get(t, "") for t in topics if t not in OF_ALL})
             return published.get(TOPIC) == KIND
 
         stage.wait_for_start(lambda: is_right() or published or first.ended)
         stage.wait(lambda: is_right() or first.ended, ANOTHER_S)
         if is_right():
-            stage.wait_for_start(lambda: stage.call("count", TOPIC) or first.ended)
-        stage.call("advertise", TOPIC, "String")
-        stage.wait_for_start(lambda: stage.call("listeners", TOPIC) > 1 or listens.ended)
+            stage.wait_for_start(lambda: stage.driver.count(TOPIC) or first.ended)
+        stage.driver.advertise(TOPIC, "String")
+        stage.wait_for_start(lambda: stage.driver.listeners(TOPIC) > 1 or listens.ended)
         talks = bool(_received(stage))
         if talks:
             stage.wait(lambda: len(_received(stage)) > 3 or first.ended, 2.0)
-        publishers, subscribers = stage.call("state")
-        types, warnings = stage.call("types"), stage.call("warnings")
+        publishers, subscribers = stage.driver.state()
+        types, warnings = stage.driver.types(), stage.driver.warnings()
         count = len(_received(stage))
         for text in STRINGS:
-            stage.call("send", TOPIC, text)
+            stage.driver.send(TOPIC, text)
         stage.wait(lambda: all(text in listens.output for text in STRINGS), 2.0)
         if talks:
             stage.wait(lambda: len(_received(stage)) >= count + 6 or first.ended, LISTEN_S)
@@ -106,7 +106,7 @@ def _pair(
     def both() -> bool:
         return len({caller for _, caller, _ in _received(stage)[-20:]}) > 1 and not first.ended
 
-    stage.wait_for_start(lambda: set(stage.call("state")[0].get(TOPIC, [])) - names or first.ended)
+    stage.wait_for_start(lambda: set(stage.driver.state()[0].get(TOPIC, ())) - names or first.ended)
     stage.wait_for_start(lambda: first.ended or both())
     first_ended, both_talk = first.ended, both()
     so_far = len(_received(stage))  # the one that is ended next must be well under way
@@ -119,15 +119,15 @@ def second(ground: Ground, talker: str, text: str) -> Second:
     """Start two talkers with this text in place of their own."""
     script = ground.sibling(PACKAGE, talker, text)
     with ground.stage() as stage:
-        stage.call("listen", TOPIC, "String")
+        stage.driver.listen(TOPIC, "String")
         first = stage.start(PACKAGE, script)
-        talks = stage.wait_for_start(lambda: stage.call("count", TOPIC) or first.ended)
+        talks = stage.wait_for_start(lambda: stage.driver.count(TOPIC) or first.ended)
         if first.ended or not talks:
             return Second(first.ran, talks=False)
         other = stage.start(PACKAGE, script)
 
         def settled() -> bool:
-            callers = {caller for _, caller, _ in stage.call("received", TOPIC)}
+            callers = {caller for _, caller, _ in stage.driver.received(TOPIC)}
             return first.ended or other.ended or len(callers) > 1
 
         stage.wait_for_start(settled)
@@ -135,4 +135,4 @@ def second(ground: Ground, talker: str, text: str) -> Second:
 
 
 def _received(stage: Stage) -> tuple[HeardText, ...]:
-    return tuple(each for each in stage.call("received", TOPIC) if each[1] != "/tutorial_check")
+    return tuple(each for each in stage.driver.texts(TOPIC) if each[1] != "/tutorial_check")

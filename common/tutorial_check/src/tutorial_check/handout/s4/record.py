@@ -6,18 +6,20 @@ import math
 import statistics
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Optional, Tuple
+from typing import TYPE_CHECKING, Optional, Tuple
 
 from tutorial_check.handout.s4_3.evidence import ANGULAR, LINEAR
 from tutorial_check.handout.s4_3.record import CMD_VEL, JOY, NEUTRAL
 from tutorial_check.handout.task import LB, PACKAGE, Joy
-from tutorial_check.isolation.helper_process import Helper
 from tutorial_check.isolation.program import Program, Ran
 from tutorial_check.model import CannotCheck
 from tutorial_check.record.ground import Ground
 from tutorial_check.record.session import Session
 from tutorial_check.record.simulated_robot import ODOM, SimulatedRobot
 from tutorial_check.record.stage import START_S, Stage
+
+if TYPE_CHECKING:  # judges need no gamepad
+    from tutorial_check.record.gamepad import Gamepad
 
 FORWARDS, LEFT = 0.5, 0.8  # positions of the stick
 SLOW_S = 4.0  # for a program that sleeps in its callback to answer what has gathered
@@ -68,9 +70,9 @@ def held(session: Session, left: float, forwards: float) -> Joy:
 
 def rest(stage: Stage, *topics: str, joys: str = JOY) -> None:
     """Send Joys at rest until a Twist answers, or for a while: some drive only after it."""
-    stage.call("stream", joys, [NEUTRAL], 20.0, True)
-    stage.wait(lambda: any(stage.call("count", topic) for topic in topics), REST_S)
-    stage.call("end_stream", joys)
+    stage.driver.stream(joys, [NEUTRAL], 20.0, True)
+    stage.wait(lambda: any(stage.driver.count(topic) for topic in topics), REST_S)
+    stage.driver.end_stream(joys)
 
 
 def bag(ground: Ground, path: str) -> Bag:
@@ -88,16 +90,16 @@ def bag(ground: Ground, path: str) -> Bag:
 
 def follow(ground: Ground, script: str) -> Follow:
     with ground.stage() as stage:
-        stage.call("listen", CMD_VEL, "Twist")
-        stage.call("advertise", JOY, "Joy")
+        stage.driver.listen(CMD_VEL, "Twist")
+        stage.driver.advertise(JOY, "Joy")
         program = stage.start(PACKAGE, script)
         robot = SimulatedRobot(stage)
-        ready = stage.wait(lambda: program.ended or stage.call("listeners", JOY), START_S)
+        ready = stage.wait(lambda: program.ended or stage.driver.listeners(JOY), START_S)
         rest(stage, CMD_VEL)
         if ready:  # its Publisher may be made in the callback
-            ready = stage.wait(lambda: program.ended or stage.call("publishers", CMD_VEL), START_S)
+            ready = stage.wait(lambda: program.ended or stage.driver.publishers(CMD_VEL), START_S)
         ready = bool(ready) and not program.ended
-        publishers = tuple(sorted(set(stage.call("state")[0].get(ground.task.topic(CMD_VEL), []))))
+        publishers = tuple(sorted(set(stage.driver.state()[0].get(ground.task.topic(CMD_VEL), []))))
         if not ready or len(publishers) != 1:
             return Follow(program.ran, ready, publishers)
         (v, _), told_v = _driven(stage, robot, held(ground, 0.0, FORWARDS), LINEAR)
@@ -108,8 +110,8 @@ def follow(ground: Ground, script: str) -> Follow:
 
 def _speeds(stage: Stage, robot: SimulatedRobot) -> tuple[float, float]:
     """Return (speed [m/s], rate of turn [rad/s]) of the robot in a while of even driving."""
-    before = stage.call("count", ODOM)
-    stage.wait(lambda: stage.call("count", ODOM) >= before + SAMPLES, SAMPLES_S)
+    before = stage.driver.count(ODOM)
+    stage.wait(lambda: stage.driver.count(ODOM) >= before + SAMPLES, SAMPLES_S)
     path = robot.path[before:]
     mean = statistics.fmean if path else lambda _: 0.0
     return mean([sample.v for sample in path]), mean([sample.w for sample in path])
@@ -125,37 +127,37 @@ def _driven(
     stage: Stage, robot: SimulatedRobot, joy: object, field: int
 ) -> tuple[tuple[float, float], float | None]:
     """Return (speed and rate of turn of the robot, what the last Twist has in a field) in a drive."""
-    before = stage.call("count", CMD_VEL)
+    before = stage.driver.count(CMD_VEL)
 
     def wanted() -> list[float]:
-        return [value[field] for _, _, value in stage.call("received", CMD_VEL, before)]
+        return [value[field] for _, _, value in stage.driver.received(CMD_VEL, before)]
 
-    stage.call("stream", JOY, [joy], 20.0, True)
+    stage.driver.stream(JOY, [joy], 20.0, True)
     stage.wait(lambda: any(abs(value) > 0.01 for value in wanted()), 3.0)
-    moving = stage.call("count", ODOM)
-    stage.wait(lambda: stage.call("count", ODOM) > moving + 8, 3.0)
+    moving = stage.driver.count(ODOM)
+    stage.wait(lambda: stage.driver.count(ODOM) > moving + 8, 3.0)
     for _ in range(LOOKS):
         speeds, last = _speeds(stage, robot), next(iter(wanted()[-1:]), None)
         if last is not None and agree(speeds[field == ANGULAR], last, field):
             break
-    stage.call("end_stream", JOY)
+    stage.driver.end_stream(JOY)
     return speeds, last
 
 
-def plug_in(ground: Ground, stage: Stage, device: str = "/dev/input/js0") -> tuple[Helper, Path]:
+def plug_in(ground: Ground, stage: Stage, device: str = "/dev/input/js0") -> tuple[Gamepad, Path]:
     """Make a virtual F710 behind a device, or a FIFO where that cannot be; (Gamepad, path)."""
-    from tutorial_check.record.gamepad import Gamepad  # noqa: PLC0415  judges need no gamepad
+    from tutorial_check.record.gamepad import Gamepad  # noqa: PLC0415
 
     path = Path(device) if ground.order.apart else ground.folder / "js0"
-    gamepad = stage.help(lambda: Gamepad(str(path), ground.task.joy))
-    gamepad.call("connected")
+    gamepad = stage.help(lambda: Gamepad(str(path), ground.task.joy)).remote
+    gamepad.connected()
     return gamepad, path
 
 
 def stick(ground: Ground, script: str) -> Stick:
     with ground.stage() as stage:
-        stage.call("listen", JOY, "Joy")
-        stage.call("listen", CMD_VEL, "Twist")
+        stage.driver.listen(JOY, "Joy")
+        stage.driver.listen(CMD_VEL, "Twist")
         gamepad, path = plug_in(ground, stage)
         node = stage.start_ours("gamepad", "joy_node", f"_dev:={path}", "_autorepeat_rate:=20")
         program = stage.start(PACKAGE, script)
@@ -167,12 +169,12 @@ def stick(ground: Ground, script: str) -> Stick:
             return any(abs(speed) > 0.01 for speed in _speeds_told(stage))
 
         def is_up() -> bool:
-            return bool(stage.call("count", JOY) and stage.call("publishers", CMD_VEL))
+            return bool(stage.driver.count(JOY) and stage.driver.publishers(CMD_VEL))
 
         stage.wait(lambda: is_up() or has_ended(), START_S)
-        gamepad.call("push", 0.0, 0.6)
+        gamepad.push(0.0, 0.6)
         stage.wait(lambda: drives() or has_ended(), 3.0)
-        if not stage.call("count", JOY):
+        if not stage.driver.count(JOY):
             raise CannotCheck(f"the joystick driver does not start: {node.output[-200:]}")
         if program.ended or not drives():
             return Stick(program.ran, drives=False)
@@ -185,28 +187,28 @@ def stick(ground: Ground, script: str) -> Stick:
 
 
 def _speeds_told(stage: Stage, since: int = 0) -> list[float]:
-    return [value[0] for _, _, value in stage.call("received", CMD_VEL, since)]
+    return [value[0] for _, _, value in stage.driver.received(CMD_VEL, since)]
 
 
 def _survives_eight_axes(ground: Ground, stage: Stage, program: Program) -> bool:
-    stage.call("advertise", JOY, "Joy")
+    stage.driver.advertise(JOY, "Joy")
     # Our own Subscriber is one of them.
-    stage.wait(lambda: stage.call("listeners", JOY) > 1 or program.ended, START_S)
+    stage.wait(lambda: stage.driver.listeners(JOY) > 1 or program.ended, START_S)
 
     def drive_backwards() -> None:
         """Only this does; once it shows, all that was sent before has been answered."""
-        index = stage.call("count", CMD_VEL)
-        stage.call("send", JOY, held(ground, 0.1, -0.5))
+        index = stage.driver.count(CMD_VEL)
+        stage.driver.send(JOY, held(ground, 0.1, -0.5))
         stage.wait(
             lambda: min(_speeds_told(stage, index), default=0.0) < 0 or program.ended, SLOW_S
         )
 
     drive_backwards()
-    before, failed = stage.call("count", CMD_VEL), program.output.count("Traceback")
+    before, failed = stage.driver.count(CMD_VEL), program.output.count("Traceback")
     for k in range(5):
         axes = (0.1, 0.2 + 0.1 * k, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
         joy = axes, (0,) * LB + (1,) + (0,) * 6
-        stage.call("send", JOY, ground.task.joy(joy))
+        stage.driver.send(JOY, ground.task.joy(joy))
     drive_backwards()
     has_failed = program.ended or program.output.count("Traceback") != failed
     return not has_failed and max(_speeds_told(stage, before), default=0.0) > 0

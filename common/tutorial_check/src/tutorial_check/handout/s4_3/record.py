@@ -60,9 +60,9 @@ def found(ground: Ground, package: str) -> Found:
 def loaded(ground: Ground, script: str) -> Loaded:
     """Start it ten times while 200 Joys a second come."""
     with ground.stage() as stage:
-        stage.call("advertise", JOY, "Joy")
-        stage.call("listen", CMD_VEL, "Twist")
-        stage.call("stream", JOY, [NEUTRAL], 200.0, True)
+        stage.driver.advertise(JOY, "Joy")
+        stage.driver.listen(CMD_VEL, "Twist")
+        stage.driver.stream(JOY, [NEUTRAL], 200.0, True)
         names = [f"__name:=loaded_{number}" for number in range(STARTS)]
         programs = [stage.start(PACKAGE, script, name) for name in names]
 
@@ -70,7 +70,7 @@ def loaded(ground: Ground, script: str) -> Loaded:
             return any("NameError" in each.output for each in programs)
 
         def all_publish() -> bool:
-            return len({caller for _, caller, _ in stage.call("received", CMD_VEL)}) >= STARTS
+            return len({caller for _, caller, _ in stage.driver.received(CMD_VEL)}) >= STARTS
 
         stage.wait(lambda: all_publish() or one_has_failed(), START_S)
         return Loaded(one_has_failed())
@@ -92,8 +92,8 @@ class _Driver:
             factors={FIELDS[index]: each for index, each in self._task.factors.items()},
             needs_button=self._task.needs_button,
         )
-        stage.call("advertise", JOY, "Joy")
-        stage.call("listen", CMD_VEL, "Twist")
+        stage.driver.advertise(JOY, "Joy")
+        stage.driver.listen(CMD_VEL, "Twist")
         self._program = stage.start(PACKAGE, script)
 
     def _note(self, **changes: Any) -> None:
@@ -101,17 +101,17 @@ class _Driver:
 
     def drive(self, wants_twist: bool) -> Drive:
         stage, program = self._stage, self._program
-        stage.wait_for_start(lambda: stage.call("listeners", JOY) or program.ended)
-        connected = bool(stage.call("listeners", JOY)) and not program.ended
+        stage.wait_for_start(lambda: stage.driver.listeners(JOY) or program.ended)
+        connected = bool(stage.driver.listeners(JOY)) and not program.ended
         if connected and wants_twist:
-            self._wait(1.5, lambda: stage.call("publishers", CMD_VEL))
-        publishers, subscribers = stage.call("state")
+            self._wait(1.5, lambda: stage.driver.publishers(CMD_VEL))
+        publishers, subscribers = stage.driver.state()
         if connected:
             self._converse(wants_twist)
         ended_early = program.ended
-        late, _ = stage.call("state") if stage.master_lives else ({}, {})
+        late, _ = stage.driver.state() if stage.master_lives else ({}, {})
         output, master_alive = program.output, stage.master_lives
-        types, warnings = stage.call("types"), tuple(stage.call("warnings"))
+        types, warnings = stage.driver.types(), tuple(stage.driver.warnings())
         # Only where its end is asked for it is waited for.
         grace_s = GRACE_S if "4.3" in self._ground.order.exercises else 0.5
         taken_s = self._ground.runner.end(program, grace_s)
@@ -127,20 +127,20 @@ class _Driver:
         self._stage.wait(lambda: self._program.ended or condition(), longest_s)
 
     def _count(self) -> int:
-        return int(self._stage.call("count", CMD_VEL))
+        return int(self._stage.driver.count(CMD_VEL))
 
     def _received(self, since: int) -> list[Any]:
-        return list(self._stage.call("received", CMD_VEL, since))
+        return list(self._stage.driver.received(CMD_VEL, since))
 
     def _converse(self, wants_twist: bool) -> None:
         stage, joys = self._stage, probes.numbered_joys(COUNT)
-        stage.call("send", JOY, NEUTRAL)
+        stage.driver.send(JOY, NEUTRAL)
         if wants_twist:
             stage.wait(self._count, 0.5)
             self._ask_numbered(joys)
         else:
             for joy in joys:
-                stage.call("send", JOY, self._task.joy(joy))
+                stage.driver.send(JOY, self._task.joy(joy))
             self._note(asked=COUNT)
         sent = [*map(self._task.joy, joys)]
 
@@ -225,7 +225,7 @@ class _Driver:
     ) -> tuple[float, list[Any]]:
         """Return (when a Joy was sent, what came then). often: how many Twists are waited for."""
         before = self._count()
-        sent_s = self._stage.call("send", JOY, self._task.joy(joy))
+        sent_s = self._stage.driver.send(JOY, self._task.joy(joy))
         self._wait(longest_s if often == 1 else SETTLE_S, lambda: self._count() - before >= often)
         if settle_s:
             self._wait(settle_s)
@@ -257,21 +257,21 @@ class _Driver:
     def _stream(self, beside_ours: bool = False) -> None:
         stage, count = self._stage, int(RATE * STREAM_S)
         if beside_ours:
-            known = stage.call("listeners", JOY)
+            known = stage.driver.listeners(JOY)
             echo, answers = stage.echo(self._task.axes[RIGHT[LINEAR]])
-            stage.call("listen", answers, "Twist")
-            stage.wait(lambda: echo.call("ready") and stage.call("listeners", JOY) > known, START_S)
+            stage.driver.listen(answers, "Twist")
+            stage.wait(lambda: echo.ready() and stage.driver.listeners(JOY) > known, START_S)
         before = self._count()
         joys = [self._task.joy(joy) for joy in probes.rising_joys(count)]
-        stage.call("stream", JOY, joys, RATE, False)
-        stage.wait(lambda: len(stage.call("sent", JOY)) >= count, STREAM_S + 3)
+        stage.driver.stream(JOY, joys, RATE, False)
+        stage.wait(lambda: len(stage.driver.sent(JOY)) >= count, STREAM_S + 3)
         stage.wait(lambda: self._count() - before >= count, 0.3)
-        sent, received = stage.call("sent", JOY), self._received(before)
+        sent, received = stage.driver.sent(JOY), self._received(before)
         rule = rule_of(LINEAR, self._seen.samples)
         delays = probes.delays(sent, received, rule.factor if rule else None)
         strays = probes.strays([any(twist) for _, _, twist in received])
         self._note(sent=len(sent), answered=len(received), delays=tuple(delays), strays=strays)
         if beside_ours:
-            echoed, sign = stage.call("received", answers), self._task.signs[RIGHT[LINEAR]]
+            echoed, sign = stage.driver.received(answers), self._task.signs[RIGHT[LINEAR]]
             ours = statistics.median(probes.delays(sent, echoed, sign) or [0.0])
             self._note(possible=len(echoed), unavoidable_s=ours)

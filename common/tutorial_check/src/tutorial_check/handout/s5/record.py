@@ -7,18 +7,20 @@ import math
 import os
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Callable, Dict, Optional, Tuple
+from typing import TYPE_CHECKING, Any, Callable, Dict, Optional, Tuple
 
 from tutorial_check.handout.s4.record import held, plug_in
 from tutorial_check.handout.s4_3.record import NEUTRAL
 from tutorial_check.handout.s5 import launch_facts
-from tutorial_check.isolation.helper_process import Helper
 from tutorial_check.isolation.program import Ran
 from tutorial_check.model import CannotCheck
 from tutorial_check.record.ground import Ground
 from tutorial_check.record.simulated_robot import ODOM
 from tutorial_check.record.stage import Stage
 from tutorial_check.source.tracebacks import last_lines
+
+if TYPE_CHECKING:  # judges need no gamepad
+    from tutorial_check.record.gamepad import Gamepad
 
 READ_S = 15.0  # for all four files
 BAG_S = 1.2  # length of the recording that takes the place of the student's, and is played again
@@ -85,7 +87,7 @@ class Launch:
     def __init__(self, ground: Ground, stage: Stage, plan: Plan) -> None:
         self._ground, self.stage, self.plan = ground, stage, plan
         for topic, kind in ((plan.joys, "Joy"), (plan.twists, "Twist"), (ODOM, "Odometry")):
-            stage.call("listen", topic, kind)
+            stage.driver.listen(topic, kind)
         self.program = stage.launch(["roslaunch", str(ground.source / plan.path)])
 
     def wait(self, condition: Callable[[], object]) -> bool:
@@ -106,19 +108,19 @@ class Launch:
 
     def _is_up(self) -> bool:
         """Return whether the master knows all of its nodes; each has /rosout."""
-        there = self.stage.call("state")[0].get("/rosout", [])
+        there = self.stage.driver.state()[0].get("/rosout", ())
         return all(node in there for node in self.plan.nodes)
 
     def moved_m(self) -> float:
         """Return how far the robot drove, along its way."""
-        path = [value[1:3] for _, _, value in self.stage.call("received", ODOM)]
+        path = [value[1:3] for _, _, value in self.stage.driver.received(ODOM)]
         return sum(map(math.dist, path, path[1:]))
 
     def run(
         self, drives: bool, loops: bool = False, rests: bool = True, active: Tuple[str, ...] = ()
     ) -> Run:
         topics = (self.plan.joys, self.plan.twists, ODOM)
-        counts = {topic: self.stage.call("count", topic) for topic in topics}
+        counts = {topic: self.stage.driver.count(topic) for topic in topics}
         words = () if drives else tuple(self._last_words())
         about = self.program.ran, self.has_died, drives, counts, self.moved_m(), words
         return Run(*about, loops, rests, active)
@@ -138,10 +140,10 @@ def bag_run(ground: Ground, plan: Plan, bag: str, length_s: float, is_looped: bo
         drives = launch.wait(lambda: launch.moved_m() > FAR_M)
         loops = is_looped
         # A robot that drives by another topic has not shown that /joy does it.
-        if drives and is_looped and bag and stage.call("count", plan.joys):
-            end_s = stage.call("received", plan.joys)[0][0] + length_s + 0.5
+        if drives and is_looped and bag and stage.driver.count(plan.joys):
+            end_s = stage.driver.received(plan.joys)[0][0] + length_s + 0.5
             loops = bool(
-                stage.wait(lambda: stage.call("received", plan.joys)[-1][0] > end_s, length_s + 2.5)
+                stage.wait(lambda: stage.driver.received(plan.joys)[-1][0] > end_s, length_s + 2.5)
             )
         return launch.run(drives, loops=loops)
 
@@ -171,49 +173,47 @@ def stick_run(ground: Ground, plan: Plan) -> Run:
         launch = Launch(ground, stage, plan)
         if not drives_forwards(stage, gamepad, launch):
             return launch.run(drives=False)
-        gamepad.call("release")
+        gamepad.release()
 
         def rests() -> bool:
-            return abs(stage.call("received", ODOM, -1)[0][2][5]) <= 0.01
+            return abs(stage.driver.received(ODOM, -1)[0][2][5]) <= 0.01
 
         return launch.run(drives=True, rests=bool(stage.wait(rests, 3.0)))
 
 
-def plug_in_for(ground: Ground, stage: Stage, plan: Plan) -> Helper:
+def plug_in_for(ground: Ground, stage: Stage, plan: Plan) -> Gamepad:
     """Put a joystick where the joy_node of a launch file will look for it."""
     if plan.device and not ground.order.apart:
         name = Path(plan.path).name
         raise CannotCheck(f"the system grants no {plan.device} to try {name} with")
     gamepad, path = plug_in(ground, stage, *filter(None, [plan.device]))
     for node in plan.joysticks if not ground.order.apart else ():
-        stage.call("set_parameter", f"{node}/dev", str(path))
+        stage.driver.set_parameter(f"{node}/dev", str(path))
     return gamepad
 
 
-def drives_forwards(stage: Stage, gamepad: Helper, launch: Launch, *signs: str) -> bool:
+def drives_forwards(stage: Stage, gamepad: Gamepad, launch: Launch, *signs: str) -> bool:
     """Push the stick forwards once signs, topics, have a message; return whether it moves."""
     plan = launch.plan
 
     def ready() -> bool:
-        counts = [stage.call("publishers", topic) for topic in (plan.joys, plan.twists, ODOM)]
-        return gamepad.call("connected") and all(
-            counts + [stage.call("count", each) for each in signs]
-        )
+        counts = [stage.driver.publishers(topic) for topic in (plan.joys, plan.twists, ODOM)]
+        return gamepad.connected() and all(counts + [stage.driver.count(each) for each in signs])
 
     def moves() -> bool:
         return launch.moved_m() > NEAR_M
 
-    def touch(*how: Any) -> None:
-        before = stage.call("count", plan.joys)
-        gamepad.call(*how)
-        stage.wait(lambda: launch.is_over() or stage.call("count", plan.joys) > before, 1.0)
+    def touch(move: Callable[..., None], *where: float) -> None:
+        before = stage.driver.count(plan.joys)
+        move(*where)
+        stage.wait(lambda: launch.is_over() or stage.driver.count(plan.joys) > before, 1.0)
 
     launch.wait(ready)
     # LB alone, touched and let go: a joy_node with autorepeat_rate 0 is silent while nothing moves.
-    touch("push", 0.0, 0.0)
-    touch("release")
+    touch(gamepad.push, 0.0, 0.0)
+    touch(gamepad.release)
     # A new robot obeys only after a while of zero velocities; so does this check.
     stage.wait(launch.is_over, 0.6)
-    gamepad.call("push", 0.0, 1.0)
+    gamepad.push(0.0, 1.0)
     stage.wait(lambda: moves() or launch.is_over(), 4.0 if ready() else 0.0)
     return moves()

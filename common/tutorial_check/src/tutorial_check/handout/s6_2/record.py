@@ -71,7 +71,7 @@ def alone(ground: Ground, script: str, text: str) -> Alone:
         if text:
             copy = ground.sibling(PACKAGE, script, text)
             broken = stage.start(PACKAGE, copy, "__name:=broken")
-        stage.wait_for_start(lambda: program.ended or joy in stage.call("state")[1])
+        stage.wait_for_start(lambda: program.ended or joy in stage.driver.state()[1])
         stage.wait(lambda: program.ended, ALONE_S)
         stage.wait_for_start(lambda: broken is None or broken.ended)
         ended, broken_ended = program.ended, broken is not None and broken.ended
@@ -81,9 +81,9 @@ def alone(ground: Ground, script: str, text: str) -> Alone:
 def endings(ground: Ground, script: str) -> Endings:
     with ground.stage() as stage:
         robot = stage.start_ours("fake_turtlebot_sim", "fake_turtlebot.py")
-        stage.call("advertise", JOY, "Joy")
-        stage.call("listen", CMD_VEL, "Twist")
-        stage.call("listen", ODOM, "Odometry")
+        stage.driver.advertise(JOY, "Joy")
+        stage.driver.listen(CMD_VEL, "Twist")
+        stage.driver.listen(ODOM, "Odometry")
         programs = {way: _start(ground, stage, script, way) for way in NODES}
         failed = _drive(ground, stage, programs)
         if failed:
@@ -107,12 +107,12 @@ def _start(ground: Ground, stage: Stage, script: str, way: str) -> Program:
 
 def _twists(stage: Stage, since: int = 0) -> dict[str, list[Heard]]:
     """Return {way: what that node has sent}."""
-    received = stage.call("received", CMD_VEL, since)
+    received = stage.driver.received(CMD_VEL, since)
     return {way: [one for one in received if one[1] == name] for way, name in NODES.items()}
 
 
 def _robot_rests(stage: Stage) -> bool:
-    last = stage.call("received", ODOM, -1)
+    last = stage.driver.received(ODOM, -1)
     return bool(last) and max(map(abs, last[0][2][5:])) < 0.01
 
 
@@ -123,18 +123,18 @@ def _drive(ground: Ground, stage: Stage, programs: dict[str, Program]) -> str:
         return any(each.ended for each in programs.values())
 
     def are_connected() -> bool:
-        ends = stage.call("listeners", JOY), stage.call("publishers", CMD_VEL)
-        return min(ends) >= len(programs) and bool(stage.call("count", ODOM))
+        ends = stage.driver.listeners(JOY), stage.driver.publishers(CMD_VEL)
+        return min(ends) >= len(programs) and bool(stage.driver.count(ODOM))
 
     def moving() -> list[int]:
         return [sum(one[2] != ZERO for one in sent) for sent in _twists(stage).values()]
 
     stage.wait_for_start(lambda: one_has_ended() or are_connected())
     # The robot obeys a node that has sent it zeros before.
-    stage.call("stream", JOY, [NEUTRAL], 50.0, True)
+    stage.driver.stream(JOY, [NEUTRAL], 50.0, True)
     stage.wait(lambda: one_has_ended() or min(map(len, _twists(stage).values())) >= 5, 0.5)
-    stage.call("end_stream", JOY)
-    stage.call("stream", JOY, [held(ground, 0.2, 0.3)], 50.0, True)
+    stage.driver.end_stream(JOY)
+    stage.driver.stream(JOY, [held(ground, 0.2, 0.3)], 50.0, True)
     stage.wait(lambda: one_has_ended() or (min(moving()) >= 10 and not _robot_rests(stage)), 4.0)
     counts = zip(programs.items(), moving())
     return next((way for (way, each), count in counts if each.ended or not count), "")
@@ -142,13 +142,13 @@ def _drive(ground: Ground, stage: Stage, programs: dict[str, Program]) -> str:
 
 def _end(ground: Ground, stage: Stage, programs: dict[str, Program]) -> Endings:
     runner = ground.runner
-    launched = stage.call("node_process", NODES[LAUNCH])
-    index = stage.call("count", CMD_VEL)
+    launched = stage.driver.node_process(NODES[LAUNCH])
+    index = stage.driver.count(CMD_VEL)
     began_s = time.monotonic()  # one clock for all processes
     took_s: dict[str, float] = {}
     for way in (CTRL_C, LAUNCH):
         programs[way].signal(signal.SIGINT)
-    stage.call("kill_node", NODES[KILL])
+    stage.driver.kill_node(NODES[KILL])
 
     def all_gone() -> bool:
         for way, each in programs.items():
@@ -168,9 +168,9 @@ def _end(ground: Ground, stage: Stage, programs: dict[str, Program]) -> Endings:
     in_time = stopped()
     stage.wait(all_gone, GONE_S + 0.5 - (runner.clock.now() - before_s))
     rests = bool(stage.wait(lambda: _robot_rests(stage), STANDS_S)) or not all_gone()
-    stage.call("end_stream", JOY)
+    stage.driver.end_stream(JOY)
     runner.end_all(list(programs.values()), 0.2)
-    stage.wait(lambda: not stage.call("publishers", CMD_VEL), 3.0)
+    stage.wait(lambda: not stage.driver.publishers(CMD_VEL), 3.0)
     ends = {}
     for way, sent in _twists(stage, index).items():
         first = next((at for at, (_, _, value) in enumerate(sent) if value == ZERO), None)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from typing import Dict, Optional, Tuple
+from typing import Dict, Optional, Sequence, Tuple
 
 from tutorial_check.handout.s3.record import PACKAGE
 from tutorial_check.handout.s4_3.record import CMD_VEL
@@ -54,10 +54,10 @@ def wanted(number: int) -> str:
 def presses(ground: Ground, script: str) -> Presses:
     shown: list[str] = []
     with ground.stage() as stage:
-        stage.call("advertise", BUMPER, "BumperEvent")
+        stage.driver.advertise(BUMPER, "BumperEvent")
         program = stage.start(PACKAGE, script)
         connected = stage.meet(program, BUMPER) and not program.ended
-        subscribers, types = stage.call("state")[1], stage.call("types")
+        subscribers, types = stage.driver.state()[1], stage.driver.types()
         for number in range(len(SIDES)) if connected else ():
             shown.append(_press(stage, program, number))
             if not re.search(wanted(number), shown[-1]):
@@ -72,7 +72,7 @@ def _press(stage: Stage, program: Program, number: int) -> str:
     def shown() -> str:
         return STAMP.sub("", program.output[since:]).strip(": \n")
 
-    stage.call("send", BUMPER, (number, 1))
+    stage.driver.send(BUMPER, (number, 1))
     stage.wait(lambda: program.ended or re.search(wanted(number), shown()), ANSWER_S)
     return shown()
 
@@ -90,27 +90,27 @@ def wandering(ground: Ground, script: str) -> Drive:
 def _driven(ground: Ground, script: str, *arguments: str) -> Drive:
     with ground.stage() as stage:
         robot = SimulatedRobot(stage, "_world:=room", f"_initial_x:={START_X_M}")
-        stage.call("listen", CMD_VEL, "Twist")
+        stage.driver.listen(CMD_VEL, "Twist")
         program = stage.start(PACKAGE, script, *arguments)
 
         def now_s() -> float:
-            return stage.call("received", TRUTH, -1)[0][0]
+            return stage.driver.received(TRUTH, -1)[0][0]
 
         def pushes() -> bool:
-            return longest_push_s(stage.call("received", BUMPER), now_s()) > LONGEST_PUSH_S
+            return longest_push_s(stage.driver.received(BUMPER), now_s()) > LONGEST_PUSH_S
 
         if arguments:
             robot.drive(program)
         else:
             stage.wait(lambda: program.ended or pushes(), WANDER_S)
-        publishers, types = stage.call("state")[0], stage.call("types")
-        path, bumps, ended_s = robot.path, stage.call("received", BUMPER), now_s()
-        last = stage.call("received", CMD_VEL, -1)
+        publishers, types = stage.driver.state()[0], stage.driver.types()
+        path, bumps, ended_s = robot.path, stage.driver.received(BUMPER), now_s()
+        last = stage.driver.received(CMD_VEL, -1)
     twist = last[0][2] if last else None
     return Drive(program.ran, path, tuple(bumps), ended_s, twist, publishers, types)
 
 
-def longest_push_s(events: Tuple[Heard, ...], now_s: float) -> float:
+def longest_push_s(events: Sequence[Heard], now_s: float) -> float:
     """Return how long [s] a bumper was pressed at a time, at most."""
     pressed: set[float] = set()
     longest_s = began_s = 0.0
