@@ -1,4 +1,4 @@
-"""Mistakes with packages and files, each a row: (exercise, what, edits, check, word of the diagnosis)."""
+"""Mistakes with packages, files, talker and listener: (exercise, what, edits, check, word or words)."""
 
 from edits import *
 
