@@ -1,6 +1,5 @@
 """joy_node over a FIFO: what it publishes of events, recordings and scripts, and at what cost."""
 
-import contextlib
 import math
 import os
 import re
@@ -13,8 +12,10 @@ import rospy
 from sensor_msgs.msg import Joy
 
 from gamepad.driver.driver import SHORTEST_SILENCE_S
-from gamepad.gamepads import F710_D
-from gamepad.js_event import AXIS, BUTTON, FULL, INIT, JsEvent, pack
+from gamepad.gamepads import F710_D, F710_X
+from gamepad.js_event import FULL
+from gamepad.virtual.controls import Controls, positions
+from gamepad.virtual.pads import StreamPad
 from joy_to_twist.states import State
 from tutorial_testing.keys import LAUNCH, DiagnosedRobot
 from tutorial_testing.nodes import node_path
@@ -24,7 +25,9 @@ from tutorial_testing.waiting import BUSY_S, Stopwatch, wait_for
 
 PACKAGE = Path(rospkg.RosPack().get_path("gamepad"))
 VIRTUAL = node_path("gamepad", "virtual_joystick")
-AXES, BUTTONS = 6, 12  # the F710 in D mode
+LB, A = frozenset(["LB"]), frozenset(["A"])
+REST, PRESSED, HELD = (positions(F710_X, Controls(held=held)) for held in ((), A, LB))
+PUSHED = positions(F710_X, Controls(left_stick=(0.0, 1.0), triggers=(0.0, 1.0), held=LB))
 STILL_S = 5.0
 # Measured: 26. The driver alone wakes 10 times, to ask whether it is to end.
 WAKINGS_A_SECOND = 50
@@ -32,51 +35,24 @@ CORNERS = [(1.0, 0.0), (1.0, 1.0), (0.0, 1.0), (0.0, 0.0)]  # [m], in their orde
 NEAR_M = 0.25  # on a busy machine each move may be some hundredths of a second off
 
 
-class Stream:
-    """The end of a FIFO into which the kernel's part is written."""
-
-    def __init__(self, path):
-        self.path, self._fd = path, None
-
-    def plug_in(self, axes=AXES):
-        """Make the device, wait for its reader, send it the state at opening: all zero."""
-        os.mkfifo(self.path)
-        self._fd = wait_for(self._open, "reader of the device")
-        self.send(*[(BUTTON | INIT, n, 0) for n in range(BUTTONS)])
-        self.send(*[(AXIS | INIT, n, 0) for n in range(axes)])
-
-    def _open(self):
-        with contextlib.suppress(OSError):  # no reader yet
-            return os.open(self.path, os.O_WRONLY | os.O_NONBLOCK)
-
-    def send(self, *events):
-        os.write(self._fd, b"".join([pack(JsEvent(0, v, kind, n)) for kind, n, v in events]))
-
-    def pull_out(self):
-        """Take the device away; return the ROS time [s] just before."""
-        now = time.time()
-        os.unlink(self.path)
-        os.close(self._fd)
-        self._fd = None
-        return now
-
-    def close(self):
-        if self._fd is not None:
-            os.close(self._fd)
-
-
 class DriverTest(RosTest):
     def setUp(self):
-        self.stream = Stream(str(self.folder() / "js0"))
-        self.addCleanup(self.stream.close)
+        self.device = str(self.folder() / "js0")
         self.joys = []
         self._subscriber = self.hear("joy", Joy, self.joys.append)
+
+    def plug_in(self):
+        """Make the device, and wait for its reader; return the gamepad, which rests."""
+        pad = self.enter(StreamPad(F710_X, self.device))
+        pad.gives_signs = False  # as the kernel, which gives none
+        wait_for(lambda: pad.show(REST) or pad.connected, "reader of the device")
+        return pad
 
     def start_driver(self, *parameters):
         """Start joy_node, which reads the FIFO; parameters as ~name:=value without the ~."""
         if rospy.has_param("/joy_node"):
             rospy.delete_param("/joy_node")  # left by the previous test: the master keeps them
-        given = [f"_{parameter}" for parameter in (f"dev:={self.stream.path}", *parameters)]
+        given = [f"_{parameter}" for parameter in (f"dev:={self.device}", *parameters)]
         return self.start(node_path("gamepad", "joy_node"), *given)
 
     @property
@@ -91,14 +67,16 @@ class DriverTest(RosTest):
         program = self.start_driver()
         wait_for(lambda: "No joystick at" in program.output, "line on the missing device")
         wait_for(self._subscriber.get_num_connections, "connection")
-        self.stream.plug_in(axes=8)  # so many as in X mode, where axes 2 and 5 are triggers
-        self.stream.send((AXIS, 1, -FULL), (AXIS, 5, FULL), (BUTTON, 4, 1))
+        pad = self.plug_in()  # in X mode, where axes 2 and 5 are triggers
+        pad.show(PUSHED)
         wait_for(lambda: self.last and self.last[1] == [4], "stick pushed with the dead-man held")
-        watch, lost = Stopwatch(), self.stream.pull_out()
+        watch, lost = Stopwatch(), time.time()
+        os.unlink(self.device)
+        pad.show(None)
         neutral = ((0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0), [])
         wait_for(lambda: self.last == neutral, "neutral message")
         after = [joy for joy in self.joys if not joy.buttons[4] and joy.axes[5] == 1.0]
-        self.assertEqual((len(after), after[0].header.frame_id), (1, self.stream.path))
+        self.assertEqual((len(after), after[0].header.frame_id), (1, self.device))
         late_s = after[0].header.stamp.to_sec() - lost - watch.lost_s
         self.assertLess(late_s, 0.1 + BUSY_S)
         wait_for(lambda: "No joystick at" in program.output.partition("Lost")[2], "search")
@@ -106,19 +84,18 @@ class DriverTest(RosTest):
         self.assertGreaterEqual(time.time() - lost, SHORTEST_SILENCE_S)
 
         watch = Stopwatch()
-        self.stream.plug_in(axes=8)
+        pad = self.plug_in()
         self.assertLess(watch.took_s, 1.0 + BUSY_S)
         # Silent until it is touched: the state at opening may be made up.
-        self.stream.send((BUTTON, 4, 1))
+        pad.show(HELD)
         wait_for(lambda: len(self.joys) > count, "message")
         self.assertEqual(self.joys[count].buttons[4], 1)
 
     def test_a_still_stick_hardly_wakes_the_driver(self):
         program = self.start_driver("autorepeat_rate:=0")
-        self.stream.plug_in()
+        pad = self.plug_in()
         # It repeats nothing, and may not know of its subscriber yet.
-        press = ((BUTTON, 0, 1), (BUTTON, 0, 0))
-        wait_for(lambda: self.stream.send(*press) or self.joys, "first message")
+        wait_for(lambda: pad.show(PRESSED) or pad.show(REST) or self.joys, "first message")
         before = wakings(program.pid)
         time.sleep(STILL_S)  # what is measured
         self.assertLess(wakings(program.pid) - before, WAKINGS_A_SECOND * STILL_S)
@@ -127,7 +104,7 @@ class DriverTest(RosTest):
         path, axis = PACKAGE / "bag/joy.bag", F710_D.axes[1]
         with rosbag.Bag(str(path)) as bag:
             steps = {-axis.js_value(axis.raw(joy.axes[1])) for _, joy, _ in bag.read_messages()}
-        self.start(VIRTUAL, "--stream", self.stream.path, "--bag", str(path))
+        self.start(VIRTUAL, "--stream", self.device, "--bag", str(path))
         self.start_driver("deadzone:=0.0")
         wait_for(lambda: len({joy.axes[1] for joy in self.joys}) > 30, "moving stick")
         self.assertLessEqual({round(joy.axes[1] * FULL) for joy in self.joys}, steps)
@@ -140,11 +117,11 @@ class DriverTest(RosTest):
             ("moves.yaml: it has no list of moves", "--script", str(script)),
             ("is there and is no FIFO", "--stream", str(script)),
         ):
-            self.check_mistake(Program(VIRTUAL, "--stream", self.stream.path, *given), line)
+            self.check_mistake(Program(VIRTUAL, "--stream", self.device, *given), line)
         self.assertEqual(script.read_text(encoding="utf-8"), "7")
 
     def test_a_script_of_moves_drives_a_square(self):
-        robot, device = self.enter(DiagnosedRobot()), self.stream.path
+        robot, device = self.enter(DiagnosedRobot()), self.device
         self.start(*LAUNCH, f"joy_dev:={device}")
         # The script begins with its reader, and the robot must be ready then.
         robot.wait_for_state(State.WAITING.value)
