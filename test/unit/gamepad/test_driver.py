@@ -1,8 +1,5 @@
 """The driver without ROS and without a device: bytes and times in, axes and buttons out."""
 
-from dataclasses import FrozenInstanceError
-from pathlib import Path
-
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -12,7 +9,6 @@ from gamepad.driver.parameters import DriverParameters
 from gamepad.driver.report import SILENT_FOR, DriverReport
 from gamepad.driver.schedule import Schedule
 from gamepad.js_event import SIGN_OF_LIFE_MS
-from node_kit.parameters import table
 from tutorial_testing.gamepad_events import AXIS, BUTTON, INIT, driver, events, sign
 
 INF = float("inf")
@@ -114,13 +110,6 @@ def test_a_sign_publishes_nothing_and_moves_nothing():
     data = sign(*STATE) + events((BUTTON, 0, 1)) + sign(*STATE)  # a change that comes with signs
     ((axes, buttons),) = one.read(data, 1.3)
     assert (axes[1], buttons) == (pytest.approx(1.0), (1, 0, 0, 0, 1))
-
-
-def test_the_readme_has_the_parameters_which_do_not_change():
-    readme = Path(__file__).parents[3] / "common" / "gamepad" / "README.md"
-    assert table(DriverParameters) in readme.read_text()
-    with pytest.raises(FrozenInstanceError):
-        DriverParameters().deadzone = 0.0
 
 
 def test_a_report_has_the_rates_and_a_change_is_reported_at_once():
