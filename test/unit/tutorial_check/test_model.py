@@ -29,7 +29,7 @@ def run(checks, busy=False, hopeless=False, **come_to):
         return call
 
     checks = [replace(check, function=function(check.id)) for check in checks]
-    return Run(checks, None, lambda explained: busy, lambda: hopeless), called
+    return Run(checks, None, lambda explained: busy or not explained, lambda: hopeless), called
 
 
 def statuses(one, exercises, **options):
@@ -96,6 +96,7 @@ def test_what_cannot_be_checked_keeps_no_other_check_from_it(error, why):
     ("about", "busy", "hopeless", "looks", "status"),
     [
         ("", False, False, 1, WRONG),
+        ("no line", False, False, 2, WRONG),
         ("", True, False, 2, WRONG),
         ("sure", True, True, 1, WRONG),
         ("timeless", True, True, 1, WRONG),  # it reads files alone
@@ -103,8 +104,8 @@ def test_what_cannot_be_checked_keeps_no_other_check_from_it(error, why):
         ("late once", True, False, 2, OK),
     ],
 )
-def test_a_second_look_on_a_busy_machine(about, busy, hopeless, looks, status):
-    wrong = Wrong("good", "bad", "f:1", sure=about == "sure")
+def test_a_second_look_on_a_busy_machine_or_without_a_line(about, busy, hopeless, looks, status):
+    wrong = Wrong("good", "bad", "f" if about == "no line" else "f:1", sure=about == "sure")
     check = replace(ONE, timeless=about == "timeless")
     come_to = iter([wrong, None if about == "late once" else wrong])
     one, called = run([check], busy, hopeless, A=come_to)
@@ -113,13 +114,3 @@ def test_a_second_look_on_a_busy_machine(about, busy, hopeless, looks, status):
     assert ("the machine has too much else to do" in one.trouble("1")) == (status == UNREACHED)
     checks = checks_of(read_course())
     assert {"C5", "C13", "C21", "C29"} <= {each.id for each in checks if each.timeless}
-
-
-@pytest.mark.parametrize(("where", "explained"), [("a.py:3", True), ("a.py", False)])
-def test_a_second_look_knows_whether_a_line_explains_it(where, explained):
-    def look(session):
-        raise Wrong("good", "bad", where)
-
-    asked = []
-    Run([replace(ONE, function=look)], None, asked.append, lambda: False).result("A")
-    assert asked == [explained]
