@@ -82,20 +82,14 @@ def test_the_exit_code_tells_right_wrong_and_no_verdict(main, outcomes, code, ca
     out, err = capsys.readouterr()
     assert f"{sum(one.passed for one in outcomes)} of {len(outcomes)} exercises done" in out
     assert ("check: 5: no verdict: C21: no space\n" in err) == (NO_VERDICT in outcomes)
+    assert (f"check: {tmp_path}/classroom is not written" in err) == (NO_VERDICT in outcomes)
 
 
-def test_without_a_verdict_classroom_50_gets_no_file(main, tmp_path, capsys):
-    words = ["--classroom", tmp_path / "classroom", "--json", tmp_path / "json", "--no-hints"]
-    assert main(lambda *_, **__: [BAD, NO_VERDICT], *words) == 2
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["json"]
-    assert f"check: {tmp_path}/classroom is not written" in capsys.readouterr().err
-    assert "mkdir src" not in (tmp_path / "json").read_text()
-
-
-def test_what_is_kept_has_no_hints_if_there_are_none(main, tmp_path):
-    main(lambda *_, **__: [BAD], "--keep", tmp_path, "--no-hints")
+def test_no_file_has_hints_if_there_are_none(main, tmp_path):
+    main(lambda *_, **__: [BAD], "--keep", tmp_path, "--json", tmp_path / "report", "--no-hints")
     (kept,) = tmp_path.glob("*.json")
-    assert '"recordings"' in kept.read_text() and "mkdir src" not in kept.read_text()
+    assert '"recordings"' in kept.read_text()
+    assert not [one for one in (kept, tmp_path / "report") if "mkdir src" in one.read_text()]
 
 
 @pytest.mark.parametrize("name", FORMATS)
