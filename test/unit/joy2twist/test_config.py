@@ -42,6 +42,8 @@ def test_preset(name):
     # Beyond any stick: no faster than the fastest of the preset.
     assert joy([dead_man], -465.0) == pytest.approx((-0.7, 0, 0, 0, 0, -2.0))
     assert warnings == []  # the number of axes is as expected
+    machine.joy([0.0] * (axis_count + 1), [0] * button_count, now=0.0)
+    assert f"{axis_count + 1} axes and not {axis_count}" in warnings[0]
 
 
 def test_a_step_is_read_at_a_glance():

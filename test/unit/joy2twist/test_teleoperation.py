@@ -57,12 +57,6 @@ def test_an_old_message_is_not_driven(longest_s, age_ns, drives):
     assert drives or f"{longest_s:.1f} s old" in warnings[0]
 
 
-def test_a_hint_on_the_gamepad_is_a_warning():
-    machine, warnings = teleoperation(gamepad_axes=6)
-    machine.joy((0.0,) * 8, (), 0.0)
-    assert "D/X switch" in warnings[0]
-
-
 @pytest.mark.parametrize("step", [0.0, 2.0**-15])
 def test_a_stick_held_for_eight_seconds_is_stopped_unless_it_trembles(step):
     """step: of 65,536 in the whole way of an axis, one."""
