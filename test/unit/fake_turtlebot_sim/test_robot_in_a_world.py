@@ -15,7 +15,7 @@ from fake_turtlebot_sim.simulator.parameters import Parameters, parse_parameters
 from fake_turtlebot_sim.simulator.ros_messages import between_frames
 from fake_turtlebot_sim.simulator.sensors import bumpers
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot, meet
-from fake_turtlebot_sim.simulator.world import Surroundings, World, gaps, is_inside
+from fake_turtlebot_sim.simulator.world import Surroundings, World, gaps
 from fake_turtlebot_sim.simulator.world_messages import world_map
 
 R = 0.178
@@ -246,11 +246,3 @@ def test_what_is_near_is_what_has_a_small_gap(walls, ways):
             far = [gap(x, y, 0.0, one) for one in near if gap(x, y, 0.0, one) > reach]
             assert all(one in near for one, m in zip(around.world.obstacles, each) if m <= reach)
             assert max(far, default=0.0) <= 2 * max(reach, 2.5)
-
-
-@given(points, points, points, points)
-def test_a_point_is_inside_of_a_triangle_that_goes_once_around_it(a, b, c, point):
-    at = complex(*point) + 0.37 + 0.013j  # on no edge between such whole numbers
-    ways = [complex(*one) - at for one in (a, b, c, a)]
-    turns = sum(cmath.phase(one / other) for one, other in zip(ways, ways[1:]))
-    assert bool(is_inside(at.real, at.imag, (a, b, c))) == (abs(turns) > pi)
