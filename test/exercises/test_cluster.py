@@ -20,11 +20,9 @@ from tutorial_testing.processes import Program, command_line, descendants, signa
 from tutorial_testing.two_hosts.network import Network
 from tutorial_testing.waiting import wait_for
 
+HAS_DASK = importlib.util.find_spec("distributed") is not None
 pytestmark = [
-    pytest.mark.skipif(
-        importlib.util.find_spec("distributed") is None,
-        reason="no Dask here: ./tutorial check --cluster installs it",
-    ),
+    pytest.mark.skipif(not HAS_DASK, reason="no Dask here: ./tutorial check --cluster installs it"),
     pytest.mark.skipif(os.geteuid() != 0, reason="not root: no hosts of a network of their own"),
 ]
 HOSTS = {"teacher": "10.66.0.1", "one": "10.66.0.2", "two": "10.66.0.3", "three": "10.66.0.4"}
