@@ -1,7 +1,7 @@
 """Private parameters: defaults, one clear line for every mistake, and the same names everywhere."""
 
 import re
-from dataclasses import FrozenInstanceError, fields
+from dataclasses import fields
 from math import inf
 from pathlib import Path
 
@@ -26,8 +26,6 @@ def test_nothing_given_is_a_turtlebot_2():
     assert parameters == Parameters()
     assert (parameters.period_ns(), Parameters(rate=6.0).period_ns()) == (20_000_000, 166_666_667)
     assert parameters.start_poses() == {"": (0.0, 0.0, 0.0)}
-    with pytest.raises(FrozenInstanceError):
-        parameters.rate = 1.0
 
 
 @pytest.mark.parametrize(
