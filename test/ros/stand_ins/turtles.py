@@ -2,6 +2,7 @@
 
 import math
 
+import rosgraph
 import rospy
 from geometry_msgs.msg import Twist, Vector3
 from rosgraph_msgs.msg import Log
@@ -9,6 +10,7 @@ from std_srvs.srv import Empty
 from turtlesim import srv
 from turtlesim.msg import Color, Pose
 
+from node_kit import ros_api
 from tutorial_testing.keys import Tmux
 from tutorial_testing.rostests import RosTest
 from tutorial_testing.waiting import wait_for
@@ -82,6 +84,9 @@ class TurtlesimTest(RosTest):
         call(f"{FIRST}turtle1/set_pen", srv.SetPen, 0, 0, 0, 0, 1)
         call(f"{FIRST}turtle1/teleport_absolute", srv.TeleportAbsolute, 9.0, 1.0, 0.0)
         wait_for(lambda: self.colors[-1] == Color(69, 7, 255), "paper without a line", 30)
+        uri = rosgraph.Master("/test").lookupNode(f"{FIRST}sim")
+        answer, (_, picture) = ros_api.call(uri, "picture", 0)  # as the cockpit asks for it
+        self.assertEqual((answer, picture[:11]), (ros_api.Answer.WELL, "iVBORw0KGgo"))  # a PNG
 
     def test_the_wall_holds_with_a_warning_and_nan_moves_nothing(self):
         self.commands.publish(Twist(linear=Vector3(x=math.nan)))
