@@ -59,7 +59,9 @@ JOINED = {
 
 
 def first_wrong(outcome):
-    return next(((one.id, "\n".join(lines_of(one))) for one in outcome.wrong), (None, ""))
+    """Return (id, report) of the first check that is wrong, or could not be made."""
+    found = (one for one in outcome.results if one.status not in ("ok", "note"))
+    return next(((one.id, "\n".join(lines_of(one))) for one in found), (None, ""))
 
 
 def processes_like(word):

@@ -12,6 +12,7 @@ import functools
 import os
 import shutil
 import subprocess
+import threading
 from dataclasses import dataclass
 from pathlib import Path
 from subprocess import DEVNULL, PIPE
@@ -28,6 +29,7 @@ SYSTEM = (
 NAMESPACES = ("--unshare-ipc", "--unshare-net", "--unshare-pid", "--unshare-uts", "--as-pid-1")
 # Of root's rights only those to become another user.
 AS_ROOT = ("--cap-drop", "ALL", "--cap-add", "CAP_SETGID", "--cap-add", "CAP_SETUID")
+_one_at_a_time = threading.Lock()
 
 
 @dataclass(frozen=True)
@@ -41,9 +43,14 @@ class Isolation:
     descriptors: tuple[int, ...] = ()  # that it inherits
 
 
-@functools.lru_cache(maxsize=None)
 def granted() -> Isolation:
     """Return what this system grants; without options where it grants no isolation."""
+    with _one_at_a_time:  # A second thread finds the first one's descriptors.
+        return _granted()
+
+
+@functools.lru_cache(maxsize=None)
+def _granted() -> Isolation:
     bwrap = shutil.which("bwrap")
     if not bwrap:
         return Isolation(why="bubblewrap is not installed")
