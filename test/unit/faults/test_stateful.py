@@ -5,7 +5,7 @@ derandomize: the same examples in every run.
 
 import math
 
-from hypothesis import settings
+from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, rule
 
@@ -15,7 +15,13 @@ from tutorial_faults.arbiter_world import ZERO, ArbiterWorld, Command
 from tutorial_faults.teleoperation_world import LEFT, Message, TeleoperationWorld
 from tutorial_faults.worlds import SUSPENDED, TICK
 
-SETTINGS = settings(max_examples=200, stateful_step_count=40, derandomize=True)
+SETTINGS = settings(
+    max_examples=200,
+    stateful_step_count=40,
+    deadline=None,
+    derandomize=True,
+    suppress_health_check=list(HealthCheck),
+)
 # Each threshold of the rules, and just before it; else any time, mostly short.
 THRESHOLDS_S = (0.02, 0.05, 0.1, 0.15, 0.25, 0.3, 0.45, 0.5, 0.6, 1.0)
 seconds = st.sampled_from(

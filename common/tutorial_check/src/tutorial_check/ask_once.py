@@ -19,9 +19,9 @@ class AskOnce:
     """Asks one of two workers of a workspace, unless the other one was asked the same before."""
 
     def __init__(self, ask: Ask, folder: Path, shared: Answers) -> None:
-        """folder: of this worker's order. shared: by both."""
+        """folder: of this worker's order. shared: what either was asked."""
         self._ask, self._folder, self._shared = ask, str(folder), shared
-        self._asked: set[str] = set()  # a second time it is asked itself
+        self._asked: set[str] = set()  # The same a second time is a second look.
 
     def __call__(self, question: Line) -> Line:
         key = json.dumps(question)
@@ -29,7 +29,7 @@ class AskOnce:
         first = self._shared.setdefault(key, own)
         if first is not own and key not in self._asked:
             self._asked.add(key)
-            with contextlib.suppress(CancelledError):  # That one has ended.
+            with contextlib.suppress(CancelledError):  # The other one has ended.
                 return dict(json.loads(first.result().replace(HANDED_IN, self._folder)))
         self._asked.add(key)
         try:

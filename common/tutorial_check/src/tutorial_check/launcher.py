@@ -178,7 +178,7 @@ def _with_another(asked: Order, course: Course, ask: Ask, folder: Path) -> Itera
     with _worker(replace(asked, exercises=asked.exercises[::-1])) as (order, other):
 
         def make_checks() -> None:
-            with contextlib.suppress(Exception, Ended):  # what it knows by then is of use
+            with contextlib.suppress(Exception, Ended):  # What it has recorded is of use.
                 judge(order, course, AskOnce(other.ask, order.folder, shared))
 
         thread = threading.Thread(target=make_checks)

@@ -14,7 +14,7 @@ from tutorial_check.isolation.runner import Value
 from tutorial_check.model import CANNOT_START, CannotCheck, CutShort
 from tutorial_check.record.builder import Builder
 
-if TYPE_CHECKING:  # it loads ROS
+if TYPE_CHECKING:  # The module loads ROS.
     from tutorial_check.record.driver import Driver, Echo
 
 START_S = 8.0  # a node of the student's has this long to appear
