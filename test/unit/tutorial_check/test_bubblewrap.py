@@ -1,6 +1,10 @@
 """What is said where programs cannot be isolated; test/exercises/test_isolation.py attacks it."""
 
+import contextlib
 import platform
+import threading
+from concurrent.futures import ThreadPoolExecutor
+from functools import lru_cache
 
 import pytest
 
@@ -34,6 +38,21 @@ def test_why_bubblewrap_does_not_work_is_known(monkeypatch, tmp_path, why):
     monkeypatch.setenv("PATH", str(tmp_path))
     monkeypatch.setattr(bubblewrap, "_granted", bubblewrap._granted.__wrapped__)
     assert bubblewrap.granted() == Isolation(why=why)
+
+
+def test_threads_that_ask_at_once_get_one_answer(monkeypatch):
+    both, asked = threading.Barrier(2), []
+
+    def which(_name):
+        asked.append(1)
+        with contextlib.suppress(threading.BrokenBarrierError):
+            both.wait(0.2)  # for a second thread, which does not come
+
+    monkeypatch.setattr(bubblewrap, "_granted", lru_cache()(bubblewrap._granted.__wrapped__))
+    monkeypatch.setattr(bubblewrap.shutil, "which", which)
+    with ThreadPoolExecutor(2) as pool:
+        first, second = pool.map(lambda _: bubblewrap.granted(), range(2))
+    assert first is second and asked == [1]
 
 
 NOT_ISOLATED = "cannot isolate programs: bwrap: refused: a student's program could reach the"

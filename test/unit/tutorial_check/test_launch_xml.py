@@ -1,11 +1,13 @@
 """From the text of a launch file that is no XML to a line and a hint."""
 
+from xml.dom import minidom
 from xml.parsers import expat
 
 import pytest
 
 from tutorial_check.source.launch_xml import QUOTES, Fault, not_xml, parse_error
 
+ENCODING = 'Python cannot read the encoding of its first line: write encoding="utf-8"'
 NODE = '  <node pkg="rosbag" type="play" name="x" args="--loop a.bag"/>\n'
 
 
@@ -33,6 +35,13 @@ def test_a_launch_file_that_is_no_xml_has_a_line_and_a_hint(text, line, words):
     found, hint = not_xml(str(raised.value), text)
     assert words in hint
     assert found == line
+
+
+def test_an_encoding_that_python_lacks_has_no_line():
+    text = '<?xml version="1.0" encoding="shift_jis"?>\n<launch/>\n'
+    with pytest.raises(ValueError, match="multi-byte") as raised:
+        minidom.parseString(text.encode())
+    assert not_xml(str(raised.value), text) == (None, ENCODING)
 
 
 @pytest.mark.parametrize("may_see", [True, False])

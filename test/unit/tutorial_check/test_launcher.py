@@ -1,6 +1,7 @@
 """A worker that does not go on: what the checks came to until then is reported."""
 
 import json
+import os
 from dataclasses import dataclass
 from pathlib import Path
 from types import SimpleNamespace
@@ -39,11 +40,14 @@ def examine(tmp_path, monkeypatch):
     checks = [Check(f"C{n}", n, "", n, function=looks(n)) for n in ("2", "3", "5")]
     monkeypatch.setattr(launcher, "checks_of", lambda course: checks)
 
-    def examined(answers, ending="", tell=lambda outcome, result: None):
+    def examined(answers, ending="", tell=lambda outcome, result: None, beside=()):
         # The order, and then questions, come from where answers go.
         script = [*(f"read -r _ <&1; echo '{line}'" for line in answers), ending]
-        monkeypatch.setattr(bubblewrap, "command", lambda *_: ["sh", "-c", "\n".join(script)])
-        return launcher.examine(Order(tmp_path, setup, ("2", "3", "5")), tell)
+        scripts = iter([script, beside])
+        command = lambda *_: ["sh", "-c", "\n".join(next(scripts))]  # noqa: E731
+        monkeypatch.setattr(bubblewrap, "command", command)
+        order = Order(tmp_path, setup, ("2", "3", "5"))
+        return launcher.examine(order, tell, side_by_side=bool(beside))
 
     return examined
 
@@ -99,6 +103,19 @@ def test_what_was_found_before_the_time_was_over(examine, monkeypatch):
 def test_a_worker_that_records_nothing_gives_no_verdict(examine, answers, why):
     with pytest.raises(CannotCheck, match=why):
         examine(answers)
+
+
+def test_a_second_worker_records_for_the_last_exercise_first(examine, monkeypatch, tmp_path):
+    monkeypatch.setattr(launcher.os, "sched_getaffinity", lambda _: {0, 1})
+    monkeypatch.setattr(worker_process, "LONGEST_S", 30.0)
+    gate = tmp_path / "gate"
+    os.mkfifo(gate)
+    ready, seen = (f"read -r _ <&1; echo '{line}'" for line in (READY, SEEN))
+    # The one is asked for 2, the other for 5, and each waits for that; either may record for 3.
+    one = f"read -r _ <&1; read -r _ <{gate}; echo '{SEEN}'; {seen}; exec sleep 3600"
+    other = f"read -r _ <&1; echo >{gate}; echo '{SEEN}'; {seen}; exec sleep 3600"
+    outcomes = examine([READY], one, beside=[ready, other])
+    assert all(each.passed for each in outcomes), found_in(outcomes)
 
 
 def test_two_workers_record_each_thing_once():

@@ -79,7 +79,10 @@ def not_xml(error: str, text: str) -> tuple[int | None, str]:
         return line_of(text, curly.start()), 'curly quotes came from the PDF: type " instead'
     if re.search("mismatched tag|no element found", error):
         return _not_closed(text)
-    line, column = map(int, re.findall(r"\d+", error)[-2:])  # "...: line 3, column 4"
+    found = re.search(r"line (\d+), column (\d+)", error)
+    if not found:
+        return None, 'Python cannot read the encoding of its first line: write encoding="utf-8"'
+    line, column = map(int, found.groups())
     if "junk after" in error:
         return line, "nothing may follow </launch>: put it before"
     start = sum(len(each) + 1 for each in text.split("\n")[: line - 1])
