@@ -18,7 +18,6 @@ REPOSITORY = HERE.parents[1]
 OPTIONS = {
     "--every": (1, "only every Nth row of data"),
     "--first": (0, "the row with which --every begins"),
-    "--students": (4, "how many in the test of --all"),
     "--everything": (False, "all exercises, and not only those of the mistakes; an hour"),
     "--store": (False, "store what the programs of the rows did, for the unit tests"),
 }

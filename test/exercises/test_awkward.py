@@ -1,20 +1,13 @@
 """The command line, one workspace and a class: the right exit code, and one clear line."""
 
-import json
 import os
 import shutil
 import subprocess
-import time
 from pathlib import Path
 
-import mistakes_nodes
 import pytest
-import test_mistakes
-from edits import JOY2TWIST, TALKER, apply, chmod, put
+from edits import JOY2TWIST, TALKER, chmod, put
 
-from tutorial_check.course import read_course
-from tutorial_check.launcher import examine
-from tutorial_check.order import Order
 from tutorial_check.report.memory import LATER
 from tutorial_testing.processes import Program, command_line, descendants, lives
 from tutorial_testing.waiting import LONGEST_S, wait_for
@@ -64,7 +57,7 @@ def test_what_cannot_be_checked_is_exit_code_2(tmp_path, underlay, folder):
 
 
 def test_a_class_has_a_table_and_reports(literal, underlay, tmp_path):
-    """Of one right, one wrong, one that hangs, a zip, and one that is no zip."""
+    """Side by side, of one right, one wrong, one that hangs, a zip, and one that is no zip."""
     group = tmp_path / "group"
     for name in ("ada", "bob", "eve"):
         shutil.copytree(literal.parent, group / name)
@@ -101,29 +94,6 @@ def test_ctrl_c_ends_the_check_of_all(literal, underlay, tmp_path):
         wait_for(lambda: not any(map(lives, started)), "end of the workers")
         assert "Traceback" not in professor.output
         assert not (tmp_path / "group" / "check" / "table.csv").exists()
-
-
-def test_all_at_once_or_alone_is_the_same(literal, underlay, tmp_path, request):
-    """Of many students each has the same verdict as alone. Prints how long they all took."""
-    count = request.config.getoption("--students")
-    rows, exercises = [row for row in mistakes_nodes.ROWS if row[0] == "4.3"], ["4.3"]
-    if request.config.getoption("--everything"):
-        rows, exercises = test_mistakes.ROWS, read_course().by_default
-    group = tmp_path / "group"
-    for number in range(count):  # the first is right
-        shutil.copytree(literal.parent, group / f"student {number}")
-        edits = rows[number * len(rows) // count][2] if number else []
-        apply(edits, group / f"student {number}" / "src")
-    began_s = time.monotonic()
-    code, out, error = check(underlay, "--all", group, *exercises)
-    print(f"\n{count} students: {time.monotonic() - began_s:.0f} s, load {os.getloadavg()[0]:.1f}")
-    assert code == 1, out + error
-    for report in (group / "check").glob("student*.json"):
-        judged = json.loads(report.read_text())["exercises"]
-        together = [(one["id"], one["status"]) for each in judged for one in each["checks"]]
-        outcomes = examine(Order(group / report.stem, underlay, exercises))
-        alone = [(one.id, one.status) for each in outcomes for one in each.results]
-        assert together == alone, report.read_text()
 
 
 def test_watch_checks_again_once_a_file_is_saved(literal, underlay, tmp_path):
