@@ -15,7 +15,7 @@ from typing import Any, Callable
 from rospy.impl.tcpros_base import TCPROSTransport
 from rospy.impl.tcpros_pubsub import TCPROSSub
 
-PERIOD_MS = 3  # Sleeps of 4 ms and more were slow.
+PERIOD_MS = 2  # Sleeps of 4 ms and more are slow, and 3 ms is a little slower than this.
 FOR_S = 0.1  # after a message: a joystick node that repeats does so at 20 Hz or more
 
 _receive = TCPROSTransport.receive_once  # rospy's own
