@@ -5,7 +5,7 @@ import { Driver } from "./driver.js";
 
 const NOTHING = {
   session: { driver: null, yours: false, robot: "" },
-  drives: { robots: {}, who: "", ready: "", how: "", refusal: "" },
+  drives: { robots: {}, who: "", ready: "", how: "", refusal: "", no_reset: "" },
 };
 export const STALE_S = 1; // an older speed is not shown, and other news of this age is greyed
 const CUT = "This page no longer drives: its connection was lost. Press Drive from this page to go on.";
@@ -74,18 +74,19 @@ export class DriverSession {
     this.#showButtons(session, drives, isByHand);
   }
 
-  #showButtons({ yours, driver, robot }, { refusal }, isByHand) {
+  #showButtons({ yours, driver, robot }, { refusal, no_reset: noReset }, isByHand) {
     const mayDrive = this.link.isOpen && this.#role === "driver";
-    const [take, stop] = [byId("take"), byId("stop")];
-    const focused = [take, stop].find((one) => one === document.activeElement);
+    const [take, stop, reset] = [byId("take"), byId("stop"), byId("reset")];
+    const focused = [take, stop, reset].find((one) => one === document.activeElement);
     take.hidden = yours;
     take.disabled = !mayDrive || Boolean(refusal);
     stop.disabled = !mayDrive || driver === null || !(yours || robot === this.tab.look);
+    reset.disabled = !mayDrive || Boolean(noReset);
+    reset.title = noReset;
     if (focused && (focused.hidden || focused.disabled)) { // the keyboard goes on from what can be pressed
       const selected = document.querySelector("[role=tab][aria-selected=true]");
       ([stop, take].find((one) => !one.disabled && one.offsetParent) ?? selected)?.focus();
     }
-    byId("reset").disabled = !mayDrive;
     byId("hand-over").hidden = byId("glass").hidden = !isByHand;
     byId("look").disabled = byId("mode").disabled = yours;
     document.body.classList.toggle("driving", yours);

@@ -21,9 +21,9 @@ GRAPH = Graph(
 
 
 def test_reset_is_of_one_robot():
-    assert GRAPH.reset_service("") == "/sim/reset"
+    assert (GRAPH.reset_service(""), GRAPH.why_no_reset("")) == ("/sim/reset", "")
     assert GRAPH.reset_service("robot_2") == "/robot_2/reset"
-    with pytest.raises(RefusedError, match="robot_1 has no service"):
+    with pytest.raises(RefusedError, match="no node has a service that resets robot_1"):
         GRAPH.reset_service("robot_1")  # the node's own would reset both
 
 

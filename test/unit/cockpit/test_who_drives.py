@@ -11,7 +11,7 @@ from cockpit_server.clients import LOOKS_ONLY, RefusedError
 from cockpit_server.driving.player import Player
 from cockpit_server.driving.teleop import DEADMAN, SILENT, Teleop
 from cockpit_server.driving.who_drives import CONNECT_S, Driving
-from cockpit_server.driving.words import NO_ROBOT, TURTLES, Report
+from cockpit_server.driving.words import NO_ROBOT, TURTLES, About, Report, sentence
 from cockpit_server.graph import JOY, POSE, Graph
 from tutorial_testing.session_room import ANNA, BOB, DRIVE, REST, Topics, look, page
 
@@ -106,9 +106,7 @@ def test_another_joystick_frees_the_session(driven):
         (DRIVER, "ada", "/player", ANNA, ""),  # the own session
     ],
 )
-def test_page_is_told_beforehand_what_drive_would_be_refused_for(
-    role, robot, rival, driver, refusal
-):
+def test_page_is_told_beforehand_why_it_may_not_drive(role, robot, rival, driver, refusal):
     made = Made(role)
     if driver is not None:
         made.session.take(driver, "ada", 0.0)
@@ -120,11 +118,13 @@ def test_page_is_told_beforehand_what_drive_would_be_refused_for(
             made.on_drive(made.anna[0], 0.0, robot, "D")
 
 
-@pytest.mark.parametrize(("nodes", "refusal"), [((), NO_ROBOT), ({"/sim"}, TURTLES)])
-def test_without_a_robot_the_page_says_what_is_running(nodes, refusal):
-    made, topic = Made(), "/turtle1/pose"
-    made._graphs.graph = Graph(publishers={topic: nodes}, types={topic: POSE})
-    assert made.refusal(made.anna[0], "", 0.0) == refusal
+@pytest.mark.parametrize(("nodes", "refusal"), [(set(), NO_ROBOT), ({"/sim"}, TURTLES)])
+def test_without_a_robot_the_page_says_what_is_running_and_resets_none(nodes, refusal):
+    made, at = Made(), "/turtle1/pose"
+    made._graphs.graph = Graph(publishers={at: nodes}, services={"/reset": nodes}, types={at: POSE})
+    said = look(made, made.anna)[0][-1]
+    assert (said["refusal"], said["no_reset"]) == (sentence(refusal), sentence(About().no_reset))
+    assert made._graphs.graph.why_no_reset("")  # that of turtlesim resets turtles
 
 
 def test_pages_are_sent_each_change_of_the_driver(driven):

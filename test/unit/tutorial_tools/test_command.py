@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from tutorial_tools.command import build
-from tutorial_tools.command.environment import environment_of
-from tutorial_tools.command.words import candidates, plan, read
+from tutorial_tools.command.environment import environment_of_help
+from tutorial_tools.command.words import OWN_PARSER, candidates, plan, read
 from tutorial_tools.system import apt
 from tutorial_tools.system.packages import packages
 
@@ -40,12 +40,12 @@ def test_what_a_word_sets_up_and_starts(monkeypatch, line, sections, program, re
     assert "student" not in made
 
 
-def test_the_help_of_check_needs_nothing_built(tmp_path):
-    made = plan("check", ["--course", "wiki", "--help"])
-    assert made["builds"] == []
-    environment = environment_of(tmp_path, "check", "")
-    done = subprocess.run(made["command"], env=environment, capture_output=True, check=True)
-    assert done.stdout.startswith(b"usage: ./tutorial check ")
+@pytest.mark.parametrize("word", OWN_PARSER)
+def test_the_help_of_a_program_needs_nothing_built(word):
+    made = plan(word, ["more", "--help"])
+    assert (made["builds"], made["sections"]) == ([], SECTIONS["demo"])
+    said = subprocess.check_output(made["command"], env=environment_of_help(), text=True)
+    assert said.startswith("usage: ") and f"{word} [-h]" in said.splitlines()[0]
 
 
 def test_a_students_workspace_is_absolute_and_built_last(tmp_path, monkeypatch):

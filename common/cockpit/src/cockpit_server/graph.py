@@ -50,14 +50,22 @@ class Graph:
     def reset_service(self, robot: str) -> str:
         """Return the service that resets this robot and no other. Raises RefusedError."""
         own, odometry = topic_of(robot, "reset"), topic_of(robot, "odom")
-        if own in self.services:
+        if own in self.services and self.services[own] - self.turtlesims():
             return own
-        all_of_them = [topic for topic in self.published if topic.endswith("/odom")]
         for node in sorted(self.publishers.get(odometry, ())):
-            its = [topic for topic in all_of_them if node in self.publishers[topic]]
-            if its == [odometry] and f"{node}/reset" in self.services:
+            its = [topic for topic, nodes in self.publishers.items() if node in nodes]
+            is_alone = [topic for topic in its if topic.endswith("/odom")] == [odometry]
+            if is_alone and f"{node}/reset" in self.services:
                 return f"{node}/reset"
-        raise RefusedError(f"{robot or 'this robot'} has no service that resets it")
+        raise RefusedError(f"no node has a service that resets {robot or 'the robot'}")
+
+    def why_no_reset(self, robot: str) -> str:
+        """Return why this robot cannot be reset, or ""."""
+        try:
+            self.reset_service(robot)
+        except RefusedError as error:
+            return str(error)
+        return ""
 
     def parts(self) -> dict[str, Any]:
         """Return nodes, topics and edges as pages get them."""

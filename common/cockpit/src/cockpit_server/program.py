@@ -94,13 +94,13 @@ def wait_for_master() -> None:
 
 
 def main() -> int:
+    options = parse(rosgraph.myargv()[1:])
     try:
         from cockpit_server.node import Cockpit  # noqa: PLC0415  tornado may be missing
     except ModuleNotFoundError as error:
         if error.name != "tornado":
             raise
         fail("python3-tornado is missing: ./tutorial setup, or apt install python3-tornado")
-    options = parse(rosgraph.myargv()[1:])
     published = PUBLISHED in os.environ and not options.lan
     sockets = listening(options.port, options.lan or published)
     here = Access(peers=peers() if published else None, origins=codespace(options.port))

@@ -208,6 +208,7 @@ class Driving(Source):
             senders=self._graphs.joysticks(robot),
             moves=self._moves(robot, now),
             is_heard=bool(self._graphs.joystick_listeners(robot)),
+            no_reset=self._graphs.graph.why_no_reset(robot),
         )
 
     def send_to(self, client: Client, now: float) -> None:
@@ -226,6 +227,7 @@ class Driving(Source):
             "ready": words.ready(about, robot, client.number, refusal),
             "how": words.how_to(about, client.number, not refusal),
             "refusal": words.sentence(refusal),
+            "no_reset": words.sentence(about.no_reset),
             "robots": self._robots,
         }
         if client.take_if_new("drives", said):

@@ -30,6 +30,7 @@ class About(NamedTuple):
     senders: Tuple[str, ...] = ()  # other nodes that publish its joystick's topic
     moves: bool = False  # whether its odometry says so
     is_heard: bool = True  # whether a node subscribes to its joystick's topic
+    no_reset: str = "there is no robot to reset"  # why it cannot be reset, or ""
 
     @property
     def is_driven_by_node(self) -> bool:

@@ -8,7 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from tutorial_tools.command.build import REPOSITORY, made_over
+from tutorial_tools.command.build import PREFIX, REPOSITORY, made_over
 
 OTHERS = ("CMAKE_PREFIX_PATH", "ROS_PACKAGE_PATH")  # of another workspace, from ~/.bashrc
 LOCAL = ("", "localhost", "127.0.0.1")
@@ -16,14 +16,11 @@ LOCAL = ("", "localhost", "127.0.0.1")
 
 def environment_of(workspace: Path, word: str, student: str) -> dict[str, str]:
     """Return the environment of the command of a word. student: "" for the suite's own."""
-    # Not os.environ, to which Python adds LC_CTYPE where no locale is set.
-    given = _parse(Path("/proc/self/environ").read_bytes())
+    given = _given()
     lower, etc = workspace / "lower" / "devel", str(REPOSITORY / "common/node_kit/etc/ros")
     own = {"TUTORIAL_UNDERLAY": f"{lower}/setup.bash"}
     if word in ("check", "worker", "scheduler"):
-        # Their sources, too: nothing may be built yet, for the help of check.
-        sources = (f"{REPOSITORY}/common/{name}/src" for name in ("tutorial_check", "node_kit"))
-        libraries = ":".join((f"{lower}/lib/python3/dist-packages", *sources))
+        libraries = f"{lower}/lib/python3/dist-packages"
         return {**given, **own, "PYTHONPATH": libraries, "ROS_ETC_DIR": etc}
     setup = workspace / "devel" / "setup.bash"
     if student:  # the underlay's, if the student has built nothing over it
@@ -53,6 +50,19 @@ def environment_of(workspace: Path, word: str, student: str) -> dict[str, str]:
         own.update(TUTORIAL_SETUP=str(setup), TUTORIAL_ETC=etc, TUTORIAL_PATH=path)
         own["TUTORIAL_PYTHONPATH"] = own["PYTHONPATH"]
     return {**made, **own}
+
+
+def environment_of_help() -> dict[str, str]:
+    """Return the environment of a program that prints its help: nothing may be built yet."""
+    libraries = [str(source) for source in REPOSITORY.glob("common/*/src")]
+    if PREFIX:
+        libraries.append(f"{PREFIX}/lib/python3/dist-packages")
+    return {**_given(), "PYTHONPATH": ":".join(libraries)}
+
+
+def _given() -> dict[str, str]:
+    # Not os.environ, to which Python adds LC_CTYPE where no locale is set.
+    return _parse(Path("/proc/self/environ").read_bytes())
 
 
 def _sourced(setup: Path, given: dict[str, str]) -> dict[str, str]:

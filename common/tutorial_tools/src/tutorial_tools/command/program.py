@@ -11,7 +11,7 @@ from pathlib import Path
 
 from tutorial_tools.command import words
 from tutorial_tools.command.build import build, is_done
-from tutorial_tools.command.environment import environment_of
+from tutorial_tools.command.environment import environment_of, environment_of_help
 from tutorial_tools.system.apt import SetUpError, not_installed, say
 from tutorial_tools.system.packages import DONE, install, packages
 
@@ -50,7 +50,8 @@ def main(workspace: Path, typed: list[str]) -> None:
     if word == "setup":
         say(DONE)
         return
-    environment = environment_of(workspace, word, student)
+    is_help = not plan["builds"]
+    environment = environment_of_help() if is_help else environment_of(workspace, word, student)
     if word == "shell" and student:
         src = f"{student}/src, where the handout has ~/ros/hydro/catkin_ws/src"
         say(f'packages go into {src}; "tutorial check" checks what is there, from any folder')

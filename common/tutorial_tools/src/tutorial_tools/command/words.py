@@ -216,10 +216,10 @@ def plan(word: str, arguments: list[str]) -> Plan:
         of_cluster = word in ("scheduler", "worker")
         module = ["tutorial_check.cluster", word] if of_cluster else ["tutorial_check"]
         own = [PROGRAMS[word]] if word in PROGRAMS else ["/usr/bin/python3", "-m", *module]
-        if of_cluster or CLUSTER in options_of(arguments):
-            made["sections"].append("cluster")
-        if word == "check" and HELP & options_of(arguments):
+        if HELP & options_of(arguments):
             made["builds"] = []
+        elif of_cluster or CLUSTER in options_of(arguments):
+            made["sections"].append("cluster")
         return {**made, "command": [*own, *arguments]}
     if word in ("bench", "lint", "docs"):
         parsed = parser_of(word).parse_known_args(arguments)
