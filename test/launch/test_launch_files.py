@@ -1,6 +1,7 @@
 """roslaunch can read every launch file, and finds what it names; a mistake starts nothing."""
 
 import math
+import os
 
 import pytest
 import rosbag
@@ -95,7 +96,7 @@ def test_a_mistake_in_an_argument_starts_nothing(
     ("file", "preset", "limits"),
     [
         ("launch_joy_node_realTurtlebot.launch", "extreme_3d",
-         {"require_enable_button": True, "max_linear_speed": 0.7, "max_angular_speed": math.pi}),
+         {"require_enable_button": True, "max_linear_speed": 0.7, "max_angular_speed": 2.0}),
         ("launch_joy_node.launch", "f710_d", {"enable_button": 4}),
     ],
 )  # fmt: skip
@@ -108,6 +109,14 @@ def test_a_gamepad_arms_and_is_watched_and_leaves_no_parameter(monkeypatch, file
         assert values[f"/myjoystick2twist/{name}"] == value, name
     assert [name for name in values if name.startswith("/joy_node/")] == []
     assert {"joy_node", "myjoystick2twist"} <= {node.name for node in given.nodes}
+
+
+def test_a_preset_without_limits_gets_those_of_a_turtlebot(monkeypatch, tmp_path):
+    (tmp_path / "bare.yaml").write_text("enable_button: 4")
+    preset = os.path.relpath(tmp_path / "bare", REPOSITORY / "joy2twist/config")
+    given = loaded(monkeypatch, "joy2twist_turtlebot.launch", f"joy_config:={preset}")
+    for part, limit in (("linear", 0.7), ("angular", math.pi)):
+        assert given.params[f"/myjoystick2twist/max_{part}_speed"].value == limit
 
 
 def test_joy_pkg_is_the_package_whose_node_reads_the_device(monkeypatch):

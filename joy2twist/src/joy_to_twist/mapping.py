@@ -108,6 +108,10 @@ class Mapping:
         lines = lines or ["no axis drives the robot: ~axis_linear and ~axis_angular are -1"]
         if p.stop_button >= 0:
             lines.append(f"button {p.stop_button} stops, until button {p.stop_reset_button}")
+        if p.arm_on_neutral:
+            lines.append("before the sticks and the dead-man button were released, nothing moves")
+        if p.joy_timeout:
+            lines.append(f"no message of the joystick for {p.joy_timeout:g} s stops the robot")
         if p.vigilance_timeout:
             lines.append(f"no change of the joystick for {p.vigilance_timeout:g} s stops the robot")
         return lines

@@ -169,8 +169,8 @@ class Safety:
         if why is State.STILL:
             self._unarmed = why
             self._warn(Notice.STILL)
-        if why is State.SILENT and self._sent != ZERO:
-            self._warn(Notice.SILENT)
+        if why in (State.SILENT, State.LEFT) and self._sent != ZERO:
+            self._warn(Notice[why.name])
         if self._parameters.arm_on_neutral:
             self.arming.lose()
         # A robot that stands needs no zero, and its multiplexer no claim to drive it.

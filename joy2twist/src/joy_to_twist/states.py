@@ -50,6 +50,7 @@ class Notice(Enum):
         f"{_line(State.SILENT.value)} For a joystick without autorepeat, or a recording of "
         "one, set ~joy_timeout to 0."
     )
+    LEFT = _line(State.LEFT.value)
     NOT_ARMED = _line(State.NOT_ARMED.value)
     STILL_SOON = f"{_line(NO_CHANGE)} Move a stick, or come back into range."
     IN_TURN = "Two joystick nodes send in turn: the robot stands until one has ended."

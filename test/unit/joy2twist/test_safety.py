@@ -110,6 +110,15 @@ def test_what_is_wrong_is_named_now_and_then(given, messages, pause, times, noti
     assert warnings == notices
 
 
+def test_a_joystick_that_leaves_a_moving_robot_is_named():
+    warnings = []
+    machine = Safety(load({}), lambda: None, warnings.append)
+    for velocity in (FORWARD, ZERO):
+        machine.drive(velocity, False, 0.0)
+        machine.lost(State.LEFT, 0.0)
+    assert warnings == [Notice.LEFT]
+
+
 def test_a_held_joystick_that_is_silent_is_stopped_as_one_that_does_not_change():
     machine = safety(**{**ARMS, "joy_timeout": 0, "vigilance_timeout": 1.0})
     sent = [ACTS["release"](machine, 0.0), ACTS["forward"](machine, 0.0), machine.tick(0.9)]

@@ -102,6 +102,14 @@ def test_a_bug_of_the_checker_is_no_fault_of_the_students(main, tmp_path, capsys
     assert not (tmp_path / "file").exists()  # last week's result is not this one's
 
 
+def test_a_reader_that_has_seen_enough_is_no_fault(main, monkeypatch, capsys):
+    def closed(*_, **__):
+        raise BrokenPipeError
+
+    monkeypatch.setattr(sys, "stdout", sys.stdout)  # main() gives it up
+    assert main(closed) == 2 and not capsys.readouterr().err
+
+
 def test_a_file_that_cannot_be_written(main, tmp_path, capsys):
     """The other files are written; a fault that is known before the work prevents the work."""
     files = "--json", tmp_path / "json", "--junit", tmp_path / "junit"

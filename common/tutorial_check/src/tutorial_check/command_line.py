@@ -270,6 +270,9 @@ def main() -> None:
     except CannotCheck as error:
         print(f"\ncheck: no verdict: {error}", file=sys.stderr)
         code = 2
+    except BrokenPipeError:  # The reader, as head, has seen enough.
+        sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115  for what is unwritten
+        code = 2
     except Exception as error:  # not the student's fault, whatever it is
         print(f"\ncheck: {fault(error)}", file=sys.stderr)
         print("check: this is a fault of the check, not of your exercises", file=sys.stderr)

@@ -26,7 +26,7 @@ CACHE = Path(os.environ.get("XDG_CACHE_HOME") or "~/.cache", "ros1_tutorial", "c
 State = Dict[str, Any]  # {workspace or student: what is kept of it}
 STATE = ".state.json"  # beside the table, out of reach of what is checked
 MOST_BYTES = 200_000_000  # per student; a larger one is not remembered
-LATER = "check once more, and it is here; or with --hints 2"
+LATER = "check again to see it here, or with --hints 2"
 
 
 def read_state(file: Path) -> State:
