@@ -86,6 +86,17 @@ def test_a_file_is_read_in_five_minutes_and_a_script_only_starts_its_program(pat
     assert len(path.read_text(encoding="utf-8").splitlines()) <= most
 
 
+def test_no_class_of_the_checker_has_more_than_twelve_attributes():
+    for path in REPOSITORY.glob("common/tutorial_check/src/**/*.py"):
+        for one in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(one, ast.ClassDef):
+                fields = {node.target.id for node in one.body if isinstance(node, ast.AnnAssign)}
+                stored = (node for node in ast.walk(one) if isinstance(node, ast.Attribute))
+                stored = (node for node in stored if isinstance(node.ctx, ast.Store))
+                own = {node.attr for node in stored if getattr(node.value, "id", "") == "self"}
+                assert len(fields | own) <= 12, f"{path}: {one.name}"
+
+
 def test_pip_installs_only_what_a_lock_has():
     """What is asked for stands in the lock, which test/lock makes; each release has its hashes."""
     locks = dict(re.findall(r'"(\w+)": \("(\S+)"', (REPOSITORY / "test/lock").read_text()))

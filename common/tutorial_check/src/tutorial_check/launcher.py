@@ -207,17 +207,20 @@ def prepared(asked: Order, folder: Path) -> Order:
         course.mkdir()
         for path in (asked.course / FILE, *asked.course.glob("*.py")):
             shutil.copy(path, course)
-    # What the programs need: the underlay and its sources, this package among them.
     underlay = os.path.abspath(asked.underlay)
+    return replace(
+        asked, underlay=underlay, course=course, folder=folder, layout=layout,
+        environment=_environment(underlay), shown=(*shown, course, *_needed(underlay)),
+    )  # fmt: skip
+
+
+def _needed(underlay: str) -> tuple[Path, ...]:
+    """Return what programs need: the underlay and its sources, this package among them."""
     devel = Path(underlay).parent
     names = devel / ".catkin"
     sources = filter(None, names.read_text().split(";") if names.is_file() else [])
     links = [link for source in sources for link in Path(source).glob("*") if link.is_dir()]
-    kept = (devel.parent, *(link.resolve() for link in links))
-    return replace(
-        asked, underlay=underlay, course=course, folder=folder, layout=layout,
-        environment=_environment(underlay), kept=kept, shown=(*shown, course, *kept),
-    )  # fmt: skip
+    return (devel.parent, *(link.resolve() for link in links))
 
 
 @functools.lru_cache(maxsize=None)
@@ -242,7 +245,7 @@ def must_start_programs(order: Order, is_other: bool) -> None:
     if not order.apart and os.statvfs(order.folder).f_flag & os.ST_NOEXEC:
         why = "is mounted noexec: set TMPDIR to another folder"
         raise CannotCheck(f"no program can be started: {order.folder.parent} {why}")
-    needed = set(order.kept) if is_other else set()
+    needed = set(_needed(order.underlay)) if is_other else set()
     ways = {up for one in (order.folder, *needed) for up in one.parents} if is_other else set()
     for folder in sorted(needed if order.apart else needed | ways):
         if not folder.stat().st_mode & 0o001:

@@ -27,6 +27,5 @@ class Order:
     folder: Path = Path()  # for this order alone; the copy of the workspace is in it
     layout: Layout = field(default_factory=Layout)  # Messages name places as they were handed in.
     environment: Dict[str, str] = field(default_factory=dict)  # A shell with the underlay has it.
-    kept: Tuple[Path, ...] = ()  # what the student's programs need of the suite
-    shown: Tuple[Path, ...] = ()  # what they may read
+    shown: Tuple[Path, ...] = ()  # what the student's programs may read
     apart: bool = False  # in namespaces of its own, by bubblewrap

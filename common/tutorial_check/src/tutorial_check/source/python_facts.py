@@ -41,8 +41,8 @@ class PythonFacts:
     """What a file contains: nothing but an error where Python cannot read it."""
 
     def __init__(self, text: str) -> None:
-        self.error, self.error_line, self.error_text = "", 0, ""
-        self._text = text
+        self.error, self.error_line = "", 0
+        self.text = dict(enumerate(python_lines(text), 1))  # {number: line}
         tree = ast.Module([], [])
         try:
             with warnings.catch_warnings():
@@ -52,27 +52,19 @@ class PythonFacts:
         except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
             self.error = getattr(error, "msg", None) or str(error) or "nested too deeply"
             self.error_line = getattr(error, "lineno", 0) or 0
-            lines = dict(enumerate(python_lines(text), 1))
-            self.error_text = lines.get(self.error_line, "").strip(" \t")
         self._nodes: list[Any] = list(ast.walk(tree))
-        self._functions = self._of(ast.FunctionDef)
-        self.functions = {node.name: node.lineno for node in self._functions}
-        self.globals = [node.lineno for node in self._of(ast.Global)]
+        self.functions = {node.name: node.lineno for node in self._of(ast.FunctionDef)}
         self.calls: dict[str, list[Call]] = {}  # {last part of the name: its calls, by line}
         for node in sorted(self._of(ast.Call), key=lambda call: call.lineno):
             words = [text_of(word) for word in node.args]
             names = {word.arg: text_of(word.value) for word in node.keywords if word.arg}
             self.calls.setdefault(last_name(node), []).append(Call(node.lineno, words, names))
         self.classes = [_class_facts(node, set(self.calls)) for node in self._of(ast.ClassDef)]
-        inner = [node for function in self._functions for node in ast.walk(function)]
+        inner = [node for one in self._of(ast.FunctionDef) for node in ast.walk(one)]
         self.inner_names = {name for _, name in _made(inner)}  # that functions make, or are given
         self.has_main = any(map(_is_main, self._nodes))
         self.loops = [node.lineno for node in self._of(ast.While)]
         self.broad_excepts = list(filter(is_broad, self._of(ast.ExceptHandler)))
-        # (line, text) of statements that do nothing, as rospy.spin without ().
-        kinds = (ast.Attribute, ast.Name)
-        bare = [node for node in self._of(ast.Expr) if isinstance(node.value, kinds)]
-        self.bare_names = [(node.lineno, text_of(node.value)) for node in bare]
         self.imports = {
             f"{node.module}.{alias.name}" if isinstance(node, ast.ImportFrom) else alias.name
             for node in self._of(ast.Import, ast.ImportFrom)
@@ -83,9 +75,25 @@ class PythonFacts:
         return [node for node in self._nodes if isinstance(node, kinds)]
 
     @property
+    def error_text(self) -> str:
+        return self.text.get(self.error_line, "").strip(" \t")
+
+    @property
+    def globals(self) -> list[int]:
+        return [node.lineno for node in self._of(ast.Global)]
+
+    @property
+    def bare_names(self) -> list[tuple[int, str]]:
+        """(line, text) of statements that do nothing, as rospy.spin without ()."""
+        kinds = (ast.Attribute, ast.Name)
+        bare = [node for node in self._of(ast.Expr) if isinstance(node.value, kinds)]
+        return [(node.lineno, text_of(node.value)) for node in bare]
+
+    @property
     def sunken_main(self) -> Place:
         """(line, function) of an `if __name__ == '__main__':` that stands within a function."""
-        inner = ((n, f.name) for f in self._functions for n in ast.walk(f) if isinstance(n, ast.If))
+        functions = self._of(ast.FunctionDef)
+        inner = ((n, f.name) for f in functions for n in ast.walk(f) if isinstance(n, ast.If))
         return next(((node.lineno, name) for node, name in inner if _is_main(node)), ())
 
     @property
@@ -96,7 +104,7 @@ class PythonFacts:
             left, right = text_of(test.left), text_of(test.comparators[0])
             is_meant = (left.strip("_"), right.strip(" _")) == ("name", "main")
             if is_meant and left not in self.names and (left, right) != ("__name__", "__main__"):
-                return test.lineno, python_lines(self._text)[test.lineno - 1].strip()
+                return test.lineno, self.text[test.lineno].strip()
         return ()
 
     @cached_property
@@ -143,7 +151,7 @@ class PythonFacts:
 
     def called_by(self, name: str, place: int) -> dict[str, list[int]]:
         """Return {name: lines} of what functions call that are given to calls of a name."""
-        functions = {node.name: node for node in self._functions}
+        functions = {node.name: node for node in self._of(ast.FunctionDef)}
         waiting = [word.rsplit(".", 1)[-1] for _, word in self.given(name, place)]
         lines: dict[str, set[int]] = {}
         while waiting:
@@ -250,16 +258,15 @@ def with_bases(classes: list[ClassFacts]) -> list[ClassFacts]:
     def whole(one: ClassFacts, below: tuple[str, ...] = ()) -> ClassFacts:
         for base in sorted(one.bases):
             parent = by_name.get(base.rpartition(".")[2])
-            if parent is None or parent.name in (one.name, *below):
-                continue
-            parent = whole(parent, (one.name, *below))
-            one = replace(
-                one,
-                methods=[*one.methods, *parent.methods],
-                is_node=one.is_node or parent.is_node,
-                attributes=one.attributes | parent.attributes,
-                bases=(one.bases - {base}) | parent.bases,
-            )
+            if parent and parent.name not in (one.name, *below):
+                parent = whole(parent, (one.name, *below))
+                one = replace(
+                    one,
+                    methods=[*one.methods, *parent.methods],
+                    is_node=one.is_node or parent.is_node,
+                    attributes=one.attributes | parent.attributes,
+                    bases=(one.bases - {base}) | parent.bases,
+                )
         return one
 
     return [whole(one) for one in classes]

@@ -56,11 +56,9 @@ def factor_of(values: Sequence[float], inputs: Sequence[float]) -> float | None:
 
 def rule_of(index: int, samples: Sequence[Sample]) -> Rule | None:
     values = [twist[index] for _, twist in samples]
-    for axis in range(AXES):
-        factor = factor_of(values, [axes[axis] for axes, _ in samples])
-        if factor is not None:
-            return Rule(axis, factor)
-    return None
+    factors = (factor_of(values, [axes[axis] for axes, _ in samples]) for axis in range(AXES))
+    rules = (Rule(axis, factor) for axis, factor in enumerate(factors) if factor is not None)
+    return next(rules, None)
 
 
 @dataclass
@@ -80,16 +78,11 @@ class Evidence:
         twists = [twist for _, twist in self.samples]
         self.rules = {index: rule_of(index, self.samples) for index in range(6)}
         self.moving = [i for i in range(6) if any(abs(twist[i]) > SMALL for twist in twists)]
-        self.strange = [index for index in self.moving if index not in RIGHT]  # should stay 0
-
-    @property
-    def extra(self) -> str:
-        """Return what is said of a field that should stay 0; empty if all do."""
-        for index in self.strange:
-            rule = self.rules[index]
-            follows = rule and f"follows {self.task.names.axes[rule.axis]}"
-            return f"{FIELDS[index]} {follows or 'is not 0'}"
-        return ""
+        axes, rules = self.task.names.axes, self.rules.items()
+        self.follows = {index: f"follows {axes[rule.axis]}" for index, rule in rules if rule}
+        # What is said of each field that moves and should stay 0.
+        strange = [index for index in self.moving if index not in RIGHT]
+        self.strange = [f"{FIELDS[i]} {self.follows.get(i, 'is not 0')}" for i in strange]
 
 
 class Field:
@@ -97,43 +90,37 @@ class Field:
 
     def __init__(self, evidence: Evidence, index: int, axis: int) -> None:
         self.evidence, self.index, self.name, self.axis = evidence, index, FIELDS[index], axis
-        self.task, self.n, self.a = evidence.task, evidence.task.names, evidence.task.answers
-        self.n_axis, self.just = self.n.axes[axis], self.a.rules[axis]
-        self.sides = ("forwards", "backwards") if axis == 1 else ("left", "right")
-        self.axes = [axes for axes, _ in evidence.samples]
+        self.n_axis, self.just = evidence.task.names.axes[axis], evidence.task.answers.rules[axis]
         self.values = [twist[index] for _, twist in evidence.samples]
-        self.given = [axes[axis] for axes in self.axes]
+        self.given = [axes[axis] for axes, _ in evidence.samples]
         self.pairs = list(zip(self.given, self.values))
         self.at_rest = evidence.at_rest[index] if evidence.at_rest else 0.0
-        self.is_still = index not in evidence.moving
         self.rule, self.wanted = evidence.rules[index], evidence.factors.get(index)
-        self.product = self.task.product(self.rule.factor, axis) if self.rule else ""
-        self.follows_its_axis = bool(self.rule and self.rule.axis == axis and self.rule.factor > 0)
+
+    @property
+    def is_right(self) -> bool:
+        """Whether it is a positive constant times its axis, and the one that is asked for."""
+        if not self.rule or self.rule.axis != self.axis or self.rule.factor <= 0:
+            return False
         # Rounded to two decimals a factor is off by 0.005.
-        near = self.rule and self.wanted and abs(self.rule.factor / self.wanted - 1) < 0.02
-        self.is_scaled = self.follows_its_axis and bool(self.wanted and not near)
-        other = evidence.rules[ANGULAR if index == LINEAR else LINEAR]
-        axes = (self.rule.axis, other.axis) if self.rule and other else ()
-        self.is_swapped = axes == (1 - axis, axis)
-        # The other field that follows its axis, or empty.
-        rules = ((FIELDS[each], evidence.rules[each]) for each in evidence.strange)
-        self.misplaced = next((name for name, rule in rules if rule and rule.axis == axis), "")
+        return not self.wanted or abs(self.rule.factor / self.wanted - 1) < 0.02
+
+    @property
+    def product(self) -> str:
+        return self.evidence.task.product(self.rule.factor, self.axis) if self.rule else ""
 
     @property
     def other_answer(self) -> tuple[float, float] | None:
         """What the same Joy gave earlier and now, where that differs."""
         earlier = {tuple(axes): twist[self.index] for axes, twist in self.evidence.again}
-        known = ((tuple(axes), value) for axes, value in zip(self.axes, self.values))
+        known = ((tuple(axes), twist[self.index]) for axes, twist in self.evidence.samples)
         both = ((earlier[axes], now) for axes, now in known if axes in earlier)
         return next((each for each in both if not is_near(*each)), None)
-
-    def follows(self, inputs: Iterable[float]) -> bool:
-        return bool(factor_of(self.values, list(inputs)))
 
     @property
     def has_lost_its_sign(self) -> bool:
         """Return whether it grows with the axis to either side: abs(), or a square."""
-        if self.follows(map(abs, self.given)):
+        if factor_of(self.values, [*map(abs, self.given)]):
             return True
         values = [value for _, value in sorted((abs(given), value) for given, value in self.pairs)]
         varies = len({round(value, 6) for value in values}) > 0.6 * len(values)
@@ -142,16 +129,16 @@ class Field:
     @property
     def mixture(self) -> str:
         """The two axes whose sum, or difference, it is, each with its factor; or empty."""
+        samples = [(axes, twist[self.index]) for axes, twist in self.evidence.samples]
         order = sorted(range(AXES), key=lambda axis: axis != self.axis)
-        for i, j in itertools.combinations(order if len(self.values) > 3 else (), 2):
-            (a, b), (c, d) = ((axes[i], axes[j]) for axes in self.axes[:2])
-            one, other = self.values[:2]
+        for i, j in itertools.combinations(order if len(samples) > 3 else (), 2):
+            (a, b, one), (c, d, other) = ((axes[i], axes[j], value) for axes, value in samples[:2])
             whole = a * d - b * c or math.inf
             p, q = (one * d - other * b) / whole, (other * a - one * c) / whole
-            both = zip(self.axes, self.values)
-            fits = all(abs(p * axes[i] + q * axes[j] - value) < 1e-3 for axes, value in both)
+            fits = all(abs(p * axes[i] + q * axes[j] - value) < 1e-3 for axes, value in samples)
             if fits and min(abs(p), abs(q)) > 0.05:
-                return f"{self.task.product(p, i)} + {self.task.product(q, j)}".replace("+ -", "- ")
+                product = self.evidence.task.product
+                return f"{product(p, i)} + {product(q, j)}".replace("+ -", "- ")
         return ""
 
     @property

@@ -11,14 +11,14 @@ from typing import Sequence
 from tutorial_check.handout.s3.judge import other_topic
 from tutorial_check.handout.s4_3 import probes
 from tutorial_check.handout.s4_3.drive import Drive, Twist
-from tutorial_check.handout.s4_3.record import CMD_VEL, COLOUR, COUNT, JOY, drive
+from tutorial_check.handout.s4_3.record import COLOUR, COUNT, drive
 from tutorial_check.handout.task import PACKAGE
 from tutorial_check.judge.scripts import check_file, crash, ended
 from tutorial_check.model import Wrong
 from tutorial_check.record.session import Session
 from tutorial_check.source.causes import with_import
 from tutorial_check.source.python_facts import shows
-from tutorial_check.source.python_text import python_lines, unmasked
+from tutorial_check.source.python_text import unmasked
 from tutorial_check.source.tracebacks import first_traceback
 
 
@@ -26,46 +26,51 @@ class Facts:
     """A Drive beside the text of its program: the facts of the rows of the judge."""
 
     def __init__(self, session: Session, seen: Drive) -> None:
-        self.session, self.seen, self.script = session, seen, seen.script
+        self.session, self.seen = session, seen
         self.facts = facts = session.scripts(PACKAGE)[seen.script]
-        self.complaint, self.remark, self.hint = "", "", ""
+        self.complaint, self.hint = "", ""  # as rules.judge() returns them
         self.n, self.a = session.task.names, session.task.answers  # for the texts of the rows
-        self.joy, self.cmd_vel = map(session.task.topic, (JOY, CMD_VEL))  # in its program
-        line = f"rospy.Subscriber('{self.a.joy}', Joy, callback)"
-        self.joy_line = with_import(line, "Joy", facts)
-        line = f"rospy.Publisher('{self.a.cmd_vel}', Twist, queue_size=10)"
-        self.twist_line = with_import(line, "Twist", facts)
-        # {name of a function: where it is called first}
-        places = {name: self._first(facts.lines(name)) for name in facts.calls}
-        self.at = collections.defaultdict(lambda: self.script, places)
-        self.loop = self._first(facts.publishing_loops or facts.lines("Timer", "Rate"))
-        self.sleep = self._first(seen.sleep_lines)
+        subscriber = f"rospy.Subscriber('{self.a.joy}', Joy, callback)"
+        publisher = f"rospy.Publisher('{self.a.cmd_vel}', Twist, queue_size=10)"
+        lines = {"Joy": subscriber, "Twist": publisher}  # to be written
+        self.line = {kind: with_import(line, kind, facts) for kind, line in lines.items()}
+        # {name of a function, or what else a row blames: its lines, the first of which is named}
+        blamed: dict[str, Sequence[int]] = {name: facts.lines(name) for name in facts.calls}
+        blamed["loop"] = facts.publishing_loops or facts.lines("Timer", "Rate")
+        blamed["sleep"] = seen.sleep_lines
         # Where a second Twist may come from: another publish in a callback, or another Subscriber.
         several = (facts.called_back.get("publish", []), facts.lines("Subscriber"))
-        self.second = self._first([each[1] for each in several if len(each) > 1])
-        types = seen.types
-        self.heard_on = other_topic(seen.subscribers, self.joy, types, "sensor_msgs/Joy")
-        self.sent_on = other_topic(seen.publishers, self.joy, types, "geometry_msgs/Twist")
-        asked = facts.first("Subscriber")
-        self.wanted = asked.words[1] if asked and len(asked.words) > 1 else "another type"
-        # The type of its velocities, if that is another; rospy says whose types differ.
-        kind, refused = types.get(self.cmd_vel), [w for w in seen.warnings if "datatype" in w]
-        is_right = kind == "geometry_msgs/Twist" and self.cmd_vel not in "".join(refused)
-        self.carried = "" if is_right else kind
-        self.drivers = sorted(set(seen.publishers.get(self.cmd_vel, ())))
+        blamed["second"] = [each[1] for each in several if len(each) > 1]
+        places = {name: f"{seen.script}:{found[0]}" for name, found in blamed.items() if found}
+        self.at = collections.defaultdict(lambda: seen.script, places)
+        self.elsewhere = {
+            "Joy": other_topic(seen.subscribers, self.a.joy, seen.types, "sensor_msgs/Joy"),
+            "Twist": other_topic(seen.publishers, self.a.joy, seen.types, "geometry_msgs/Twist"),
+        }
+        self.drivers = sorted(set(seen.publishers.get(self.a.cmd_vel, ())))
         self.repeated = (1, False)  # how many Twists for each Joy, and whether they differ
         if seen.samples and not seen.has_clock:
             self.repeated = repetition([twist for _, twist in seen.samples], seen.twists)
 
-    def _first(self, lines: Sequence[int]) -> str:
-        return f"{self.script}:{lines[0]}" if lines else self.script
+    @property
+    def wanted(self) -> str:
+        """The type of message that its Subscriber asks for."""
+        asked = self.facts.first("Subscriber")
+        return asked.words[1] if asked and len(asked.words) > 1 else "another type"
+
+    @property
+    def carried(self) -> str:
+        """The type of its velocities, if that is another; rospy says whose types differ."""
+        kind = self.seen.types.get(self.a.cmd_vel, "")
+        refused = "".join(each for each in self.seen.warnings if "datatype" in each)
+        return kind if kind != "geometry_msgs/Twist" or self.a.cmd_vel in refused else ""
 
     @property
     def first_version(self) -> str:
         """The separate file with the handout's first version, if that displays every Joy."""
         for other, facts in self.session.scripts(PACKAGE).items():
             is_first = "Subscriber" in facts.calls and "Publisher" not in facts.calls
-            if other != self.script and is_first:
+            if other != self.seen.script and is_first:
                 with contextlib.suppress(Wrong):
                     check_file(self.session, PACKAGE, other)
                     return other if self.session.recording(drive, other, False).all_shown else ""
@@ -78,9 +83,9 @@ class Facts:
 
     def crash(self) -> Wrong:
         session, seen = self.session, self.seen
-        text = unmasked(session.text(PACKAGE, self.script))
+        text = unmasked(session.text(PACKAGE, seen.script))
         if text and not seen.program.spins and (seen.ended_early or not seen.trouble):
-            shown = session.recording(drive, self.script, True, text)
+            shown = session.recording(drive, seen.script, True, text)
             if shown.trouble:
                 wrong = crash(session, PACKAGE, shown.program, "")
                 wrong.seen += self._hidden_by(shown)
@@ -93,9 +98,8 @@ class Facts:
         catcher = self.facts.catcher(trace.lines_of(shown.script)) if trace else None
         if not trace or not catcher or trace.message in self.seen.output:
             return ""
-        text = python_lines(self.session.text(PACKAGE, self.script))[catcher.lineno - 1].strip()
-        how = "{} shows another text" if shows(catcher) else "hidden by {}"
-        return f" ({how.format(f'`{text}` in line {catcher.lineno}')})"
+        text = f"`{self.facts.text[catcher.lineno].strip()}` in line {catcher.lineno}"
+        return f" ({text} shows another text)" if shows(catcher) else f" (hidden by {text})"
 
     @functools.cached_property
     def hidden_crash(self) -> Wrong | None:
@@ -103,19 +107,18 @@ class Facts:
         return wrong if wrong and wrong.where else None
 
     def end(self) -> Wrong:
-        return ended(self.crash(), self.facts, self.script)
+        return ended(self.crash(), self.facts, self.seen.script)
 
     def odd(self) -> Wrong:
         """Return the Wrong for answers of another rule, at the line that sets the field."""
         where, hint = self.at["publish"], self.hint
         field = re.search(r"(linear|angular)\.[xyz]", self.complaint)
         name = re.escape(field[0]) if field else r"(?:linear\.x|angular\.z)"
-        for number, line in enumerate(python_lines(self.session.text(PACKAGE, self.script)), 1):
-            if re.search(name + r"\s*=.*\bbuttons\b(?!.*\baxes\b)", line):
-                where, hint = f"{self.script}:{number}", "the stick is data.axes, not data.buttons"
-                break
-            if field and re.search(name + r"\s*[-+*/]?=", line):
-                where = f"{self.script}:{number}"
+        for number, line in self.facts.text.items():
+            takes_buttons = re.search(name + r"\s*=.*\bbuttons\b(?!.*\baxes\b)", line)
+            if takes_buttons or (field and re.search(name + r"\s*[-+*/]?=", line)):
+                where = f"{self.seen.script}:{number}"
+                hint = "the stick is data.axes, not data.buttons" if takes_buttons else hint
                 break
         return Wrong("", self.complaint, where, hint, not (self.seen.missing or self.seen.unasked))
 

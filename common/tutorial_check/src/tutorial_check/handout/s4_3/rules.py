@@ -7,28 +7,30 @@ from tutorial_check.judge.rows import Row, find
 
 JUST = "{f.name} = {f.just}"
 PRODUCT = "{f.name} = {f.product}"
+SIDES = (("left", "right"), ("forwards", "backwards"))  # of an axis, above 0 and below
 WRONG_SIGN = PRODUCT + ": the sign is wrong"
 ONLY_THIS = "{f.name} comes from this Joy alone: no +=, no mean, nothing kept"
 BEFORE = (
     Row(lambda e: no_number(e.samples), "{found}", "look at what it is calculated from"),
     Row(lambda e: not e.moving, "every Twist is zero",
         "are linear.x and angular.z of the message that is published set from data.axes?"),
+    Row(lambda e: [e.rules[index] and e.rules[index].axis for index in RIGHT] == [0, 1],
+        "angular.z follows {f.task.names.axes[1]} and linear.x {f.task.names.axes[0]}: they are swapped",
+        "linear.x = {f.task.answers.rules[1]} (forwards), angular.z = {f.task.answers.rules[0]} (left)"),
 )  # fmt: skip
 # Of a field that is no positive constant times its axis, or not by the scale of the task (wanted).
 # The first row that applies counts.
 OF_A_FIELD = (
-    Row(lambda f: f.is_scaled, PRODUCT, JUST),
-    Row(lambda f: f.wanted and f.rule and f.rule.axis == f.axis, WRONG_SIGN, JUST),
-    Row(lambda f: f.rule and f.rule.axis == f.axis, WRONG_SIGN,
-        "pushed {f.sides[0]}, the robot goes {f.sides[1]}: leave the minus out"),
-    Row(lambda f: f.is_swapped,
-        "angular.z follows {f.n.axes[1]} and linear.x {f.n.axes[0]}: they are swapped",
-        "linear.x = {f.a.rules[1]} (forwards), angular.z = {f.a.rules[0]} (left)"),
-    Row(lambda f: f.rule and f.n.axes[f.rule.axis], "{f.name} follows {found}", JUST),
-    Row(lambda f: f.is_still and f.misplaced,
-        "{found} follows {f.n_axis}, {f.name} stays 0",
+    Row(lambda f: f.rule and f.rule.axis == f.axis and f.rule.factor > 0, PRODUCT, JUST),
+    Row(lambda f: f.rule and f.rule.axis == f.axis and f.wanted, WRONG_SIGN, JUST),
+    Row(lambda f: f.rule and f.rule.axis == f.axis and SIDES[f.axis], WRONG_SIGN,
+        "pushed {found[0]}, the robot goes {found[1]}: leave the minus out"),
+    Row(lambda f: f.evidence.follows.get(f.index), "{f.name} {found}", JUST),
+    Row(lambda f: f.index not in f.evidence.moving
+        and [each for each in f.evidence.strange if each.endswith(f" follows {f.n_axis}")],
+        "{found[0]}, {f.name} stays 0",
         "a robot in the plane drives along x and turns about z: linear.x and angular.z"),
-    Row(lambda f: f.is_still, "{f.name} is always 0", JUST),
+    Row(lambda f: f.index not in f.evidence.moving, "{f.name} is always 0", JUST),
     Row(lambda f: f.mixture, "{f.name} = {found}: two axes in one", JUST),
     Row(lambda f: factor_of(f.values[1:], f.given[:-1]),
         "{f.name} follows the Joy before: each Twist is one message late",
@@ -40,8 +42,9 @@ OF_A_FIELD = (
         ONLY_THIS),
     Row(lambda f: f.has_lost_its_sign, "{f.name} has lost the sign of {f.n_axis}",
         JUST + ", without abs or a square"),
-    Row(lambda f: f.follows(g if axes[1 - f.axis] >= 0 else -g for g, axes in zip(f.given, f.axes))
-        and f.n.axes[1 - f.axis], "{f.name} changes sign when {found} is negative",
+    Row(lambda f: factor_of(f.values, [axes[f.axis] * (1 if axes[1 - f.axis] >= 0 else -1)
+                                       for axes, _ in f.evidence.samples])
+        and f.evidence.task.names.axes[1 - f.axis], "{f.name} changes sign when {found} is negative",
         JUST + ", whatever the other axis is"),
     Row(lambda f: len({round(value, 6) for value in f.values}) == 1,
         "{f.name} is always {f.values[0]:.2f}", JUST),
@@ -59,7 +62,7 @@ OF_A_FIELD = (
     Row(lambda f: not f.is_curve or f.wanted, "{f.name} is no constant times {f.n_axis}", JUST),
 )  # fmt: skip
 AFTER = (
-    Row(lambda e: e.extra, "{found}",
+    Row(lambda e: e.strange, "{found[0]}",
         "only linear.x and angular.z move a robot in the plane; leave the others 0"),
 )  # fmt: skip
 
@@ -67,7 +70,7 @@ AFTER = (
 def judge(evidence: Evidence) -> tuple[str, str]:
     """Return (complaint, hint), each empty if there is none; a hint without a complaint is a remark."""
     fields = [Field(evidence, index, axis) for index, axis in RIGHT.items()]
-    odd = [find(OF_A_FIELD, each) for each in fields if not each.follows_its_axis or each.is_scaled]
+    odd = [find(OF_A_FIELD, each) for each in fields if not each.is_right]
     all_found = [find(BEFORE, evidence), *odd, find(AFTER, evidence)]
     found = next((each for each in all_found if each), None)
     if found:
