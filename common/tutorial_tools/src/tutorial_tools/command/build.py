@@ -252,11 +252,11 @@ def install_from_pypi(workspace: Path, name: str, requirements: str, kind: str) 
         if not done.returncode:
             shutil.copy(wanted, folder / "installed")
             return
-        errors = [line for line in log.read_text().splitlines() if line.startswith("ERROR")]
-        print(*errors[:3], sep="\n", file=sys.stderr)
         todo = "then run ./tutorial setup again: it goes on where it stopped"
         line = f"not installed from PyPI: {names}. Check the network ({log}), {todo}"
         if needed:
+            errors = [line for line in log.read_text().splitlines() if line.startswith("ERROR")]
+            print(*errors[:3], sep="\n", file=sys.stderr)
             raise SetUpError(line)
         say(f"{line}\ntutorial: all but replay_bag works without")
         shutil.copy(wanted, failed)
