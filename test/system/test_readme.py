@@ -117,7 +117,8 @@ def test_the_commands_of_a_section_run(blocks, tutorial, host, suite_workspace, 
                 for other in [each for each in lasting if rivals and each.startswith(rivals)]:
                     end(other)
                 program = lasting[command] = run(f"exec {command}")
-                wait_for(lambda: sign in program.output or program.ended, f"{sign} of {command}")  # noqa: B023
+                what = f"{sign} of {command}"
+                wait_for(lambda: sign in program.output or program.ended, what)  # noqa: B023
                 assert not program.ended, f"{command}\n{program.output}"
     finally:
         for command in list(lasting):

@@ -41,7 +41,7 @@ class FaultsAtTheEnd(RosTest):
 
     def test_each_exits_on_sigterm_while_its_peers_and_the_master_are_suspended(self):
         with Rig() as rig:
-            pids = lambda node: master() + [pid_of(one) for one in rig.nodes if one != node]  # noqa: E731
+            pids = lambda node: master() + [pid_of(n) for n in rig.nodes if n != node]  # noqa: E731
             self.check_each(rig, signal.SIGTERM, lambda node: suspended(pids(node)))
 
     def test_a_warning_while_the_master_hangs_makes_no_node_deaf(self):

@@ -40,7 +40,7 @@ class RulesTest(RosTest):
         """Start a node with these parameters, and plug a joystick in, which is released."""
         self.sent, self.states = [], []  # linear.x [m/s]
         self.hear("cmd_vel", Twist, lambda twist: self.sent.append(twist.linear.x))
-        hear = lambda array: self.states.extend(status.message for status in array.status)  # noqa: E731
+        hear = lambda array: self.states.extend(one.message for one in array.status)  # noqa: E731
         self.hear("/diagnostics", DiagnosticArray, hear)
         parameters = [f"_{name}:={json.dumps(value)}" for name, value in given.items()]
         self.start(JOY2TWIST, *parameters)

@@ -65,8 +65,8 @@ class TurtlesimTest(RosTest):
         with self.assertRaisesRegex(rospy.ServiceException, r"turtled named \[turtle2\] already"):
             call(f"{FIRST}spawn", srv.Spawn, 2.0, 2.0, 0.2, name)
         call(f"{FIRST}kill", srv.Kill, "turtle2")
-        gone = lambda: f"{FIRST}turtle2/pose" not in dict(rospy.get_published_topics())  # noqa: E731
-        wait_for(gone, "end of its topics")
+        end = lambda: f"{FIRST}turtle2/pose" not in dict(rospy.get_published_topics())  # noqa: E731
+        wait_for(end, "end of its topics")
 
     def test_the_background_is_read_by_clear(self):
         for red in (150, 69):

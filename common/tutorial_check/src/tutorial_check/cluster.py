@@ -1,7 +1,7 @@
 """--cluster: checks on the workers of a Dask scheduler, each a ./tutorial worker on its machine.
 
-What a student handed in is sent as an archive; a worker needs this suite, in the same version, and no
-shared folder. Dask does the rest: distribution, TLS, and another try if a worker exits.
+What a student handed in is sent as an archive; a worker needs the same version of this suite, and
+no shared folder. Dask does the rest: distribution, TLS, and another try if a worker exits.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ def _dask() -> Any:
 
 
 def _key_of(address: str) -> str:
-    """Return the file of the key, which only this user may read; empty without TLS. Raises CannotCheck."""
+    """Return the key's file, readable by this user alone; empty without TLS. Raises CannotCheck."""
     if not address.startswith("tls://"):
         return ""
     try:
@@ -163,8 +163,7 @@ def _examine(packed: bytes, order: Order, version: str) -> list[Outcome]:
     _must_isolate()
     with tempfile.TemporaryDirectory(prefix="tutorial_worker_") as folder:
         with tarfile.open(fileobj=io.BytesIO(packed)) as archive:
-            # As it was, links that lead out among it, which Python 3.14 would refuse. A worker runs
-            # whatever its client sends, anyway.
+            # With links that lead out, which Python 3.14 refuses: a worker runs anything anyway.
             archive.extraction_filter = lambda member, _: member
             archive.extractall(folder)
         (submission,) = Path(folder).glob("submission*")
@@ -176,7 +175,7 @@ def _examine(packed: bytes, order: Order, version: str) -> list[Outcome]:
 
 
 def _must_isolate() -> None:
-    """Raise CannotCheck where a student's program could reach the scheduler, unless told to go on."""
+    """Raise CannotCheck where a student's program could reach the scheduler, unless allowed."""
     if bubblewrap.instead() and INSISTS not in os.environ:
         why = f"{bubblewrap.granted().why}: a student's program could reach the scheduler"
         todo = "fix that, or ./tutorial worker --not-isolated"
@@ -184,7 +183,7 @@ def _must_isolate() -> None:
 
 
 def _work(address: str, jobs: int, insists: bool) -> NoReturn:
-    """Make this process a worker. insists: also where programs are not isolated. Raises CannotCheck."""
+    """Make this process a worker. insists: even without isolated programs. Raises CannotCheck."""
     if insists and bubblewrap.instead():
         if not address.startswith("tls://") or (os.geteuid() and not landlock.version()):
             why = "else a student's program reaches the scheduler, or reads the key"

@@ -203,7 +203,7 @@ def _write_files(files: dict[str, str], outcomes: list[Outcome]) -> None:
 
 
 def stamps(folder: str) -> dict[str, tuple[int, int]]:
-    """Return {path: (time of the last change, also of its rights; size)} of the student's files in a folder."""
+    """Return {path: (time of the last change, also of rights; size)} of a student's files."""
     found = {}
     for path in all_below(folder):
         with contextlib.suppress(OSError):  # removed meanwhile

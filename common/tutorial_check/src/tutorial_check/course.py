@@ -80,7 +80,7 @@ class Course:
         return [name for name, exercise in self.exercises.items() if exercise.by_default]
 
     def meant(self, word: str) -> list[str]:
-        """Return the exercises of a word: 4 is all of 4.2 to 4.5, and 5.1, a section of it, is 5."""
+        """Return the exercises of a word: 4 is 4.2 to 4.5, and 5.1, a section of it, is 5."""
         section = f"{word.rstrip('.')}."
         inner = [each for each in self.exercises if each.startswith(section)]
         whole = [each for each in self.exercises if section.startswith(f"{each}.")]

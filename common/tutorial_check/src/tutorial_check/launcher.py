@@ -30,8 +30,7 @@ from tutorial_check.source.manifests import unreadable
 from tutorial_check.variants import Task, task_of
 from tutorial_check.worker_process import Ended, Worker, no_more
 
-# Of a shell of the suite: its roscore.xml, with which each roslaunch starts sooner, and what CMake 4
-# needs to read catkin's files.
+# Of a shell of the suite: roscore.xml, for a faster roslaunch; what CMake 4 needs for catkin.
 OF_SUITE = ("ROS_ETC_DIR", "CMAKE_POLICY_VERSION_MINIMUM")
 SUITE = Path(__file__).resolve().parents[4]
 NUMBERS = itertools.count(os.getpid() * 100)
@@ -54,7 +53,7 @@ class Case(Session):
         self._strained = self.hopeless = False  # the machine was, as something was recorded last
 
     def recording(self, recorder: Recorder[Recorded], *arguments: object) -> Recorded:
-        """Ask for a recording, at the first call. Raises CannotCheck, or Wrong if there can be none."""
+        """Ask for a recording, at the first call. Raises CannotCheck, or Wrong if there is none."""
         key = recorder.__module__, recorder.__name__, *arguments
         if key not in self._runs:
             self._runs[key] = self._asked(recorder, arguments)

@@ -196,7 +196,7 @@ class Run:
         return result
 
     def _same_cause(self, wrong: Wrong) -> list[Result]:
-        """Return the wrong results about the same cause. "No such file" alone may be said of two files."""
+        """Return wrong results of the same cause. "No such file" alone may be about two files."""
         about, is_line = (wrong.seen, wrong.where), LINE.search(wrong.where)
         same = [one for one in self._done.values() if (one.seen, one.where) == about]
         wrongs = [one for one in same if one.status == WRONG]

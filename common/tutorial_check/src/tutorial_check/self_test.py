@@ -1,4 +1,4 @@
-"""--self-test: every right solution of a course passes, every wrong one fails at the named check."""
+"""--self-test: each right solution of a course passes, each wrong one fails at the named check."""
 
 from __future__ import annotations
 

@@ -46,7 +46,7 @@ def find_students(folder: str | Path, out: str | Path, tasks: str = "") -> list[
 
 
 def _has_results(path: Path, out: str | Path) -> bool:
-    """Return whether it is the folder of the results, or that of an earlier check, with nothing else."""
+    """Return whether it is the folder of the results, or of an earlier check and nothing else."""
     if os.path.realpath(path) == os.path.realpath(out):
         return True
     tables = [os.path.isfile(path / name) for name in TABLES]
@@ -59,7 +59,7 @@ def _has_results(path: Path, out: str | Path) -> bool:
 
 
 def check_all(options: argparse.Namespace) -> int:
-    """Check all, write table and reports; 0: all are done, 1: something is wrong, 2: one is unchecked."""
+    """Check all, write table and reports; 0: all are done, 1: something is wrong, 2: unchecked."""
     out = Path(options.out or Path(options.all) / "check")
     students = find_students(options.all, out, options.variant or "")
     if not options.variant and Path(options.all, "variants").is_dir():

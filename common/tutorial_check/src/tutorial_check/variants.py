@@ -15,7 +15,10 @@ from tutorial_check.course import Course, Value, package_of, read_yaml
 from tutorial_check.model import CannotCheck
 from tutorial_check.order import Variant
 
-SHEET = "# {title}: the task of {name}\n\n{tasks}\n\nTo check it yourself keep this as variant.yaml:\n\n{file}"
+SHEET = (
+    "# {title}: the task of {name}\n\n{tasks}\n\n"
+    "To check it yourself keep this as variant.yaml:\n\n{file}"
+)
 
 
 class Task:
@@ -91,7 +94,7 @@ def drawn(course: Course, seed: str, name: str) -> Variant:
 
 
 def variant_of(course: Course, options: argparse.Namespace, name: str) -> Variant:
-    """Return a student's Variant: from NAME.yaml of a folder, or drawn, or from the file for all."""
+    """Return a student's Variant: from NAME.yaml of a folder, drawn, or from the file for all."""
     given = Path(options.variant) if options.variant else None
     own = given / f"{name}.yaml" if given and given.is_dir() else None
     if own and own.is_symlink():

@@ -64,7 +64,7 @@ def _answers(order: Order, reader: int, questions: Iterable[Line]) -> Iterator[L
         yield {"ready": True}
         yield from (answer(ground, each) for each in questions)
     finally:
-        ground.runner.clear()  # a build, too, is ended; where no namespace is, nothing else does that
+        ground.runner.clear()  # a build, too, is ended; without a namespace nothing else ends it
 
 
 def answer(ground: Ground, asked: Line) -> Line:

@@ -21,7 +21,7 @@ from tutorial_check.order import Line, Order
 from tutorial_check.record.recording import as_json
 from tutorial_check.source.workspace import COPY
 
-# All exercises take 90 s on two quiet processors. Ten times as long is enough: where programs have less
+# All exercises take 90 s on two quiet processors. Ten times that is enough: if programs have less
 # than a seventh of the time, there is no verdict anyway (cpu_clock.HOPELESS), and a student waits.
 LONGEST_S = 900.0
 MOST_BYTES = 1 << 26  # of an answer; what the handout's programs are recorded to do takes 1 MB

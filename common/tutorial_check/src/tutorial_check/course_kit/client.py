@@ -58,8 +58,8 @@ def _fault(why: object) -> CannotCheck:
 class Client:
     """A node on a stage; see common/doc/COURSES.md.
 
-    If a type of the student's workspace is missing or other than these values need it, that is their
-    mistake, and ends the recording; with another type it is the course's. For client_node see there.
+    If a type of the student's workspace is missing or does not fit the values, that is their
+    mistake, and ends the recording; with another type it is the course's. See client_node, too.
     """
 
     def __init__(self, stage: Stage) -> None:

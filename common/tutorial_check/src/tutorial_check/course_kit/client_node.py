@@ -1,9 +1,8 @@
 """A node for any type: services, messages, parameters, transforms. See Client, which starts it.
 
-It runs as a program with the student's rights, as it imports what their workspace generates. Standard
-input is a socket: a line of JSON, {"id", "do", "with"}, is answered by {"id", "value"}; by {"id",
-"fault"}, if there is no such type or values do not fit it; or by {"id", "error"}. A line that waits
-keeps no other one from its answer.
+It has the student's rights, as it imports what their workspace generates. Standard input is a
+socket: a line of JSON, {"id", "do", "with"}, is answered by {"id", "value"}; by {"id", "fault"}, if
+no such type exists or values do not fit it; or by {"id", "error"}. No line waits for another.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """What a variant of the handout's task changes: axes, buttons, topics, factors, names. Pure.
 
-Checks think of the handout's axes and buttons: a Joy is rearranged as it is sent. In messages a Words
+Checks use the handout's axes and buttons: a Joy is rearranged as it is sent. In messages a Words
 stands for what a variant may change.
 """
 
@@ -68,7 +68,7 @@ class JoystickTask(Task):
         self.answers = self._words(values)
 
     def _words(self, said: Mapping[str, object]) -> Words:
-        """Return the Words for what is said of the values that are given: the value, or its name."""
+        """Return the Words for what is said of the given values: the value, or its name."""
         axes = [f"axes[{self.axes.get(index, index)}]" for index in range(AXES)]
         sticks, rules = [f"axis {index}" for index in range(AXES)], {}
         for key, (index, scale) in FIELDS.items():
@@ -83,7 +83,7 @@ class JoystickTask(Task):
         return Words(joy, cmd_vel, package, lb, button, tuple(axes), tuple(sticks), rules)
 
     def joy(self, joy: Joy) -> Joy:
-        """Return the Joy, (axes, buttons), that is to this program what a Joy is to the handout's."""
+        """Return the (axes, buttons) that are to this program what a Joy is to the handout's."""
         axes = [self.signs.get(index, 1) * value for index, value in enumerate(joy[0])]
         return moved(axes, self.axes), moved(joy[1], self.buttons)
 

@@ -21,7 +21,10 @@ from typing import Any, Iterable, Sequence
 from tutorial_check.isolation import landlock
 
 SCRATCH_MB = 600  # for the copy, its build, logs and what the programs write
-ETC = "alternatives catkin group host.conf hosts ld.so.cache localtime nsswitch.conf passwd python3 ros"
+ETC = (
+    "alternatives catkin group host.conf hosts ld.so.cache localtime nsswitch.conf passwd"
+    " python3 ros"
+)
 SYSTEM = (
     *("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32", "/opt/ros"),
     *(f"/etc/{name}" for name in ETC.split()),
@@ -55,7 +58,7 @@ def _granted() -> Isolation:
     if not bwrap:
         return Isolation(why="bubblewrap is not installed")
     descriptors: tuple[int, ...] = ()
-    # Before bubblewrap 0.8 there is no --disable-userns, which root is refused, and before 0.7 no --size.
+    # Since 0.8 bubblewrap has --disable-userns, which root is refused, and since 0.7 --size.
     users: tuple[str, ...] = ("--unshare-user",)
     closed = (*users, "--disable-userns")
     if os.geteuid() == 0:
@@ -75,7 +78,7 @@ def _granted() -> Isolation:
 
 
 def _closed_user_namespace() -> int:
-    """Return a descriptor of a user namespace with root's users, in which no program can make another.
+    """Return a descriptor of a user namespace with root's users, in which none can make another.
 
     A program in a user namespace of its own could mount a tmpfs of any size. Raises OSError.
     """

@@ -1,7 +1,7 @@
-"""The clock of the programs: real time without their waits for a processor (/proc/*/task/*/schedstat).
+"""The programs' clock: real time without waits for a processor (/proc/*/task/*/schedstat).
 
-On a busy machine a program waits for a processor, and its author is not to blame. So deadlines use a
-clock that nearly stops during such waits. A program that does nothing although it could ends a wait.
+Waits for a processor, on a busy machine, are not an author's fault. So deadlines use a clock that
+nearly stops during such waits. A program that does nothing although it could ends a wait.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ Times = Dict[int, Tuple[int, int, int]]
 
 
 def fields_of(stat: str) -> list[bytes]:
-    """Return a /proc/*/stat from its third field on; the second is a name, of any bytes. Raises OSError."""
+    """Return a /proc/*/stat after its second field, a name of any bytes. Raises OSError."""
     with open(stat, "rb") as file:
         return file.read().rsplit(b")", 1)[1].split()
 
@@ -109,7 +109,7 @@ class CpuClock:
                 yield thread
 
     def idle_s(self) -> float:
-        """Return for how long the programs have done nothing [s of theirs]; 0 where nothing is counted."""
+        """Return how long the programs have done nothing [s of theirs]; 0 if nothing is counted."""
         idle_s = self.now() - self._busy_s if self._last else 0.0
         if idle_s > STARVED_S and any(self._ready_threads()):
             self._busy_s = self.now()
@@ -130,7 +130,7 @@ class CpuClock:
         self._whole_and_part[1:] = [(self._clock(), self._lost_s)]
 
     def strained(self) -> bool:
-        """Return whether a late answer proves little, as the machine was busy: since the start, or begin()."""
+        """Return whether a late answer proves little: a busy machine, since start or begin()."""
         return max(self._lost_shares()) > STRAINED
 
     def hopeless(self) -> bool:

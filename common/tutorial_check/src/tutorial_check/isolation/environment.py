@@ -16,7 +16,7 @@ def environment_of(words: Iterable[str]) -> dict[str, str]:
 
 
 def variables(folder: Path, environment: Mapping[str, str]) -> dict[str, str]:
-    """Return an environment, of a shell that sourced the underlay, with the folders of a session."""
+    """Return an environment, of a shell that sourced the underlay, with a session's folders."""
     return {
         **environment,
         "PATH": f"{folder}/bin:{environment['PATH']}",

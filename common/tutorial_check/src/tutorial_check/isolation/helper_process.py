@@ -107,7 +107,7 @@ def _serve(
 
 
 class MasterProcess:
-    """A ROS master in the process of a Helper; the process ends when rosmaster is asked to shut down."""
+    """A ROS master in a Helper's process, which ends when rosmaster is asked to shut down."""
 
     def __init__(self, port: int) -> None:
         from rosmaster.master import Master  # noqa: PLC0415  only where a master is wanted

@@ -26,8 +26,8 @@ EXECUTE, WRITE, READ, LIST, TRUNCATE = 1 << 0, 1 << 1, 1 << 2, 1 << 3, 1 << 14
 OF_FILES = EXECUTE | WRITE | READ | TRUNCATE
 SIGNALS = 1 << 1  # scope: only to those of the same restriction
 DEVICES = tuple(f"/dev/{name}" for name in ("null", "zero", "full", "random", "urandom"))
-# {machine: (its number as of linux/audit.h, socket, other system calls that lead out)}. Those are shmget,
-# semget, msgget, mq_open, and io_uring_setup, which would open sockets past the filter.
+# {machine: (its number in linux/audit.h, socket, other system calls that lead out)}. Those are
+# shmget, semget, msgget, mq_open, and io_uring_setup, which would open sockets past the filter.
 MACHINES = {
     "x86_64": (0xC000003E, 41, (29, 64, 68, 240, 425)),
     "aarch64": (0xC00000B7, 198, (194, 190, 186, 180, 425)),
@@ -57,7 +57,7 @@ def version() -> int:
 
 
 def ruleset(shown: Iterable[str | Path], own: Iterable[str | Path]) -> int:
-    """Return a descriptor for confine(). shown: to be read and run; own: also written. Raises OSError."""
+    """Return a descriptor for confine(). shown: read and run; own: also written. Raises OSError."""
     about = struct.pack("=QQQ", EVERYTHING, 0, SIGNALS if version() >= WITH_SCOPES else 0)
     made = _call(CREATE_RULESET, about, ctypes.c_size_t(len(about)), ctypes.c_uint32(0))
     rows = [(path, EXECUTE | READ | LIST) for path in shown]
@@ -71,7 +71,7 @@ def ruleset(shown: Iterable[str | Path], own: Iterable[str | Path]) -> int:
 
 
 def confine(descriptor: int) -> None:
-    """Confine this process, and what it starts, for good; it has to have given up rights. Raises OSError."""
+    """Confine this process and its children for good, once rights are given up. Raises OSError."""
     _call(RESTRICT_SELF, descriptor, ctypes.c_uint32(0))
     machine, open_socket, others = MACHINES[platform.machine()]
     # The codes stand in linux/bpf_common.h.

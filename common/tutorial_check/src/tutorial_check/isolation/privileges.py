@@ -26,7 +26,7 @@ LIMITS = {
 
 
 def folder_until_end(prefix: str) -> tuple[str, subprocess.Popen[bytes]]:
-    """Return a new folder, and a process that removes it once its input is closed, as when we end."""
+    """Return a new folder, and a process that removes it once its input closes, as when we end."""
     folder = tempfile.mkdtemp(prefix=prefix)
     # Programs that end at the same time may still write.
     remove = 'read -r _; for try in 1 2 3 4 5; do rm -rf -- "$1" && break; sleep 1; done'
@@ -45,7 +45,7 @@ def keep_to_itself() -> None:
 
 
 def give_up_rights() -> None:
-    """Let this process, and what it starts, gain no rights, as by sudo. Its user may look into it."""
+    """Let this process and its children gain no rights, as by sudo. Its user may look into it."""
     prctl(PR_SET_NO_NEW_PRIVS, 1)
     prctl(PR_SET_DUMPABLE, 1)
 
@@ -68,7 +68,7 @@ def open_to(user: int, folder: str) -> None:
 def unused_user(number: int, uid_map: Path = Path("/proc/self/uid_map")) -> int | None:
     """Return an unused uid for an examination, or None.
 
-    uid_map: lines of first id, its id outside, count. In a container that an ordinary user made, few
+    uid_map: lines of first id, its id outside, count. In a container made by an ordinary user few
     ids exist, and the lower half of them may be in use. Some kernels map no ids.
     """
     lines = uid_map.read_text().splitlines() if uid_map.exists() else []

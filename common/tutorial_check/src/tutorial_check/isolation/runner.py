@@ -1,6 +1,6 @@
 """Programs of others: started with limits, read with a limit, and always ended.
 
-One thread does it all: each wait also reads what the programs print, so that no program blocks on its
+One thread does it all: each wait also reads what the programs print, so that none blocks on its
 output, and endless output costs only the reading.
 """
 
@@ -22,7 +22,7 @@ from tutorial_check.isolation.program import Program
 from tutorial_check.model import MULTIPLIES, CutShort
 
 GRACE_S = 3.0  # after Ctrl-C a program has this long to end by itself
-IDLE_S = 2.0  # programs that have done nothing for so long wait for what does not come; a talker may for 1 s
+IDLE_S = 2.0  # programs idle for so long wait for what does not come; a talker may be for 1 s
 MOST_PROCESSES = 100  # a launch file's are a dozen
 ENDED = (b"Z", b"X")  # states of processes that are no more than a number
 Value = TypeVar("Value")
@@ -117,7 +117,7 @@ class Runner:
             program.pipe.close()
 
     def end(self, program: Program, grace_s: float = GRACE_S) -> float | None:
-        """End a program; return how long it took after Ctrl-C [s], or None if it had to be killed."""
+        """End a program; return how long it took after Ctrl-C [s], or None if it was killed."""
         return self.end_all([program], grace_s)[0]
 
     def end_all(self, programs: Sequence[Program], grace_s: float = GRACE_S) -> list[float | None]:

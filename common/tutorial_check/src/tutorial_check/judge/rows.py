@@ -1,4 +1,4 @@
-"""A diagnosis as a row of data: a condition on recorded facts, what was seen, what to do, where. Pure."""
+"""A diagnosis as a row of data: a condition on recorded facts, what was seen, hint, where. Pure."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from tutorial_check.model import Note, Wrong
 
 @dataclass(frozen=True)
 class Row:
-    """One diagnosis. Its texts are formats of the facts, `{f.name}`, and of what when() `{found}`."""
+    """A diagnosis. Its texts are formats of the facts, `{f.name}`, and of what when() `{found}`."""
 
     when: Callable[[Any], Any]  # facts -> what is found; anything false: the row does not apply
     seen: str | Callable[[Any], Wrong | Note]  # in place of a text: what makes the whole diagnosis

@@ -211,7 +211,7 @@ def crash(session: Session, package: str, program: Ran, expected: str, hint: str
 def check_end(
     session: Session, package: str, script: str, taken_s: float | None, output: str
 ) -> Note | None:
-    """Return a Note on how a program ended after Ctrl-C, or None. taken_s: None if it was killed."""
+    """Return a Note on how a program ended after Ctrl-C, or None. taken_s: None if killed."""
     name = Path(script).name
     if taken_s is None:
         facts = session.scripts(package)[script]
@@ -230,7 +230,7 @@ def check_end(
 
 
 def ended(wrong: Wrong, facts: PythonFacts, script: str) -> Wrong:
-    """Return the Wrong for a program that ended, with what its text shows if its output does not."""
+    """Return the Wrong of a program that ended, with what its text shows if its output does not."""
     if not wrong.where:
         asked = facts.first("Subscriber")
         wrong.seen += f"; it subscribes to {', '.join(asked.words[:2])}" if asked else ""

@@ -38,7 +38,7 @@ class Builder(Session):
         self._siblings = 0
 
     def sibling(self, package: str, script: str, text: str) -> str:
-        """Write a changed copy of a script beside it, so that its imports work; return its path there."""
+        """Write a changed copy of a script beside it, so that its imports work; return its path."""
         original = self.package(package).folder / script
         self._siblings += 1
         changed = original.with_name(f"checked_{self._siblings}_{original.name}")
@@ -54,7 +54,7 @@ class Builder(Session):
 
     @cached_property
     def built(self) -> Built:
-        """Build all, or if that fails what the exercises need: others may need what Debian lacks."""
+        """Build all, or if that fails what exercises need: others may need what Debian lacks."""
         code, output = self._made()
         names = [each.name for each in self.needed]
         if code == 0 or len(names) == len(self.packages):
@@ -96,7 +96,7 @@ class Builder(Session):
         return environment_of(variables)
 
     def command(self, package: str, script: str) -> list[str]:
-        """Return the command that starts a script as rosrun does: catkin's own copy, if there is one."""
+        """Return the command that starts a script as rosrun does: catkin's own copy, if any."""
         own_name = self.task.named(package)
         installed = self.folder / "ws" / "devel" / "lib" / own_name / Path(script).name
         self.environment  # noqa: B018  builds, if need be

@@ -141,7 +141,7 @@ class Driver:
         return len(self._received[topic])
 
     def send(self, topic: str, values: object) -> float:
-        """Publish one message, (axes, buttons), (bumper, state), 6 velocities or text; return when."""
+        """Publish (axes, buttons), (bumper, state), 6 velocities or text; return when."""
         publisher = self._publishers[topic]
         make = {
             Joy: _joy,

@@ -44,7 +44,7 @@ class Session:
         return Path(os.path.realpath(self.source)) in Path(os.path.realpath(path)).parents
 
     def may_see(self, path: str | Path) -> bool:
-        """Return whether the student's programs may see what is at a path, so that it may be looked at."""
+        """Return whether the student's programs may see what is at a path, so that we may, too."""
         real = Path(os.path.realpath(path))
         return any(each == real or each in real.parents for each in self._visible)
 
@@ -101,7 +101,7 @@ class Session:
                 yield str(inside), PythonFacts(self.read(path))
 
     def read(self, path: Path) -> str:
-        """Return the text of a file of the student's, or of a program of theirs. Raises CannotCheck."""
+        """Return the text of a file or program of the student's. Raises CannotCheck."""
         return student_files.read(self.folder, path).decode(errors="replace")
 
     def text(self, package: str, script: str) -> str:

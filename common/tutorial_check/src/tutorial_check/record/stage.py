@@ -26,7 +26,7 @@ class Stage:
 
     def __init__(self, session: Builder, renamed: bool = True) -> None:
         """Start a master and a driver. renamed: topics have the names of the student's task."""
-        # ROS, for all that are forked from here on. Not every check needs it, and it takes its time.
+        # ROS, for all that are forked from here on. Not every check needs it, and it takes time.
         import rosmaster.master  # noqa: F401, PLC0415
 
         from tutorial_check.record import driver  # noqa: PLC0415
@@ -38,8 +38,8 @@ class Stage:
             port = probe.getsockname()[1]
         master = {"ROS_MASTER_URI": f"http://127.0.0.1:{port}"}
         self.environment = {**session.environment, **master}
-        # Our own programs are found in the underlay alone, whatever of their name the student has. Their
-        # logs are elsewhere: the student's may not write in folders of ours.
+        # Our programs are found in the underlay alone, whatever the student has of their name. Logs
+        # are elsewhere: the student's may not write in folders of ours.
         own = dict.fromkeys(("HOME", "ROS_HOME", "ROS_LOG_DIR"), str(session.folder / "ours"))
         self._ours = {**session.underlay_environment, **master, **own}
         self._helpers: list[Helper[Any]] = []
@@ -83,7 +83,7 @@ class Stage:
             raise CutShort(CANNOT_START, seen) from None
 
     def _call(self, method: str, *arguments: object) -> object:
-        """Call a method of the driver. Stop waiting if the master has ended: rospy would retry without end."""
+        """Call the driver. Stop waiting if the master has ended: rospy would retry without end."""
         if arguments:
             arguments = (self._topics.get(str(arguments[0]), arguments[0]), *arguments[1:])
         return self._driver.call(method, *arguments, in_vain=lambda: not self.master_lives)
@@ -98,10 +98,10 @@ class Stage:
         return self.wait(condition, deadline_s, or_idle=True)
 
     def meet(self, program: Program, *topics: str) -> bool:
-        """Return whether a program has connected to ours on these topics; wait for that, or its end.
+        """Return whether a program connected to ours on these topics; wait for that, or its end.
 
         rospy connects before it attaches the callback, and a publisher counts a subscriber from the
-        connection on: what is sent in between is lost, so wait until all threads of the program wait.
+        connection on: what is sent in between is lost, so wait until all its threads wait.
         """
 
         def has_met() -> bool:

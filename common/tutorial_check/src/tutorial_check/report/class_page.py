@@ -41,7 +41,7 @@ class Student:
     digest: str = ""  # of what was handed in, and of what checks it
 
     def cell(self, exercise: str) -> tuple[str, str, str]:
-        """Return a word of the page's legend for an exercise, the cause in short, and the details."""
+        """Return a word of the page's legend for an exercise, the cause in short, and details."""
         if not self.outcomes:
             return ("?", "", self.trouble) if self.trouble else ("...", "", "")
         outcome = next(each for each in self.outcomes if each.id == exercise)
@@ -169,7 +169,7 @@ def causes(students: Iterable[Student]) -> list[tuple[int, Result]]:
 
 
 def changes(student: Student) -> dict[str, list[str]]:
-    """Return what changed since the last run: exercises now done, no more done, stuck at a check."""
+    """Return the changes since the last run: exercises now done, no more done, stuck at a check."""
     pairs = [(one, old) for one in student.outcomes for old in student.before if old.id == one.id]
     firsts = (both for one, old in pairs for both in zip(one.wrong[:1], old.wrong[:1]))
     return {

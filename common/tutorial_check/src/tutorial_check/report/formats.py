@@ -15,7 +15,7 @@ from tutorial_check.model import NOTE, OK, UNREACHED, WRONG, CannotCheck, Outcom
 from tutorial_check.report.text import heading, lines_of
 
 FIELDS = ("id", "status", "title", "expected", "seen", "where", "hint")
-# What Classroom 50 knows of a submission, in the environment of an autograder, by its name in the result.
+# What Classroom 50 knows of a submission, in an autograder's environment, by name in the result.
 # Without these it refuses the result; the owner and the times it writes itself (run_entrypoint,
 # finalize_result and validate_result in runner.py of github.com/foundation50/classroom50).
 SUBMISSION = {
@@ -52,7 +52,7 @@ def as_json(outcomes: Sequence[Outcome], with_recordings: bool = True) -> str:
 
 
 def as_junit(outcomes: Sequence[Outcome]) -> str:
-    """Return JUnit's XML: an exercise is a suite, a check a case; one more, if there is no verdict."""
+    """Return JUnit's XML: an exercise is a suite, a check a case; one more without a verdict."""
     root = ET.Element("testsuites", name="tutorial check")
     for outcome in outcomes:
         statuses = [result.status for result in outcome.results]
@@ -91,7 +91,7 @@ def points_of(outcome: Outcome) -> float:
 
 
 def as_gradescope(outcomes: Sequence[Outcome]) -> str:
-    """Return Gradescope's results.json: the points of a course, or one a check; above them, what has no verdict."""
+    """Return Gradescope's results.json: points of a course, or one a check; first, any trouble."""
     tests = [
         {
             "name": f"{outcome.id} {result.id}: {result.title}",
@@ -111,7 +111,7 @@ def as_gradescope(outcomes: Sequence[Outcome]) -> str:
 
 
 def as_classroom(outcomes: Sequence[Outcome], environment: Mapping[str, str] = os.environ) -> str:
-    """Return Classroom 50's result: points of each exercise, or one; the environment names the submission."""
+    """Return Classroom 50's result: an exercise's points, or one. environment: of a submission."""
     tests: list[dict[str, Any]] = [
         {
             "test-name": heading(one),

@@ -53,7 +53,7 @@ class Terminal:
     """Prints results as they come, with a line of what is done now where there is a terminal."""
 
     def __init__(self, hint_of: Callable[[Result], str], only_first: bool = False) -> None:
-        """hint_of: what to show as the hint of a Result. only_first: show the first that is wrong."""
+        """hint_of: what to show as a Result's hint. only_first: show the first that is wrong."""
         self._hint_of, self._only_first, self._heading = hint_of, only_first, ""
         self._is_terminal = sys.stdout.isatty()
         self._has_colour = self._is_terminal and "NO_COLOR" not in os.environ

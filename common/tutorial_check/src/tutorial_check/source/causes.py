@@ -137,7 +137,7 @@ def packages_of_ros(name: str) -> str:
 
 
 def advice(name: str, packages: str) -> str:
-    """Return what to do about what is not installed, and is in these packages of Debian's; or ""."""
+    """Return what to do about what is not installed, and is in these Debian packages; or ""."""
     other = _found(TABLES["LACKING"], name)
     lacks = f"Debian lacks {name}; {other}" if other else ""
     return f"Debian has it: sudo apt install {packages}" if packages else lacks

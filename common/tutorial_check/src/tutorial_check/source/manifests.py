@@ -1,4 +1,4 @@
-"""Every package.xml of the workspace: what is wrong with one of them keeps the other packages, too."""
+"""Every package.xml of the workspace: a fault in one stops the other packages, too."""
 
 from __future__ import annotations
 

@@ -14,7 +14,7 @@ MASK = re.compile(r"^([ \t]*except)\b[ \t(]*(?:(?:Base)?Exception)?\)?(?=[ \t]*(
 
 
 def unreadable(data: bytes) -> tuple[int, str] | None:
-    """Return (line, what is there) of the first thing in a file that is not of its coding; None if all is."""
+    """Return (line, what is there) of the first bytes not of a file's coding; None if all are."""
     declared = CODING.match(data)
     coding = declared[1].decode() if declared else "utf-8"
     try:
@@ -63,13 +63,13 @@ def _joined(lines: Iterable[str]) -> str:
 
 
 def unmasked(text: str) -> str | None:
-    """Return the program with every except: that hides all made to catch nothing; None if there is none."""
+    """Return the program with each catch-all except: made to catch nothing; None without one."""
     changed, count = MASK.subn(r"\1 ()", _joined(python_lines(text)))
     return changed if count else None
 
 
 def without_name(text: str, name: str) -> str | None:
-    """Return the program without something that it imports; None if it does not import it by name."""
+    """Return the program without something that it imports; None if it imports no such name."""
     lines = python_lines(text)
     for node in ast.walk(ast.parse(text)):
         if not isinstance(node, ast.ImportFrom):
@@ -83,7 +83,7 @@ def without_name(text: str, name: str) -> str | None:
 
 
 def flipped_anonymous(text: str, wanted: bool) -> str | None:
-    """Return the program with anonymous=wanted in its init_node; None if it has none that is plain."""
+    """Return the program with anonymous=wanted in its init_node; None if none is plain."""
     for node in ast.walk(ast.parse(text)):
         if not (isinstance(node, ast.Call) and last_name(node) == "init_node"):
             continue

@@ -27,7 +27,7 @@ class Traceback:
 
 FRAME = re.compile(r'^\s*File "(?P<file>[^"]+)", line (?P<line>\d+)')
 ERROR = re.compile(r"^(?:[A-Za-z_][\w.]*(?:[Ee]rror|Exception|NotFound|Interrupt|Exit)\b.*)$")
-# Said of a node that is just being ended: rospy closes topics shortly before it says so. No mistake.
+# Said of a node that is being ended: rospy closes topics shortly before it says so. No mistake.
 CLOSED = re.compile(r"publish\(\) to a closed topic|topic was closed during publish\(\)")
 # As rospy prints what came up in a service: a list of lines, as Python writes it.
 OF_SERVICE, LINE_END = "['Traceback", re.compile(r"\\n(?:['\"](?:, ['\"]|\]))?")

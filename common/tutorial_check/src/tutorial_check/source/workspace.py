@@ -98,10 +98,9 @@ def unpack(archive: Path, folder: Path) -> None:
 
 
 def find_layout(folder: str | Path) -> Layout:
-    """Return the Layout of a workspace, its src, a folder of packages, or one package, however deep it is.
+    """Return the Layout of a workspace, its src, a folder of packages, or a package, at any depth.
 
-    Of several the one with the packages of the exercises. A home folder is not searched: others may
-    keep their workspaces there.
+    Of several that with the exercises' packages. A home folder is not searched: it may have others.
     """
     folder = Path(folder)
     if not folder.exists():
@@ -149,7 +148,7 @@ def must_be_ones_own(layout: Layout, suite: Path) -> None:
 
 
 def copy(layout: Layout, target: Path, inside: str | Path | None = None) -> Path:
-    """Copy the sources to a folder; return it. Raises CannotCheck for what is unreadable or too large.
+    """Copy sources to a folder; return it. Raises CannotCheck if they are unreadable or too large.
 
     inside: follow only links that lead to something in this folder; None: all.
     """
@@ -243,7 +242,7 @@ def packages_below(folder: str | Path) -> list[Package]:
 
 
 def packages_beside(layout: Layout) -> list[Package]:
-    """Return the packages in a workspace right beside its src; deeper ones may be another student's."""
+    """Return the packages right beside the src of a workspace; deeper may be another student's."""
     manifests = sorted(layout.root.glob("*/package.xml")) if layout.is_workspace else []
     beside = (each.parent for each in manifests if each.is_file())
     return [read_package(each, layout.root) for each in beside if each != layout.source]
@@ -270,7 +269,7 @@ def read_package(place: Path, root: str | Path) -> Package:
 
 
 def underlays(devel: str | Path) -> tuple[str, list[str] | None]:
-    """Return the folder for which a devel space was made, or ""; and what it was laid over, or None."""
+    """Return (the folder a devel space was made for, or ""; what it was laid over, or None)."""
     files = [Path(devel) / name for name in ("_setup_util.py", "setup.sh")]
     # A pipe would never be read to its end.
     text, setup = (each.read_text(errors="replace") if each.is_file() else "" for each in files)

@@ -253,7 +253,7 @@ def candidates(typed: list[str]) -> list[str]:
     word, *before, last = ["", *typed] if len(typed) == 1 else typed
     found = list(WORDS)
     if word:
-        actions = parser_of(word)._actions if word in WORDS else []  # noqa: SLF001 (argparse offers no other way)
+        actions = parser_of(word)._actions if word in WORDS else []  # noqa: SLF001 (no other way)
         found = [option for action in actions for option in action.option_strings]
         found += OWN_PARSER.get(word, ())
         found += [] if before else [one for action in actions for one in action.choices or ()]

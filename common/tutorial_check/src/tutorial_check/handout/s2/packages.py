@@ -69,7 +69,8 @@ def _check_below(session: Session, below: Sequence[str]) -> None:
     if suite in map(os.path.realpath, below):
         return
     seen = f"devel was built over {', '.join(below) or 'nothing'}"
-    hint = "built in a terminal without ./tutorial shell: delete build and devel, then catkin_make in it"
+    hint = "built in a terminal without ./tutorial shell:"
+    hint += " delete build and devel, then catkin_make in it"
     for other in below[::-1]:  # the first counts
         is_suite = any(os.path.isdir(f"{other}/share/{name}") for name in SUITE)
         if is_suite or Path(other).parts[-2:] == ("lower", "devel"):  # it may be hidden here
@@ -199,7 +200,7 @@ def joy2twist(session: Session) -> Note | str | None:
 
 
 def _is_known(session: Session, name: str) -> bool:
-    """Return whether find_package surely finds a package. If not, only a build shows it, which takes long."""
+    """Return whether find_package surely finds a package; if not, only a build shows it, slowly."""
     prefixes = session.underlay_environment.get("CMAKE_PREFIX_PATH", "").split(":")
     if any(each.name == name for each in session.packages):
         return True
@@ -280,7 +281,7 @@ def _missing_in(output: str) -> list[str]:
 
 
 def _not_found(session: Session, name: str) -> tuple[str, str, str]:
-    """Return (what is seen, where, what to do) for a package that CMakeLists.txt names and catkin does not find."""
+    """Return (seen, where, hint) for a package of a CMakeLists.txt that catkin does not find."""
     cmakes = [(f"{each.inside}/CMakeLists.txt", each.cmake or "") for each in session.packages]
     places = ((place_of(file, text, name), text) for file, text in cmakes if name in text)
     place, text = next(places, ("", ""))

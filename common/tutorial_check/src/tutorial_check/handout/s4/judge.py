@@ -42,7 +42,7 @@ def recording(session: Session) -> Note | str | None:
 
 
 def check_recording(session: Session, name: str) -> tuple[str, ...]:
-    """Return the topics of a recording that can be played to joy2twist. name: within src. Raises Wrong."""
+    """Return the topics of a recording fit for joy2twist. name: within src. Raises Wrong."""
     found = session.recording(bag, name)
     if found.error:
         hint = f"copy it again: {COPY_BAG[:-1]}{shlex.quote(str(session.source / name))}"

@@ -126,7 +126,7 @@ def agree(measured: float, wanted: float, field: int) -> bool:
 def _driven(
     stage: Stage, robot: SimulatedRobot, joy: object, field: int
 ) -> tuple[tuple[float, float], float | None]:
-    """Return (speed and rate of turn of the robot, what the last Twist has in a field) in a drive."""
+    """Return (the robot's speed and rate of turn, a field of the last Twist) in a drive."""
     before = stage.driver.count(CMD_VEL)
 
     def wanted() -> list[float]:

@@ -112,7 +112,7 @@ class Drive(Streamed, Numbered, Graph, Asked):
         return judge(self.evidence)[0]
 
     def judge_probes(self, task: JoystickTask = HANDOUT) -> tuple[str, str]:
-        """Return what is wrong with the answers to the probes, and what to do; empty if nothing is."""
+        """Return (what is wrong with the answers to the probes, what to do); empty if nothing."""
         evidence = replace(self.evidence, task=task)
         return probes.judge_probes(evidence, self.answers, self.needs_button)
 

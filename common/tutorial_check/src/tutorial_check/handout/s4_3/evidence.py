@@ -29,7 +29,7 @@ def is_near(one: float, other: float) -> bool:
 
 
 def factor_of(values: Sequence[float], inputs: Sequence[float]) -> float | None:
-    """Return the constant of proportion, or None. Zeros (dead zone) and a limit may be among the values."""
+    """Return the constant of proportion, or None. Values may be zero (dead zone), or at a limit."""
     pairs = [(value, given) for value, given in zip(values, inputs) if abs(given) > SMALL]
     moving = [(value, given) for value, given in pairs if abs(value) > SMALL]
     ratios = sorted((value / given for value, given in moving), key=abs)
@@ -63,7 +63,7 @@ def rule_of(index: int, samples: Sequence[Sample]) -> Rule | None:
 
 @dataclass
 class Evidence:
-    """What a program answered; `again` to the same Joys sent earlier, `at_rest` to one with all axes 0.
+    """What a program answered; `again` to the same Joys sent earlier, `at_rest` to all axes at 0.
 
     factors: those that are asked for, by the index of the field; without one any is right.
     """

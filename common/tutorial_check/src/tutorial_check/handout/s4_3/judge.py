@@ -1,4 +1,4 @@
-"""C13 to C18, C34: the program joy2twist.py, first and second version; C30, the class, asks the same."""
+"""C13 to C18, C34: joy2twist.py, first and second version; C30, the class, asks the same."""
 
 from __future__ import annotations
 
@@ -39,7 +39,8 @@ CONNECTED = (
     Row(lambda c: not c.seen.connected and c.a.joy in c.seen.subscribers,
         "it wants {f.wanted} on {f.n.joy}", "{f.line[Joy]}", "{f.at[Subscriber]}"),
     Row(lambda c: not (c.seen.samples or c.seen.shown) and c.facts.without_callback,
-        "its Subscriber has no callback", "{f.line[Joy]}", "{f.seen.script}:{found.line}", sure=True),
+        "its Subscriber has no callback", "{f.line[Joy]}", "{f.seen.script}:{found.line}",
+        sure=True),
 )  # fmt: skip
 NOT_CONNECTED = (
     Row(lambda c: c.seen.program.spins, lambda c: c.end()),
@@ -62,15 +63,15 @@ DISPLAYED = (
     Row(lambda c: c.first_version, "displayed by {found}, no more by {f.seen.script}", note=True),
     Row(lambda c: c.seen.shown, f"{{found}} of {COUNT} were displayed", note=True),
     SLEEPING,
-    Row(lambda c: c.seen.shows_numbers and next(
-            (each[0].line for name, each in c.facts.calls.items() if name.endswith("_throttle")), 0),
+    Row(lambda c: c.seen.shows_numbers and next((
+            each[0].line for name, each in c.facts.calls.items() if name.endswith("_throttle")), 0),
         "it displays a Joy now and then; the handout's displays every one",
         "rospy.loginfo in place of rospy.loginfo_throttle", "{f.seen.script}:{found}", note=True),
 )  # fmt: skip
 NOT_DISPLAYED = (
     HIDDEN,
-    Row(lambda c: c.found_values(10 * ROUNDED) == AXES, "the six values have less than two decimals",
-        "%.2f for each value", "{f.seen.script}"),
+    Row(lambda c: c.found_values(10 * ROUNDED) == AXES,
+        "the six values have less than two decimals", "%.2f for each value", "{f.seen.script}"),
     Row(lambda c: c.found_values(), "a line has {found} of the six values of a message",
         "all six: [%.2f, %.2f, %.2f, %.2f, %.2f, %.2f] % data.axes", "{f.seen.script}"),
     Row(lambda c: {"logdebug", "Publisher"} <= {*c.facts.calls},
@@ -86,13 +87,13 @@ TOPICS = (
     Row(lambda c: len(c.drivers) > 1 and ", ".join(c.drivers), "several do: {found}", "",
         "{f.at[Publisher]}"),
     Row(lambda c: c.drivers and c.facts.called_back.get("Publisher"),
-        "the Publisher is made in the callback: what it sends before a subscriber has connected is lost",
-        "make it once, before the Subscriber", "{f.seen.script}:{found[0]}", note=True),
+        "the Publisher is made in the callback: what it sends before a subscriber has connected"
+        " is lost", "make it once, before the Subscriber", "{f.seen.script}:{found[0]}", note=True),
 )  # fmt: skip
 NO_TOPIC = (
     Row(lambda c: c.seen.trouble and c.facts.first("Publisher"), lambda c: c.crash()),
-    Row(lambda c: "mux" in c.elsewhere["Twist"] and c.elsewhere["Twist"],
-        "it publishes on {found}", "the topic is called {f.a.cmd_vel}; that of the TurtleBot stands in"
+    Row(lambda c: "mux" in c.elsewhere["Twist"] and c.elsewhere["Twist"], "it publishes on {found}",
+        "the topic is called {f.a.cmd_vel}; that of the TurtleBot stands in"
         " the launch file alone, in a <remap>", "{f.at[Publisher]}"),
     Row(lambda c: c.elsewhere["Twist"],
         "it publishes on {found}", "{f.line[Twist]}", "{f.at[Publisher]}"),
@@ -122,12 +123,14 @@ ONCE = (
     Row(lambda c: c.repeated == (2, True) and not any(any(twist) for _, twist in c.seen.samples),
         "two Twists for one Joy, and the second is zero: the robot jerks",
         "publish once, at the end of the callback: delete this second publish", "{f.at[second]}"),
-    Row(lambda c: c.repeated[1], "{f.repeated[0]} Twists for each Joy, and they differ: the robot jerks",
+    Row(lambda c: c.repeated[1],
+        "{f.repeated[0]} Twists for each Joy, and they differ: the robot jerks",
         "publish once, at the end of the callback", "{f.at[second]}"),
 )  # fmt: skip
 RIGHT_RULE = (
     Row(lambda c: c.seen.unanswered and not c.complaint and c.seen.trouble, lambda c: c.crash()),
-    Row(lambda c: not c.complaint and c.seen.unanswered and find(SILENCES, c.seen.silence(c.session.task)),
+    Row(lambda c: not c.complaint and c.seen.unanswered
+        and find(SILENCES, c.seen.silence(c.session.task)),
         "{found.seen}", "{found.hint}", "{f.at[publish]}"),
     Row(lambda c: c.complaint, lambda c: c.odd()),
     Row(lambda c: c.seen.trouble and c.crash(), "right, but also: {found.seen}", "{found.hint}",
@@ -135,7 +138,8 @@ RIGHT_RULE = (
     Row(lambda c: c.repeated[0] > 1, "{f.repeated[0]} Twists for each Joy",
         "one is enough: publish once", "{f.at[second]}", note=True),
     Row(lambda c: c.hint, "{found}", note=True),
-    Row(lambda c: any(each.names.get("latch") == "True" for each in c.facts.calls.get("Publisher", [])),
+    Row(lambda c: any(each.names.get("latch") == "True"
+                      for each in c.facts.calls.get("Publisher", [])),
         "latch=True: a subscriber that comes late gets a velocity of long ago",
         "leave latch out", note=True),
 )  # fmt: skip
@@ -148,7 +152,7 @@ RATE = (
 
 
 def main_script(session: Session) -> str:
-    """Return the program that turns Joy into Twist: not joy2twist.py if that is the first version."""
+    """Return the program from Joy to Twist: not joy2twist.py if that is the first version."""
     script, scripts = find_script(session, PACKAGE, NAME), session.scripts(PACKAGE)
     facts = scripts.get(script)
     if facts is None:
@@ -171,7 +175,8 @@ def check_manifest(session: Session, script: str) -> None:
     is_known = not facts or name in ("", *facts.names, *(each.name for each in session.packages))
     if call and not is_known and not session.recording(found, name).found:
         expected = "roslib.load_manifest names a package that exists"
-        hint = f"load_manifest('{session.task.named(PACKAGE)}'); or leave the line out: catkin needs it no more"
+        named = session.task.named(PACKAGE)
+        hint = f"load_manifest('{named}'); or leave the line out: catkin needs it no more"
         raise Wrong(expected, f"ResourceNotFound: {name}", f"{script}:{call.line}", hint)
 
 

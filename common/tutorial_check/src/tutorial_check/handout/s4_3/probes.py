@@ -54,13 +54,13 @@ def rising_joys(count: int) -> list[Joy]:
 
 
 def low_joys() -> list[Joy]:
-    """Return Joys below most limits, for a program that the numbered ones do not show to be right."""
+    """Return Joys below most limits, for a program that the numbered ones do not prove right."""
     pairs = ((0.05, 0.06), (-0.08, 0.09), (0.11, -0.12), (-0.14, -0.15), (0.17, 0.18))
     return [((*pair, *REST[2:]), _pressed(LB)) for pair in pairs]
 
 
 def probes(joys: Sequence[Joy]) -> list[Joy]:
-    """Return the Joys after the numbered ones: rest, the same twice, one axis alone, LB released."""
+    """Return Joys after the numbered ones: rest, the same twice, one axis alone, LB released."""
     slow = (0.36, 0.40, *REST[2:])
     alone = [
         tuple(axis if index == moved else 0.0 for index, axis in enumerate(axes))
@@ -112,7 +112,7 @@ ALWAYS = "publish for every Joy, with no `if` around it"
 SILENCES = (
     Row(lambda s: not s.joy[1][LB] and not s.before[1][LB] and not any(s.last),
         "only one zero after {f.task.names.lb} is released, and then silence",
-        "without {f.task.answers.lb} publish Twist(), all zero, for every Joy, not only for the first"),
+    "without {f.task.answers.lb} publish Twist(), all zero, for every Joy, not only for the first"),
     Row(lambda s: s.joy == s.before, "no Twist for the same Joy again",
         ALWAYS + ": not only for a new one"),
     Row(lambda s: _other_button(s.task, s.joy[1]),
@@ -130,7 +130,7 @@ SILENCES = (
 
 
 class Reply(NamedTuple):
-    """One field of an answer, beside that to the Joy before, and to the same Joy when it came first."""
+    """One field of an answer, with that to the Joy before, and to the same Joy the first time."""
 
     name: str
     axis: int
@@ -226,9 +226,9 @@ def delays(
     received: Sequence[tuple[float, str, Sequence[float]]],
     factor: float | None,
 ) -> list[float]:
-    """Return [s] from each Joy to its Twist: the next one, or if some are missing that of its value.
+    """Return [s] from each Joy to its Twist: the next, or if some are missing that of its value.
 
-    sent: when each of rising_joys() was; received: [(when, sender, six values)]; factor: of linear.x, or None.
+    sent: times of rising_joys(); received: [(when, sender, six values)]; factor: linear.x, or None.
     """
     received = [each for each in received if math.isfinite(each[2][0])]
     if len(received) == len(sent):

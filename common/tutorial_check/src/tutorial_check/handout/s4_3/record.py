@@ -201,7 +201,7 @@ class _Driver:
         self._note(has_clock=has_clock, repeats=has_clock and any(map(any, late)))
 
     def _probe(self, joys: Sequence[Joy]) -> None:
-        """Send the other Joys, each until it is answered; end at one that is not when asked again."""
+        """Send the other Joys, each until it is answered; end at one that is not in two tries."""
         seen = self._seen
         before, settle_s = joys[-1], SETTLE_S if seen.twists else 0.0
         # By now it is known how many Twists one Joy gets: no time is needed to wait for more.

@@ -15,8 +15,10 @@ BEFORE = (
     Row(lambda e: not e.moving, "every Twist is zero",
         "are linear.x and angular.z of the message that is published set from data.axes?"),
     Row(lambda e: [e.rules[index] and e.rules[index].axis for index in RIGHT] == [0, 1],
-        "angular.z follows {f.task.names.axes[1]} and linear.x {f.task.names.axes[0]}: they are swapped",
-        "linear.x = {f.task.answers.rules[1]} (forwards), angular.z = {f.task.answers.rules[0]} (left)"),
+        "angular.z follows {f.task.names.axes[1]} and linear.x {f.task.names.axes[0]}:"
+        " they are swapped",
+        "linear.x = {f.task.answers.rules[1]} (forwards),"
+        " angular.z = {f.task.answers.rules[0]} (left)"),
 )  # fmt: skip
 # Of a field that is no positive constant times its axis, or not by the scale of the task (wanted).
 # The first row that applies counts.
@@ -44,8 +46,8 @@ OF_A_FIELD = (
         JUST + ", without abs or a square"),
     Row(lambda f: factor_of(f.values, [axes[f.axis] * (1 if axes[1 - f.axis] >= 0 else -1)
                                        for axes, _ in f.evidence.samples])
-        and f.evidence.task.names.axes[1 - f.axis], "{f.name} changes sign when {found} is negative",
-        JUST + ", whatever the other axis is"),
+        and f.evidence.task.names.axes[1 - f.axis],
+        "{f.name} changes sign when {found} is negative", JUST + ", whatever the other axis is"),
     Row(lambda f: len({round(value, 6) for value in f.values}) == 1,
         "{f.name} is always {f.values[0]:.2f}", JUST),
     Row(lambda f: all(value == round(value) for value in f.values),
@@ -68,7 +70,7 @@ AFTER = (
 
 
 def judge(evidence: Evidence) -> tuple[str, str]:
-    """Return (complaint, hint), each empty if there is none; a hint without a complaint is a remark."""
+    """Return (complaint, hint), each empty if none; a hint without a complaint is a remark."""
     fields = [Field(evidence, index, axis) for index, axis in RIGHT.items()]
     odd = [find(OF_A_FIELD, each) for each in fields if not each.is_right]
     all_found = [find(BEFORE, evidence), *odd, find(AFTER, evidence)]

@@ -1,6 +1,6 @@
 """What launch files would start, read as roslaunch reads them and nothing started.
 
-A separate program with the student's rights, as it reads what a launch file names. Its arguments are
+A separate program with the student's rights, as it reads what launch files name. Its arguments are
 launch files; it prints a line for each, MARK and a JSON object.
 """
 
@@ -56,7 +56,7 @@ def place_of_tag(file: str, tag: Element) -> tuple[str, int]:
 
 
 def fault_of(error: BaseException, path: str) -> dict[str, object]:
-    """Return what led to an error of roslaunch's, as a launch_xml.Fault has it. path: the launch file."""
+    """Return the cause of an error of roslaunch's, for launch_xml.Fault. path: the launch file."""
     chain = [error]
     while chain[-1].__context__:
         chain.append(chain[-1].__context__)

@@ -179,7 +179,7 @@ def traced(session: Session, run: Run, expected: str) -> Wrong | None:
 
 
 def fault_of(file: LaunchFile, plan: Plan, run: Run, expected: str) -> Wrong:
-    """Return the Wrong for a launch that does not do what it should, with the first cause there is."""
+    """Return the Wrong for a launch that does not do what it should, with its first cause."""
     hints = {
         plan.joys: "does the recording, or joy_node, run? rostopic hz /joy",
         plan.twists: f"does joy2twist run, and publish on {plan.twists}? rosnode list",

@@ -91,7 +91,7 @@ class Launch:
         self.program = stage.launch(["roslaunch", str(ground.source / plan.path)])
 
     def wait(self, condition: Callable[[], object]) -> bool:
-        """Return condition(), as soon as it is true, the launch is over, or its nodes had their time."""
+        """Return condition(), once it is true, the launch is over, or its nodes had their time."""
         self.stage.wait(lambda: condition() or self.is_over() or self._is_up(), START_S)
         self.stage.wait(lambda: condition() or self.is_over(), UP_S)
         return bool(condition())
@@ -102,7 +102,7 @@ class Launch:
 
     @property
     def has_died(self) -> bool:
-        """Whether roslaunch printed that a node has died; RViz, or rqt_graph, needs a screen, and may."""
+        """Whether roslaunch printed that a node died; RViz and rqt_graph need a screen, and may."""
         dead = (line for line in self.program.output.splitlines() if "has died" in line)
         return any("rviz" not in line and "rqt" not in line for line in dead)
 

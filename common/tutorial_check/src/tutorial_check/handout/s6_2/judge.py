@@ -30,7 +30,7 @@ def _class_of(session: Session) -> tuple[str, ClassFacts] | None:
     whole = zip(owned, with_bases([one for _, one in owned]))
 
     def unlikely(found: tuple[str, ClassFacts]) -> tuple[bool | str, ...]:
-        """Return a sort key: the step before, joy2twist.py, may be a class already; and there are old copies."""
+        """Return a sort key: joy2twist.py may be a class already, and there are old copies."""
         path, one = found
         return (
             one.name in bases,
@@ -117,9 +117,9 @@ def is_class(session: Session) -> Note | str | None:
         return Note(seen, f"{path}:{facts.globals[0]}")
     early, made = map(facts.first, ("on_shutdown", "Publisher"))
     if early and made and early.line < made.line:
-        seen = "on_shutdown comes before the publisher: a Ctrl-C in between finds none to stop the robot"
-        hint = "first the Publisher, then rospy.on_shutdown"
-        return Note(f"{seen} with (the handout has it so)", f"{path}:{early.line}", hint)
+        seen = "on_shutdown comes before the publisher: a Ctrl-C in between finds none"
+        seen += " to stop the robot with (the handout has it so)"
+        return Note(seen, f"{path}:{early.line}", "first the Publisher, then rospy.on_shutdown")
     return f"{one.name} in {path}"
 
 
@@ -174,7 +174,8 @@ def stops(session: Session) -> Note | str | None:
         hint += session.task.answers.cmd_vel
         raise Wrong(expected, "the node is gone, and the robot still drives", where, hint)
     return ", ".join(
-        f"{way}: zero after {1000 * (end.zero_after_s or 0.0):.0f} ms, gone after {end.took_s:.1f} s"
+        f"{way}: zero after {1000 * (end.zero_after_s or 0.0):.0f} ms,"
+        f" gone after {end.took_s:.1f} s"
         for way, end in seen.ends.items()
     )
 
@@ -200,8 +201,10 @@ def nothing_after(session: Session) -> Note | str | None:
     most = max(end.after_zero for end in _endings(session).ends.values())
     if not most:
         return None
-    seen = f"{most} moving Twists followed the zero: the callback goes on during shutdown (the handout's does, too)"
-    hint = "self.sub = rospy.Subscriber(...) in __init__; in shutdown self.sub.unregister() first, then the zero"
+    seen = f"{most} moving Twists followed the zero:"
+    seen += " the callback goes on during shutdown (the handout's does, too)"
+    hint = "self.sub = rospy.Subscriber(...) in __init__;"
+    hint += " in shutdown self.sub.unregister() first, then the zero"
     return Note(seen, program(session)[1], hint)
 
 
@@ -217,7 +220,8 @@ def errors_are_seen(session: Session) -> Note | str | None:
     if seen.ended and not REPORTS.search(output):
         words = f"nobody publishes on {session.task.names.joy}, and it ends; it printed: "
         words += last_lines(output) or "nothing"
-        hint = "a Subscriber waits by itself, for as long as it takes; what an except catches, it should show"
+        hint = "a Subscriber waits by itself, for as long as it takes;"
+        hint += " what an except catches, it should show"
         expected = "without a joystick it waits for one, or says what it misses"
         raise Wrong(expected, words, where, hint)
     if not NAMES_IT.search(seen.broken.output) if seen.broken and seen.broken_ended else excepts:

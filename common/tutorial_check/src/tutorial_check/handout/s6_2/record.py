@@ -1,4 +1,4 @@
-"""Section 6.2: the class without a joystick, and ended while it drives, in each of the ways there are."""
+"""Section 6.2: the class without a joystick, and ended while it drives, in each possible way."""
 
 from __future__ import annotations
 

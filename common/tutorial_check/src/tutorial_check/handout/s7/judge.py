@@ -100,7 +100,8 @@ def _gap_m(session: Session, script: str, speed: float) -> float:
 def wanders(session: Session) -> str:
     script = program_of(session, PACKAGE, "wander.py")
     drive = session.recording(record.wandering, script)
-    expected = f"it drives about for {WANDER_S:.0f} s and never pushes for {LONGEST_PUSH_S:.0f} s or longer"
+    expected = f"it drives about for {WANDER_S:.0f} s"
+    expected += f" and never pushes for {LONGEST_PUSH_S:.0f} s or longer"
     if drive.program.ended:
         hint = "does it loop, or rospy.spin()?"
         raise crash(session, PACKAGE, drive.program, expected, hint)
