@@ -20,10 +20,10 @@ MASTER = "xmlrpc.client\nxmlrpc.client.ServerProxy(os.environ['ROS_MASTER_URI'])
 # Each in place of talker.py, and a word of what is said of it.
 TALKERS = {
     "a fork bomb": ("while True:\n    try:\n        os.fork()\n    except OSError:\n        pass\n", "again and again"),
-    "kills all it may": ("os.kill(-1, 9)\n", ""),
+    "kills all it may": ("os.kill(-1, 9)\n", "has ended it"),
     "prints without end": ("while True:\n    print('x' * 1000000)\n", ""),
     "fills the disk": ("file = open('filled', 'wb')\nwhile file.write(b'x' * 1000000):\n    pass\n", ""),
-    "ends the master": (f"import {MASTER}.shutdown('/me', 'no more')\n", ""),
+    "ends the master": (f"import {MASTER}.shutdown('/me', 'no more')\n", "has ended it"),
 }  # fmt: skip
 # It works as it should, and leaves links where the checker writes a changed copy of it (C9).
 PLANTS_LINKS = """

@@ -10,6 +10,9 @@ from tutorial_check.record.builder import Builder
 from tutorial_check.record.stage import Stage
 
 
+EXIT_S = 1.0  # a master that is killed together with the driver has this long to exit
+
+
 class Ground(Builder):
     """A workspace whose programs can be started."""
 
@@ -23,6 +26,8 @@ class Ground(Builder):
         try:
             yield stage
         except (CannotCheck, CutShort, LookupError) as error:
+            if isinstance(error, CannotCheck):  # as a driver that has ended, maybe with its master
+                stage.wait(lambda: not stage.master_lives, EXIT_S)
             if stage.master_lives:
                 raise
             raise CutShort(MASTER_GONE) from error

@@ -8,7 +8,7 @@ from typing import Dict, Optional, Tuple
 from tutorial_check.isolation.program import Program, Ran
 from tutorial_check.record.ground import Ground
 from tutorial_check.record.recording import HeardText, Topics
-from tutorial_check.record.stage import Stage
+from tutorial_check.record.stage import SETTLE_S, Stage
 
 PACKAGE = "beginner_tutorials"
 LISTEN_S = 1.5  # to the talker
@@ -74,6 +74,7 @@ def talk(ground: Ground, talker: str, listener: str) -> Talk:
             stage.wait_for_start(lambda: stage.driver.count(TOPIC) or first.ended)
         stage.driver.advertise(TOPIC, "String")
         stage.wait_for_start(lambda: stage.driver.listeners(TOPIC) > 1 or listens.ended)
+        stage.wait(lambda: listens.ended or listens.rests(), SETTLE_S)
         talks = bool(_received(stage))
         if talks:
             stage.wait(lambda: len(_received(stage)) > 3 or first.ended, 2.0)
