@@ -9,7 +9,6 @@ from tutorial_check.model import MASTER_GONE, UNREADABLE, CannotCheck, CutShort
 from tutorial_check.record.builder import Builder
 from tutorial_check.record.stage import Stage
 
-
 EXIT_S = 1.0  # a master that is killed together with the driver has this long to exit
 
 
@@ -26,7 +25,7 @@ class Ground(Builder):
         try:
             yield stage
         except (CannotCheck, CutShort, LookupError) as error:
-            if isinstance(error, CannotCheck):  # as a driver that has ended, maybe with its master
+            if isinstance(error, CannotCheck):  # A driver has ended, maybe with its master.
                 stage.wait(lambda: not stage.master_lives, EXIT_S)
             if stage.master_lives:
                 raise
