@@ -152,7 +152,7 @@ def test_without_pypi_only_replay_bag_is_missing(call, bare_system):
         "PIP_CONFIG_FILE": "/dev/null", "PIP_EXTRA_INDEX_URL": "", "PIP_FIND_LINKS": "",
     }  # fmt: skip
     code, first = call("run", "echo", "went on", **offline)
-    assert code == 0 and "ERROR" not in first  # of pip: its log has them
+    assert code == 0 and "ERROR" not in first  # Only pip's log has its errors.
     assert "not installed from PyPI: rosbags vermin" in first.replace("\n", " ")
     assert first.endswith("tutorial: all but replay_bag works without\nwent on\n")
     assert call("run", "echo", "went on", **offline) == (0, "went on\n")

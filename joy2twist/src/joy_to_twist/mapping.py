@@ -109,7 +109,7 @@ class Mapping:
         if p.stop_button >= 0:
             lines.append(f"button {p.stop_button} stops, until button {p.stop_reset_button}")
         if p.arm_on_neutral:
-            lines.append("before the sticks and the dead-man button were released, nothing moves")
+            lines.append("nothing moves before the sticks and the dead-man button were released")
         if p.joy_timeout:
             lines.append(f"no message of the joystick for {p.joy_timeout:g} s stops the robot")
         if p.vigilance_timeout:

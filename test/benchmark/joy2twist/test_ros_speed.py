@@ -11,7 +11,7 @@ from live import JOY2TWIST, QUIET, delays, master, running
 RELAYS = {"bare": [str(Path(__file__).with_name("bare_relay.py"))], "ours": JOY2TWIST}
 LOADS = {50: 250, 1000: 4000}  # rate [Hz]: messages
 ROUNDS = 3
-MOST = 1.5  # times the latency through a bare relay
+MOST = {50: 1.1, 1000: 1.5}  # times the median latency through a bare relay, which sleeps more
 
 
 def measured(command, rate, count):
@@ -31,7 +31,7 @@ def test_latency_beside_a_bare_relay(figure):
                     rounds[name].append(measured(command, *load))
             bare, ours = ([statistics.median(each) for each in zip(*rounds[n])] for n in RELAYS)
             for part, least, mine in zip(("median", "99 of 100"), bare, ours):
-                demanded = f"< {MOST}" if part == "median" else ""
+                demanded = f"< {MOST[load[0]]}" if part == "median" else ""
                 figure(f"{load[0]} Hz, {part}", f"{mine:.0f} us ({mine / least:.2f})", demanded)
-            late += [load] if ours[0] >= MOST * bare[0] else []
+            late += [load] if ours[0] >= MOST[load[0]] * bare[0] else []
     assert not late

@@ -124,7 +124,7 @@ def test_without_a_robot_the_page_says_what_is_running_and_resets_none(nodes, re
     made._graphs.graph = Graph(publishers={at: nodes}, services={"/reset": nodes}, types={at: POSE})
     said = look(made, made.anna)[0][-1]
     assert (said["refusal"], said["no_reset"]) == (sentence(refusal), sentence(About().no_reset))
-    assert made._graphs.graph.why_no_reset("")  # that of turtlesim resets turtles
+    assert made._graphs.graph.why_no_reset("")  # Turtlesim's service resets turtles.
 
 
 def test_pages_are_sent_each_change_of_the_driver(driven):

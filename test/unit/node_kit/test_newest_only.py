@@ -1,4 +1,4 @@
-"""Sending without waiting, over a real TCP connection whose other side does not read."""
+"""Sending without waiting over a real TCP connection, and what is rehearsed between messages."""
 
 import select
 import socket
@@ -165,6 +165,7 @@ def test_a_rehearsal_sends_nothing(connection):
 
 def test_a_thread_rehearses_until_a_message_comes(connection, monkeypatch):
     near, far = connection
+    near.settimeout(DEADLINE_S)
     transport = SimpleNamespace(protocol=TCPROSSub("/joy", Joy), socket=near)
     monkeypatch.setattr(rehearsal, "_receive", lambda self: self.socket.recv(SIZE))
     times = []

@@ -74,6 +74,7 @@ def talk(ground: Ground, talker: str, listener: str) -> Talk:
             stage.wait_for_start(lambda: stage.driver.count(TOPIC) or first.ended)
         stage.driver.advertise(TOPIC, "String")
         stage.wait_for_start(lambda: stage.driver.listeners(TOPIC) > 1 or listens.ended)
+        # As Stage.meet(), which says why.
         stage.wait(lambda: listens.ended or listens.rests(), SETTLE_S)
         talks = bool(_received(stage))
         if talks:

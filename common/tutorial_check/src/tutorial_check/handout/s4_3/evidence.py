@@ -56,9 +56,11 @@ def factor_of(values: Sequence[float], inputs: Sequence[float]) -> float | None:
 
 def rule_of(index: int, samples: Sequence[Sample]) -> Rule | None:
     values = [twist[index] for _, twist in samples]
-    factors = (factor_of(values, [axes[axis] for axes, _ in samples]) for axis in range(AXES))
-    rules = (Rule(axis, factor) for axis, factor in enumerate(factors) if factor is not None)
-    return next(rules, None)
+    for axis in range(AXES):
+        factor = factor_of(values, [axes[axis] for axes, _ in samples])
+        if factor is not None:
+            return Rule(axis, factor)
+    return None
 
 
 @dataclass
@@ -80,9 +82,9 @@ class Evidence:
         self.moving = [i for i in range(6) if any(abs(twist[i]) > SMALL for twist in twists)]
         axes, rules = self.task.names.axes, self.rules.items()
         self.follows = {index: f"follows {axes[rule.axis]}" for index, rule in rules if rule}
-        # What is said of each field that moves and should stay 0.
+        # What is said of each field that moves and should stay 0, by its index.
         strange = [index for index in self.moving if index not in RIGHT]
-        self.strange = [f"{FIELDS[i]} {self.follows.get(i, 'is not 0')}" for i in strange]
+        self.strange = {i: f"{FIELDS[i]} {self.follows.get(i, 'is not 0')}" for i in strange}
 
 
 class Field:
@@ -104,6 +106,11 @@ class Field:
             return False
         # Rounded to two decimals a factor is off by 0.005.
         return not self.wanted or abs(self.rule.factor / self.wanted - 1) < 0.02
+
+    def is_axis_of(self, index: int) -> bool:
+        """Return whether a field, this or another one, follows this one's axis."""
+        rule = self.evidence.rules[index]
+        return bool(rule and rule.axis == self.axis)
 
     @property
     def product(self) -> str:

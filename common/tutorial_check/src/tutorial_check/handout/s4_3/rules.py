@@ -7,7 +7,8 @@ from tutorial_check.judge.rows import Row, find
 
 JUST = "{f.name} = {f.just}"
 PRODUCT = "{f.name} = {f.product}"
-SIDES = (("left", "right"), ("forwards", "backwards"))  # of an axis, above 0 and below
+# {axis: where the robot goes for a value above 0, and below it}
+SIDES = {0: ("left", "right"), 1: ("forwards", "backwards")}
 WRONG_SIGN = PRODUCT + ": the sign is wrong"
 ONLY_THIS = "{f.name} comes from this Joy alone: no +=, no mean, nothing kept"
 BEFORE = (
@@ -23,13 +24,13 @@ BEFORE = (
 # Of a field that is no positive constant times its axis, or not by the scale of the task (wanted).
 # The first row that applies counts.
 OF_A_FIELD = (
-    Row(lambda f: f.rule and f.rule.axis == f.axis and f.rule.factor > 0, PRODUCT, JUST),
-    Row(lambda f: f.rule and f.rule.axis == f.axis and f.wanted, WRONG_SIGN, JUST),
-    Row(lambda f: f.rule and f.rule.axis == f.axis and SIDES[f.axis], WRONG_SIGN,
+    Row(lambda f: f.is_axis_of(f.index) and f.rule.factor > 0, PRODUCT, JUST),
+    Row(lambda f: f.is_axis_of(f.index) and f.wanted, WRONG_SIGN, JUST),
+    Row(lambda f: f.is_axis_of(f.index) and SIDES[f.axis], WRONG_SIGN,
         "pushed {found[0]}, the robot goes {found[1]}: leave the minus out"),
     Row(lambda f: f.evidence.follows.get(f.index), "{f.name} {found}", JUST),
     Row(lambda f: f.index not in f.evidence.moving
-        and [each for each in f.evidence.strange if each.endswith(f" follows {f.n_axis}")],
+        and [said for index, said in f.evidence.strange.items() if f.is_axis_of(index)],
         "{found[0]}, {f.name} stays 0",
         "a robot in the plane drives along x and turns about z: linear.x and angular.z"),
     Row(lambda f: f.index not in f.evidence.moving, "{f.name} is always 0", JUST),
@@ -64,7 +65,7 @@ OF_A_FIELD = (
     Row(lambda f: not f.is_curve or f.wanted, "{f.name} is no constant times {f.n_axis}", JUST),
 )  # fmt: skip
 AFTER = (
-    Row(lambda e: e.strange, "{found[0]}",
+    Row(lambda e: [*e.strange.values()], "{found[0]}",
         "only linear.x and angular.z move a robot in the plane; leave the others 0"),
 )  # fmt: skip
 
