@@ -20,7 +20,6 @@ from joy_to_twist.teleoperation import Teleoperation
 from node_kit.arming import SILENCE_S, ZERO, Velocity
 from node_kit.rospy_patches.connections import header_of, report_bad_messages
 from node_kit.rospy_patches.prompt_publisher import VelocityPublisher
-from node_kit.rospy_patches.rehearsal import rehearse
 from node_kit.start import run
 from node_kit.suspension import Suspensions
 from node_kit.throttle import Throttle
@@ -89,8 +88,6 @@ class Joy2Twist:
         self.safety = self.teleoperation.safety
         for line in self.teleoperation.mapping.describe():
             self.console.info(line)
-        self.rehearsed = Teleoperation(parameters, ignore, ignore)  # Nobody sees its answers.
-        self.last = b""  # the last message, serialised
         self.uses_age = parameters.max_joy_age > 0
         # ROS time [ns]; without simulated time read the short way, as it is for every message.
         self.read_clock_ns = time_ns if rospy.rostime.is_wallclock() else simulated_time_ns
@@ -112,7 +109,6 @@ class Joy2Twist:
         self.joy = rospy.Subscriber(
             "joy", LeanJoy, self.callback, queue_size=BURST, buff_size=READ_BYTES, tcp_nodelay=True
         )
-        rehearse(self.joy.resolved_name, self.rehearse)
         threading.Thread(target=self.watch, daemon=True).start()
 
     def callback(self, joy: LeanJoy) -> None:
@@ -124,16 +120,6 @@ class Joy2Twist:
             sender = header_of(joy)
             self.publish(self.teleoperation.joy(joy.axes, joy.buttons, now, age_ns, sender))
         self.console.display(joy.axes, now)
-        self.last = joy.data
-
-    def rehearse(self) -> None:
-        """Do with the last message once more what callback() does, and publish nothing."""
-        if self.last:
-            joy = LeanJoy().deserialize(self.last)
-            with self.lock:
-                self.suspensions.number()
-                velocity = self.rehearsed.joy(joy.axes, joy.buttons, monotonic())
-                self.cmd_vel.rehearse(velocity or ZERO)
 
     def notice_suspension(self, now: float) -> None:
         """Stop if this process was suspended: what is in its sockets is old."""
@@ -193,10 +179,6 @@ class Joy2Twist:
         self.console.goodbye("Stopping the node ...")
         # Not rospy.sleep: in simulated time without a clock it never returns.
         threading.Event().wait(DELIVERY_TIME_S)
-
-
-def ignore(*_: object) -> None:
-    """Take what a rehearsal warns of, and do nothing."""
 
 
 def simulated_time_ns() -> int:

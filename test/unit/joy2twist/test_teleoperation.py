@@ -3,14 +3,8 @@
 Random messages and parameters are in test/unit/faults/test_stateful.py.
 """
 
-import io
-import threading
-from types import SimpleNamespace
-
 import pytest
-from sensor_msgs.msg import Joy
 
-from joy_to_twist.node import Joy2Twist
 from joy_to_twist.parameters import load
 from joy_to_twist.teleoperation import Teleoperation
 from tutorial_testing.over_time import over_time
@@ -112,16 +106,3 @@ def test_diagnostics_tell_the_state_the_rate_and_the_age():
     machine.safety.tick(105.0)
     assert machine.summary(105.5)[:2] == (False, "stopped: no message for 0.5 s")
     assert machine.suspended(1, 106.0) is None and "suspended" in warnings[-1]
-
-
-def test_a_rehearsal_asks_other_rules_than_those_that_drive():
-    """Else it would count as a message, and a joystick that is silent would drive on for longer."""
-    data, joy, rehearsed = io.BytesIO(), Joy(axes=HELD[0], buttons=HELD[1]), []
-    joy.serialize(data)
-    machine = SimpleNamespace(
-        last=data.getvalue(), lock=threading.Lock(), suspensions=SimpleNamespace(number=int),
-        rehearsed=teleoperation(enable_button=0)[0],
-        cmd_vel=SimpleNamespace(rehearse=rehearsed.append),
-    )  # fmt: skip
-    Joy2Twist.rehearse(machine)
-    assert rehearsed == [(1, 0, 0, 0, 0, 0)]

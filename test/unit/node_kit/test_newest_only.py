@@ -1,14 +1,11 @@
-"""Sending without waiting over a real TCP connection, and what is rehearsed between messages."""
+"""Sending without waiting over a real TCP connection."""
 
 import select
 import socket
-from types import SimpleNamespace
 
 import pytest
-from rospy.impl.tcpros_pubsub import TCPROSSub
-from sensor_msgs.msg import Joy
 
-from node_kit.rospy_patches import newest_only, rehearsal
+from node_kit.rospy_patches import newest_only
 from node_kit.rospy_patches.newest_only import NewestOnly
 
 SIZE = 52  # [bytes] a Twist on the wire
@@ -151,34 +148,3 @@ def test_a_connection_that_was_closed_while_it_was_behind_is_an_error_in_the_end
         for number in range(1_000_000):
             sender.write(message(number))
             select.select([], [near], [], DEADLINE_S)
-
-
-def test_a_rehearsal_sends_nothing(connection):
-    near, far = connection
-    sender = NewestOnly(near, STOP)
-    sender.rehearse()
-    sender.write(message(7))
-    assert far.recv(2 * SIZE) == message(7)
-    near.close()
-    sender.rehearse()  # raises nothing: the next write() does
-
-
-def test_a_thread_rehearses_until_a_message_comes(connection, monkeypatch):
-    near, far = connection
-    near.settimeout(DEADLINE_S)
-    transport = SimpleNamespace(protocol=TCPROSSub("/joy", Joy), socket=near)
-    monkeypatch.setattr(rehearsal, "_receive", lambda self: self.socket.recv(SIZE))
-    times = []
-
-    def once():
-        times.append(len(times))
-        if len(times) == 3:
-            far.send(b"joy")
-
-    monkeypatch.setattr(rehearsal, "_rehearsals", {"/joy": once})
-    monkeypatch.setattr(rehearsal, "FOR_S", DEADLINE_S)
-    assert rehearsal._receive_rehearsed(transport) == b"joy" and len(times) >= 3
-    monkeypatch.setattr(rehearsal, "FOR_S", 0.0)  # a joystick that is silent costs nothing
-    del times[:]
-    far.close()
-    assert rehearsal._receive_rehearsed(transport) == b"" and not times

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import select
 import socket
 import threading
@@ -79,12 +78,6 @@ class NewestOnly:
             self._begun, self._newest = (message[sent:], b"") if sent else (b"", message)
             self._behind = True
         threading.Thread(target=self._catch_up, daemon=True).start()
-
-    def rehearse(self) -> None:
-        """Do what write() does, and send nothing."""
-        with self._lock, contextlib.suppress(OSError):  # the next write() raises it
-            self._is_cut()
-            self._send(b"")
 
     def free(self) -> None:
         """Use a held connection again, if it is whole: all was seen released."""

@@ -150,12 +150,6 @@ class VelocityPublisher(PromptPublisher):
             self._holds_new = hold_new and velocity != ZERO
             self.send(_TWIST.pack(_TWIST_BYTES, *velocity))
 
-    def rehearse(self, velocity: Velocity) -> None:
-        """Do what publish() does, and send nothing."""
-        _TWIST.pack(_TWIST_BYTES, *velocity)
-        for peer in self._peers.values():
-            peer.rehearse()
-
     def _free(self) -> None:
         for connection, peer in self._peers.items():
             if peer.held:
