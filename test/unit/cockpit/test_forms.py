@@ -12,6 +12,7 @@ from cockpit_server.clients import LOOKS_ONLY, RefusedError
 from cockpit_server.graph import Graph
 from cockpit_server.sources import forms
 from cockpit_server.sources.publishing import Publishing
+from node_kit.services import ServiceError
 from tutorial_testing.session_room import Free, page
 
 
@@ -91,3 +92,28 @@ def test_who_may_publish_what(role, driver, topic, kind, why):
             source.on_call(client, 0.0, "/x/reset", {})
         with pytest.raises(RefusedError, match=f"^{why}"):
             source.on_set(client, 0.0, "/rate", {"value": "1"})
+
+
+def test_a_service_that_never_answers_is_refused_to_its_page_alone(monkeypatch):
+    """Not to others, and not to their Reset; and not without end: call_service ends in time."""
+    started = []
+    later = lambda target, daemon: SimpleNamespace(start=lambda: started.append(target))  # noqa: E731
+    monkeypatch.setattr(forms.threading, "Thread", later)
+    monkeypatch.setattr(forms, "MOST_ASKED", 3)
+    graph = Graph(services={"/reset": {"/x"}})
+    driving = Free()
+    driving.must_rest = lambda *_: None
+    source = forms.Forms(driving, lambda act: act(), SimpleNamespace(graph=graph))
+    (anna, sent), (bob, _), (eve, _) = page(number=1), page(number=2), page(number=3)
+    source.on_call(anna, 0.0, "/reset", {})
+    with pytest.raises(RefusedError, match="called from this page and has not answered"):
+        source.on_call(anna, 0.0, "/reset", {})
+    source.on_call(bob, 0.0, "/reset", {})
+    source.on_reset(eve, 0.0, "")
+    with pytest.raises(RefusedError, match="3 calls wait"):
+        source.on_describe(eve, 0.0, "parameter", "/x")
+    never = ServiceError("/reset has not answered for 30 s")
+    monkeypatch.setattr(forms, "kind_of", lambda _: (_ for _ in ()).throw(never))
+    started[0]()
+    assert sent[-1]["why"] == str(never)
+    source.on_call(anna, 0.0, "/reset", {})

@@ -5,11 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Callable
 
-import genpy
 import rosgraph
-import roslib.message
 import rospy
 
+from node_kit.message_types import message_class
 from node_kit.ros_api import Answer, call
 
 
@@ -51,8 +50,8 @@ class RawPublisher:
 
         is_latched: what the connections' headers say until a first message is published.
         """
-        known = roslib.message.get_message_class(kind)
-        if known is None or not issubclass(known, genpy.Message):
+        known = message_class(kind)
+        if known is None:
             raise LookupError(f"{kind}: ROS 1 has no such type here")
         about = {each: getattr(known, each) for each in ("_type", "_md5sum", "_full_text")}
         self._class = type("Raw", (rospy.AnyMsg,), about)

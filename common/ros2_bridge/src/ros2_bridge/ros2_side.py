@@ -11,6 +11,8 @@ import socket
 import sys
 import threading
 import time
+from importlib.machinery import PathFinder
+from pathlib import Path
 from typing import Any, Callable
 
 import rclpy
@@ -58,8 +60,12 @@ class Ros2Side:
         """Return the class of package/msg/Name; None, with a line, if it does not exist here."""
         package, _, name = kind.partition("/msg/")
         try:
-            found = getattr(importlib.import_module(f"{package}.msg"), name)
-        except (ImportError, ValueError, AttributeError):
+            found = is_generated(package, name) and getattr(
+                importlib.import_module(f"{package}.msg"), name
+            )
+        except (Exception, SystemExit):  # whatever a package that is half there brings about
+            found = None
+        if not found:
             self._say(topic, f"{topic}: {kind}: ROS 2 has no such type here; it is not carried")
             return None
         self._wrong.pop(topic, None)
@@ -171,6 +177,19 @@ class Ros2Side:
             self._wrong.pop(route.topic, None)
 
         return hear
+
+
+def is_generated(package: str, name: str) -> bool:
+    """Return whether an import of package.msg finds a message of this name, and import nothing."""
+    spec = PathFinder.find_spec(package) if package.isidentifier() else None
+    line = f"from {package}.msg._"
+    for place in (spec.submodule_search_locations if spec else None) or ():
+        path = Path(place) / "msg" / "__init__.py"
+        lines = path.read_text(errors="replace").splitlines() if path.is_file() else []
+        words = [one.split() for one in lines if one.startswith(line)]
+        if any(one[2:4] == ["import", name] for one in words):
+            return True
+    return False
 
 
 def quality(route: Route, is_latched: bool) -> QoSProfile:

@@ -11,20 +11,11 @@ from functools import lru_cache
 from math import isfinite
 from typing import Any, Iterable, Iterator, Sequence
 
-import roslib.message
+from node_kit.message_types import message_class
 
 MOST_ENTRIES = 2000  # A longer array is cut.
 _CONSTANT = re.compile(r"^\s*(\w+)\s+(\w+)\s*=\s*(.*?)\s*$", re.MULTILINE)
 _PART = re.compile(r"([A-Za-z]\w*)(?:\[(\d{1,6})\])?")
-
-
-@lru_cache(maxsize=None)
-def class_of(type_name: str) -> Any:
-    """Return the class of a message type; None of a number, a text, or what is not installed."""
-    try:
-        return roslib.message.get_message_class(type_name) if "/" in type_name else None
-    except Exception:  # whatever a package that is half there brings about
-        return None
 
 
 def slots_of(kind: Any) -> Iterator[tuple[str, str]]:
@@ -32,14 +23,14 @@ def slots_of(kind: Any) -> Iterator[tuple[str, str]]:
     return zip(kind.__slots__, kind._slot_types)
 
 
-@lru_cache(maxsize=None)
+@lru_cache(maxsize=2000)
 def numbers_of(type_name: str) -> tuple[str, ...]:
     """Return the names of all numbers in messages of a type, rarely drawn ones last.
 
     An array is one name, as only messages have its length; of messages, the first one's numbers.
     """
     names: list[str] = []
-    kind = class_of(type_name)
+    kind = message_class(type_name)
     for name, slot_type in slots_of(kind) if kind else ():
         base, is_array, _ = slot_type.partition("[")
         first = f"{name}[0]" if is_array else name
@@ -56,7 +47,7 @@ def definition(kind: Any, indent: str = "") -> Iterator[str]:
         yield f"{indent}{base} {name}={shown}"
     for name, slot_type in slots_of(kind):
         yield f"{indent}{slot_type} {name}"
-        inner = class_of(slot_type.partition("[")[0])
+        inner = message_class(slot_type.partition("[")[0])
         if inner:
             yield from definition(inner, f"{indent}  ")
 
@@ -64,7 +55,7 @@ def definition(kind: Any, indent: str = "") -> Iterator[str]:
 def form_fields(kind: Any, above: str = "") -> Iterator[tuple[str, str]]:
     """Yield (name, type) of what a form asks for; an array is one field."""
     for name, slot_type in slots_of(kind):
-        inner = class_of(slot_type)
+        inner = message_class(slot_type)
         if inner:
             yield from form_fields(inner, f"{above}{name}/")
         elif f"{above}{name}" != "header/seq":  # rospy counts

@@ -9,20 +9,23 @@ from io import BytesIO
 from typing import Any, Callable, ClassVar, Iterable, Mapping, Sequence
 
 import rospy
-import rosservice
 from genpy.message import fill_message_args
 
 from cockpit_server.clients import Client, RefusedError, Soon, Source
 from cockpit_server.driving.who_drives import Driving
 from cockpit_server.graph_watch import GraphWatch
 from cockpit_server.schema import full_name, one_of, text
-from cockpit_server.sources.fields import class_of, definition, form_fields, numbers_of
+from cockpit_server.sources.fields import definition, form_fields, numbers_of
 from cockpit_server.sources.logs import without_folders
+from node_kit.message_types import message_class
 from node_kit.parameters import Check
+from node_kit.services import call_service, kind_of
 
 MOST_FIELDS = 60  # A form has no more.
 LONGEST_VALUE = 2000  # characters
 LONGEST_ANSWER, LONGEST_LINE = 4000, 200  # characters
+CALL_S, RESET_S = 30.0, 5.0  # A service that does not answer for so long is given up.
+MOST_ASKED = 100  # calls that wait at a time, each in a thread
 
 TEXTS = Check(
     f"at most {MOST_FIELDS} texts of at most {LONGEST_VALUE} characters",
@@ -82,22 +85,22 @@ class Forms(Source):
 
     def __init__(self, driving: Driving, soon: Soon, graph_watch: GraphWatch) -> None:
         self._driving, self._soon, self._graphs = driving, soon, graph_watch
-        self._asked: set[str] = set()  # what has not answered yet
+        self._asked: set[tuple[int, str]] = set()  # by page: what has not answered yet
 
     def on_describe(self, client: Client, _now: float, what: str, name: str) -> None:
         if what == "service":
             self._call(client, name, lambda: describe_service(name))
         elif what == "parameter":
             self._ask_master(client, lambda: describe_parameter(name))
-        # Of what is there: class_of() remembers each name.
-        elif name in self._graphs.graph.types.values() and class_of(name):
-            kind = class_of(name)
+        # Of what is there: message_class() remembers each name.
+        elif name in self._graphs.graph.types.values() and message_class(name):
+            kind = message_class(name)
             client.send(**form(name, definition(kind), form_fields(kind), numbers_of(name)))
         else:
             raise RefusedError(f"the package of {name} is not installed here")
 
     def on_call(self, client: Client, _now: float, service: str, values: Mapping[str, str]) -> None:
-        self._call(client, service, lambda: call(service, values))
+        self._call(client, service, lambda: answer_of(service, values, CALL_S))
 
     def on_set(
         self, client: Client, _now: float, parameter: str, values: Mapping[str, str]
@@ -110,10 +113,10 @@ class Forms(Source):
     def on_reset(self, client: Client, _now: float, robot: str) -> None:
         self._driving.must_rest(client, robot)
         service = self._graphs.graph.reset_service(robot)
-        self._ask(client, service, lambda: call(service, {}))
+        self._ask(client, service, lambda: answer_of(service, {}, RESET_S))
 
     def _ask_master(self, client: Client, ask: Callable[[], dict[str, Any]]) -> None:
-        self._ask(client, f"the master, for page {client.number},", ask)
+        self._ask(client, "the master", ask)
 
     def _call(self, client: Client, service: str, ask: Callable[[], dict[str, Any]]) -> None:
         self._driving.must_be_free(client)
@@ -123,9 +126,12 @@ class Forms(Source):
 
     def _ask(self, client: Client, asked: str, ask: Callable[[], dict[str, Any]]) -> None:
         """Send a client what a service or the master answers. Raises RefusedError."""
-        if asked in self._asked:
-            raise RefusedError(f"{asked} was called and has not answered yet")
-        self._asked.add(asked)
+        key = client.number, asked
+        if key in self._asked:
+            raise RefusedError(f"{asked} was called from this page and has not answered yet")
+        if len(self._asked) >= MOST_ASKED:
+            raise RefusedError(f"{MOST_ASKED} calls wait for an answer: try again later")
+        self._asked.add(key)
 
         def answer() -> None:
             try:
@@ -133,7 +139,7 @@ class Forms(Source):
             except Exception as error:  # whatever the service, its package or the master does
                 why = without_folders(one_line(error))
                 found = {"kind": "refused", "what": "call", "why": why}
-            self._asked.discard(asked)
+            self._asked.discard(key)
             self._soon(lambda: client.send(**found))
 
         # A thread of its own: a service may take its time.
@@ -149,14 +155,14 @@ def form(
 
 
 def describe_service(name: str) -> dict[str, Any]:
-    kind = rosservice.get_service_class_by_name(name)
+    kind = kind_of(name)
     asked, answer = kind._request_class, kind._response_class
     return form(name, [*definition(asked), "---", *definition(answer)], form_fields(asked))
 
 
-def call(name: str, values: Mapping[str, str]) -> dict[str, Any]:
-    kind = rosservice.get_service_class_by_name(name)
-    answer = str(rospy.ServiceProxy(name, kind)(filled(kind._request_class, values)))
+def answer_of(name: str, values: Mapping[str, str], timeout_s: float) -> dict[str, Any]:
+    kind = kind_of(name)
+    answer = str(call_service(name, filled(kind._request_class, values), kind, timeout_s))
     return {"kind": "answer", "name": name, "text": answer[:LONGEST_ANSWER]}
 
 

@@ -13,7 +13,8 @@ from cockpit_server.clients import Client, Source
 from cockpit_server.feeds import Feeds, read
 from cockpit_server.graph_watch import GraphWatch
 from cockpit_server.schema import MOST_FIELDS, list_of, switch, text
-from cockpit_server.sources.fields import class_of, numbers_of, parts_of, split, value_at
+from cockpit_server.sources.fields import numbers_of, parts_of, split, value_at
+from node_kit.message_types import message_class
 
 NEAR_S = 1.0  # between a stamp and this clock: curves of two clocks are not side by side
 KEPT = 2000  # samples of a field for a page that is behind; of a whole array the newest
@@ -71,7 +72,7 @@ class Plots(Source):
             client.send("plot", samples=new)
 
     def _hear(self, raw: Any, topic: str) -> None:
-        kind = class_of(self._graphs.graph.types.get(topic, ""))
+        kind = message_class(self._graphs.graph.types.get(topic, ""))
         message = kind and read(kind, raw.data, LONGEST_MESSAGE)
         if message is None:
             return

@@ -19,8 +19,8 @@ from cockpit_server.feeds import later
 from cockpit_server.graph import JOY
 from cockpit_server.graph_watch import GraphWatch
 from cockpit_server.schema import MILLISECONDS, full_name, number, or_null, text
-from cockpit_server.sources.fields import class_of
 from cockpit_server.sources.forms import TEXTS, filled
+from node_kit.message_types import message_class
 from node_kit.rospy_patches.prompt_publisher import PromptPublisher
 
 SHORTEST_S, LONGEST_S = 0.02, 10.0  # between two messages
@@ -124,7 +124,7 @@ class Publishing(Source):
         self, client: Client, now: float, topic: str, type: str, values: Mapping[str, str]
     ) -> None:
         self._driving.must_be_free(client)
-        kind, known = class_of(type), self._graphs.graph.types.get(topic, type)
+        kind, known = message_class(type), self._graphs.graph.types.get(topic, type)
         if kind is None or known != type or not is_legal_name(topic):
             raise RefusedError(f"{topic}: no topic of the type {type}")
         if type == JOY and topic.endswith("/joy"):
@@ -142,4 +142,4 @@ class Publishing(Source):
         one = self._repeats.pop(page, None)
         outlet = one and self._outlets.get((one.form["topic"], VELOCITY))
         if outlet:
-            outlet.send(class_of(VELOCITY)(), now)
+            outlet.send(message_class(VELOCITY)(), now)

@@ -11,7 +11,7 @@ from cockpit_server.clients import Client, Source
 from cockpit_server.feeds import Feeds
 from cockpit_server.graph_watch import GraphWatch
 from cockpit_server.schema import full_name, list_of, or_null
-from cockpit_server.sources.fields import class_of
+from node_kit.message_types import message_class
 
 PERIOD_S = 0.25  # between two looks
 LONGEST_TEXT = 4000  # characters of a message
@@ -64,7 +64,7 @@ class Topic:
 
 def text(data: bytes, type_name: str) -> str:
     """Return a message as text."""
-    kind = class_of(type_name)
+    kind = message_class(type_name)
     if kind is None:
         return f"({len(data)} bytes; the package of {type_name} is not installed here)"
     if len(data) > LONGEST_MESSAGE:

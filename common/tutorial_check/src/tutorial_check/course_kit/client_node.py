@@ -17,11 +17,11 @@ from typing import Any
 
 import genpy
 import rosgraph
-import roslib.message
 import rospy
 import yaml
 from std_msgs.msg import Header
 
+from node_kit.message_types import message_class, service_class
 from node_kit.rospy_patches.connections import connect_once
 
 NAME = "tutorial_check_client"
@@ -35,11 +35,7 @@ class Fault(Exception):
 
 def class_of(kind: str, of_service: bool = False) -> type[genpy.Message]:
     """Return the class of a type, as it was generated. Raises Fault."""
-    find = roslib.message.get_service_class if of_service else roslib.message.get_message_class
-    try:
-        found = find(kind)
-    except Exception:  # also of what stands in the student's package
-        found = None
+    found = service_class(kind) if of_service else message_class(kind)
     if found is None:
         raise Fault(f"there is no type {kind}")
     return found

@@ -1,0 +1,49 @@
+"""Types that pages and other nodes name: nothing is imported for them, and nobody stops driving."""
+
+import string
+import sys
+from types import SimpleNamespace
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from cockpit_server.clients import RefusedError
+from cockpit_server.graph import Graph
+from cockpit_server.sources import forms, plots, topics
+from cockpit_server.sources.publishing import Publishing
+from tutorial_testing.session_room import Free, Room, Topics, look, page
+
+MODULES = st.sampled_from(["cockpit", "unittest.__main__", "antigravity", "this", "idlelib.idle"])
+words = st.text(string.ascii_letters + "_./\0é", max_size=8)
+TYPES = st.one_of(words, st.builds("{}/{}".format, MODULES | words, words))
+
+
+ROOM = Room()
+ROOM.drive()
+
+
+@settings(max_examples=300)
+@given(st.lists(TYPES, min_size=10, max_size=10))
+def test_hostile_types_of_a_page_or_of_the_graph_are_refused_and_import_nothing(names):
+    before = set(sys.modules)
+    for name in names:
+        judge(name)
+    assert set(sys.modules) == before
+    assert ROOM.session.armed and not ROOM.sent
+
+
+def judge(name):
+    graphs = SimpleNamespace(graph=Graph(publishers={"/t": {"/x"}}, types={"/t": name}))
+    client, _ = one = page(fields=("/t/x",), field_list=True, topic="/t", rates=("/t",))
+    form = {"topic": "/t", "type": name, "values": {}, "period": None}
+    with pytest.raises(RefusedError, match="no topic of the type"):
+        Publishing(Free(), graphs).on_publish(client, 0.0, **form)
+    with pytest.raises(RefusedError, match="not installed"):
+        forms.Forms(Free(), None, graphs).on_describe(client, 0.0, "message", name)
+    for kind in (plots.Plots, topics.Topics):
+        feeds = Topics()
+        source = kind(feeds, graphs)
+        look(source, one)
+        feeds.hear("/t", b"")
+        look(source, one, now=1.0)
