@@ -3,17 +3,19 @@
 Its topics; map, scan, bumpers, frames, and the way back from a wall; the mux after a suspension.
 """
 
+import functools
+import operator
 import time
 from math import isfinite
 
 import rosgraph
 import rospy
 from geometry_msgs.msg import Twist, Vector3
-from kobuki_msgs.msg import BumperEvent, ButtonEvent, MotorPower, SensorState
+from kobuki_msgs.msg import BumperEvent, ButtonEvent, ControllerInfo, Led, MotorPower, SensorState
 from nav_msgs.msg import OccupancyGrid, Odometry
 from rosgraph_msgs.msg import Log
-from sensor_msgs.msg import Imu, LaserScan
-from std_msgs.msg import String
+from sensor_msgs.msg import Imu, JointState, LaserScan
+from std_msgs.msg import Int16MultiArray, String
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import MarkerArray
 
@@ -29,7 +31,8 @@ KOBUKI = {  # below /mobile_base: the type in kobuki_msgs
     "events/digital_input": "DigitalInputEvent", "events/power_system": "PowerSystemEvent",
     "events/robot_state": "RobotStateEvent", "events/wheel_drop": "WheelDropEvent",
     "sensors/core": "SensorState", "sensors/dock_ir": "DockInfraRed",
-    "version_info": "VersionInfo", "commands/controller_info": "ControllerInfo",
+    "version_info": "VersionInfo", "controller_info": "ControllerInfo",
+    "commands/controller_info": "ControllerInfo",
     "commands/digital_output": "DigitalOutput", "commands/external_power": "ExternalPower",
     "commands/led1": "Led", "commands/led2": "Led", "commands/motor_power": "MotorPower",
     "commands/sound": "Sound",
@@ -40,6 +43,9 @@ TOPICS = {
     f"{BASE}/commands/reset_odometry": ("std_msgs/Empty", BASE),
     f"{BASE}/sensors/imu_data": ("sensor_msgs/Imu", BASE),
     f"{BASE}/sensors/imu_data_raw": ("sensor_msgs/Imu", BASE),
+    f"{BASE}/debug/raw_data_command": ("std_msgs/String", BASE),
+    f"{BASE}/debug/raw_data_stream": ("std_msgs/String", BASE),
+    f"{BASE}/debug/raw_control_command": ("std_msgs/Int16MultiArray", BASE),
     "/odom": ("nav_msgs/Odometry", BASE),
     "/joint_states": ("sensor_msgs/JointState", BASE),
     "/tf": ("tf2_msgs/TFMessage", BASE),
@@ -149,6 +155,10 @@ class MinimalTest(RosTest):
         last = imu[-1]
         self.assertEqual((last.header.frame_id, last.angular_velocity.z), ("gyro_link", 0.5))
 
+        log = self.record("/rosout", Log)
+        motors.publish(7)
+        wait_for(lambda: any("7 is neither 0" in line.msg for line in log), "error line")
+        wait_for(lambda: navi.publish(TURN) or robot.now.moves, "motors that are still on")
         motors.publish(MotorPower.OFF)
         wait_for(lambda: navi.publish(TURN) or not robot.now.moves, "motors that are off")
         motors.publish(MotorPower.ON)
@@ -160,7 +170,40 @@ class MinimalTest(RosTest):
             wait_for(lambda shown=shown: core[-1].buttons == shown, "button")
         self.assertEqual([event.state for event in events], [1, 0])
 
-    def test_5_late_commands_move_nothing_and_those_of_now_do(self):
+    def test_5_imu_gains_and_the_bytes_of_the_serial_line_are_those_of_kobuki_node(self):
+        raw = self.record("mobile_base/sensors/imu_data_raw", Imu)
+        imu = self.record("mobile_base/sensors/imu_data", Imu)
+        joints = self.record("joint_states", JointState)
+        gains = self.record("mobile_base/controller_info", ControllerInfo)
+        sent = self.record("mobile_base/debug/raw_data_command", String)
+        received = self.record("mobile_base/debug/raw_data_stream", String)
+        controls = self.record("mobile_base/debug/raw_control_command", Int16MultiArray)
+        led = self.connected("mobile_base/commands/led1", Led)
+        navi = self.connected("cmd_vel_mux/input/navi", Twist)
+        wait_for(lambda: raw[10:] and imu and joints and gains and received, "first messages")
+        both = imu[0].orientation_covariance[8], imu[0].angular_velocity_covariance[8]
+        self.assertEqual(both, (0.05, 0.05))
+        self.assertEqual(joints[0].effort, (0.0, 0.0))
+        info = gains[0]
+        self.assertEqual((info.type, info.p_gain, info.i_gain, info.d_gain), (0, 100.0, 0.1, 2.0))
+
+        def pairs():
+            stamps = [one.header.stamp.to_nsec() for one in list(raw)]
+            return sum(b - a == 10_000_000 for a, b in zip(stamps, stamps[1:]))
+
+        wait_for(lambda: pairs() >= 10, "pairs of readings, 10 ms apart")
+        packet = bytes.fromhex(received[0].data[2:-2])  # { AA 55 .. }
+        checksum = functools.reduce(operator.xor, packet[2:])
+        self.assertEqual((packet[:3].hex(), len(packet), checksum), ("aa554d", 81, 0))
+        led.publish(Led.GREEN)
+        command = "[ 0xaa 0x55 0x04 0x0c 0x02 0xf0 0x02 0xf8 ]"  # supplies on, LED 1 green
+        wait_for(lambda: command in [line.data for line in sent], "command for an LED")
+        wait_for(
+            lambda: navi.publish(TURN) or (controls and controls[-1].data == (257, 400, 200, 500)),
+            "control command",
+        )
+
+    def test_6_late_commands_move_nothing_and_those_of_now_do(self):
         active, log = self.record("cmd_vel_mux/active", String), self.record("/rosout", Log)
         wait_for(lambda: active and active[-1].data == "idle", "a mux that is idle")
         driven = []  # [m/s]

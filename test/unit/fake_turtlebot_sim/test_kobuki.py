@@ -1,5 +1,6 @@
 """What a Kobuki reports, worked out by hand from its protocol."""
 
+import struct
 from math import pi
 
 import pytest
@@ -68,6 +69,29 @@ def test_bits_are_those_of_the_protocol(monkeypatch):
     right, center, left = state.bottom
     assert right == center < left  # the farther the ground, the less
     assert (state.charger, state.battery) == (state.DISCHARGING, 164)
+
+
+def test_the_stream_has_the_parts_of_a_real_packet():
+    """77 bytes of payload, as in the example of kobuki_driver's appendix."""
+    one = robot()
+    one.command((0.5, 1.0), 0)
+    state = packet(one, 100_000_000)
+    data = kobuki.stream(state, pi / 2, -1.0, (0.5, 1.0))
+    assert (len(data), data[:3]) == (81, b"\xaa\x55\x4d")
+    parts, rest = {}, data[3:-1]
+    while rest:
+        parts[rest[0]] = rest[2 : 2 + rest[1]]
+        rest = rest[2 + rest[1] :]
+    lengths = {1: 15, 3: 3, 4: 7, 5: 6, 6: 2, 13: 14, 16: 16}
+    assert {number: len(part) for number, part in parts.items()} == lengths
+    head, tail = struct.unpack("<H3B2H", parts[1][:9]), struct.unpack("<2b4B", parts[1][9:])
+    assert head == (100, 0, 0, 0, state.left_encoder, state.right_encoder)
+    assert tail == (state.left_pwm, state.right_pwm, 0, 0, 164, 0)
+    assert struct.unpack("<2h", parts[4][:4]) == (9000, -5729)  # [0.01 deg, 0.01 deg/s]
+    assert parts[5] == struct.pack("<3H", 1500, 1500, 1500)
+    frame, count, *digits = struct.unpack("<2B6h", parts[13])
+    assert (frame, count) == (10, 6)
+    assert digits == [0, 0, 3274, 0, 0, 6548]  # of 0.00875 deg/s, two readings
 
 
 def test_without_power_a_robot_stands_and_with_it_waits_for_a_new_command():

@@ -15,7 +15,8 @@ BACK = (-0.1, 0.0)
     ("sensors", "velocity"),
     [
         ([LEFT], (-0.1, -0.4)), ([RIGHT], (-0.1, 0.4)), ([CENTER], BACK),
-        ([LEFT, CENTER], BACK), ([LEFT, RIGHT], BACK),
+        ([LEFT, CENTER], BACK), ([RIGHT, CENTER], BACK),
+        ([RIGHT, LEFT], (-0.1, -0.4)),  # the left one wins, as on the Kobuki
     ],
 )  # fmt: skip
 def test_it_backs_off_and_turns_away(kind, sensors, velocity):
@@ -38,14 +39,26 @@ def test_with_a_dropped_wheel_it_stands():
     assert reaction.velocity(1.0) == BACK  # what is over for a wheel is over at once
 
 
-def test_a_release_may_be_extended():
+def test_a_press_counts_for_a_while_even_if_it_is_released_or_reset():
+    """kobuki_safety_controller counts from the last press of any sensor, and ~reset leaves that."""
     reaction = Reaction(2.0)
     reaction.event("cliff", RIGHT, False, 0.0)  # never seen as active
     assert reaction.velocity(0.0) is None
     reaction.event("cliff", RIGHT, True, 1.0)
-    reaction.event("cliff", RIGHT, False, 3.0)
-    assert reaction.velocity(4.9) == (-0.1, 0.4)
-    assert reaction.velocity(5.0) is None
-    reaction.event("cliff", RIGHT, True, 5.0)
+    assert reaction.velocity(1.0) == (-0.1, 0.4)
+    reaction.event("cliff", RIGHT, False, 1.1)
     reaction.reset()
-    assert reaction.velocity(5.0) is None
+    assert reaction.velocity(2.9) == (-0.1, 0.4)
+    assert reaction.velocity(3.0) is None
+    reaction.event("bumper", LEFT, True, 5.0)
+    assert reaction.velocity(8.0) == (-0.1, -0.4)  # it is still pressed
+    reaction.event("bumper", LEFT, False, 9.0)
+    assert reaction.velocity(9.0) is None  # no time beyond the release
+
+
+def test_a_reset_forgets_what_is_pressed():
+    reaction = Reaction(0.0)
+    reaction.event("bumper", CENTER, True, 1.0)
+    assert reaction.velocity(1.0) == BACK
+    reaction.reset()
+    assert reaction.velocity(1.0) is None

@@ -53,6 +53,12 @@ def test_one_stamp_the_right_frames_the_executed_twist_and_the_wheels():
     assert not any(odometry.twist.covariance)
 
 
+@pytest.mark.parametrize(("kobuki", "effort"), [(True, [0.0, 0.0]), (False, [])])
+def test_the_joints_of_a_kobuki_have_an_effort_and_those_of_rbx1_have_none(kobuki, effort):
+    messages, _ = told(Parameters(kobuki=kobuki))
+    assert messages.joints.effort == effort
+
+
 def test_with_noise_the_covariance_takes_their_place_and_the_truth_is_told():
     messages, robot = told(Parameters(wheel_noise=0.01))
     pose = np.reshape(messages.odometry.pose.covariance, (6, 6))

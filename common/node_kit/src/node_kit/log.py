@@ -36,6 +36,10 @@ class Log:
         """Show a warning."""
         self.put(self._warn, line)
 
+    def error(self, line: str) -> None:
+        """Show an error."""
+        self.put(self._error, line)
+
     def put(self, show: Show, content: Any) -> None:
         """Have show([content, ...]) called with this and what else came for it meanwhile."""
         if self._waiting.qsize() < LONGEST_QUEUE:
@@ -58,3 +62,7 @@ class Log:
     def _warn(self, lines: list[str]) -> None:
         for line in lines:
             rospy.logwarn("%s", line)
+
+    def _error(self, lines: list[str]) -> None:
+        for line in lines:
+            rospy.logerr("%s", line)

@@ -13,7 +13,7 @@ class Parameters:
     """What can be set."""
 
     time_to_extend_bump_cliff_events: float = parameter(
-        0.0, number(0.0, 10.0, "s"), "how long the robot backs off beyond the release of a sensor"
+        0.0, number(0.0, 10.0, "s"), "how long the robot backs off at least, from the last press"
     )
 
 

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from math import floor, tau
-from typing import TYPE_CHECKING, Iterable, Sequence
+from typing import TYPE_CHECKING, Sequence
 
 from kobuki_msgs.msg import BumperEvent, CliffEvent, SensorState, WheelDropEvent
+
+from fake_turtlebot_sim.kobuki_protocol import packets
+from fake_turtlebot_sim.kobuki_protocol.packets import bits
 
 if TYPE_CHECKING:  # the safety controller, too, needs EVENTS, and no simulation
     from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
@@ -23,11 +26,6 @@ TICKS_PER_TURN = 52 * 6545 / 132  # encoder and gears: 2578.33 (kobuki_driver's 
 FULL_RATE = 0.7 / 0.035  # [rad/s] of a wheel at full voltage: 0.7 m/s (Kobuki's specifications)
 FULL_CURRENT = 30  # [10 mA] of a motor at FULL_RATE, about
 BATTERY = 164  # [0.1 V] of 4 lithium cells that are almost full
-
-
-def bits(flags: Iterable[bool]) -> int:
-    """Return a number whose lowest bit is the first flag."""
-    return sum(is_on << bit for bit, is_on in enumerate(flags))
 
 
 def core(now_ns: int, robot: SimulatedRobot, pressed: Sequence[bool]) -> SensorState:
@@ -50,4 +48,21 @@ def core(now_ns: int, robot: SimulatedRobot, pressed: Sequence[bool]) -> SensorS
         bottom=[BOTTOM[is_cliff] for is_cliff in reversed(sensed.cliffs)],
         current=[abs(share) * FULL_CURRENT // 100 for share in pwm],
         analog_input=[0] * 4,
+    )
+
+
+def stream(state: SensorState, heading: float, rate: float, rates: Sequence[float]) -> bytes:
+    """Return the packet that a Kobuki would send now.
+
+    heading [rad], rate [rad/s]: of the gyro, which no reset changes. rates: of its raw readings.
+    """
+    frame = state.time_stamp // 10  # a reading is 10 ms
+    return packets.packet(
+        packets.core(state),
+        packets.dock_ir(0, 0, 0),
+        packets.inertia(heading, rate),
+        packets.cliff(state.bottom),
+        packets.current(state.current),
+        packets.raw_gyro(frame, [(0.0, 0.0, raw) for raw in rates]),
+        packets.inputs(state.digital_input, state.analog_input),
     )

@@ -65,7 +65,7 @@ class RobotTopics:
             )
             if kind is Twist:
                 self._fresh.watch(subscriber)
-        kobuki = prefix, self.robot, motion, self._is_in_world
+        kobuki = prefix, self.robot, parameters, motion, log
         self._kobuki = KobukiTopics(*kobuki) if parameters.kobuki else None
         if name:  # for a single robot the node's own does this
             rospy.Service(f"{prefix}reset", srv.Empty, self._on_reset)

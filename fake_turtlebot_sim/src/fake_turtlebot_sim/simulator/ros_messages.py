@@ -51,6 +51,7 @@ class RobotMessages:
         self.transform.transform.rotation = self.odometry.pose.pose.orientation
         self.joints = JointState()
         self.joints.name = [parameters.left_wheel_joint, parameters.right_wheel_joint]
+        self.joints.effort = [0.0, 0.0] if parameters.kobuki else []  # as kobuki_node has it
 
     def fill(self, robot: SimulatedRobot, stamp: Any) -> None:
         """Write what the robot does at the instant `stamp` into all messages."""

@@ -197,6 +197,11 @@ class SimulatedRobot:
         return Sensed(bumpers(self.contact), cliffs(self.true_pose, world), self._dropped)
 
     @property
+    def target(self) -> Velocity:
+        """Return the velocity (v [m/s], w [rad/s]) that is commanded, within the limits."""
+        return self._target
+
+    @property
     def is_driven(self) -> bool:
         """Return whether a command is in force, that is, not timed out."""
         return self._time_ns < self._expires_ns
