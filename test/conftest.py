@@ -8,8 +8,8 @@ FOLDERS = ("*/src", "common/*/src", "common/stand_ins/*/src")
 sys.path[:0] = [str(folder) for pattern in FOLDERS for folder in REPOSITORY.glob(pattern)]
 # The longest of ros and system begin first, as many as run at once; the others run beside them.
 LONGEST = (
-    "test_other_programs", "test_handout", "starts.py", "test_cockpit", "lost_nodes",
-    "[A classroom", "[5. Launch", "ends.py", "keys.py", "joystick_driver",
+    "test_shared_clone", "test_other_programs", "test_handout", "starts.py", "test_cockpit",
+    "lost_nodes", "[A classroom", "[5. Launch", "ends.py", "keys.py", "joystick_driver",
 )  # fmt: skip
 
 

@@ -11,6 +11,7 @@ from tutorial_tools.command.environment import environment_of_help
 from tutorial_tools.command.words import OWN_PARSER, candidates, plan, read
 from tutorial_tools.system import apt
 from tutorial_tools.system.packages import packages
+from tutorial_tools.windows import MODEL
 
 SECTIONS = {"demo": ["demo", "more"], "test": ["demo", "more", "test"], "doctor": ["doctor"]}
 SECTIONS["browser"] = [*SECTIONS["test"], "browser"]
@@ -118,6 +119,26 @@ def test_what_cannot_be_a_students_workspace(tmp_path, monkeypatch, folder, why)
     (tmp_path / "ws" / "devel").mkdir(parents=True)
     monkeypatch.setattr(os, "geteuid", lambda: 4321)
     assert why in build.why_no_workspace(tmp_path / "cache", tmp_path / folder)
+
+
+def test_all_is_built_again_when_a_real_package_came_and_not_after_a_test(tmp_path, monkeypatch):
+    for name in ("common/stand_ins/joy/package.xml", f"{MODEL}/scripts/rqt_gui", "test/ros/a/b.py"):
+        (tmp_path / name).parent.mkdir(parents=True)
+        (tmp_path / name).touch()
+    monkeypatch.setattr(build, "REPOSITORY", tmp_path)
+    monkeypatch.setattr(build, "SHARE", tmp_path / "share")
+    stamps = [build.stamp()]
+    for folder in ("test/ros", "test/ros/a"):
+        (tmp_path / folder / "__pycache__").mkdir()
+        (tmp_path / folder / "__pycache__" / "b.cpython-311.pyc").touch()
+    assert build.stamp() == stamps[0] and build.real_packages() == []
+    for name in ("test/ros/a/c.test", "share/joy/package.xml", "share/rqt_bag/package.xml"):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).touch()
+        stamps.append(build.stamp())
+    assert build.real_packages() == ["joy", "rqt_bag"]
+    (tmp_path / MODEL / "scripts/rqt_gui").write_text("changed")  # the made packages have copies
+    assert len({*stamps, build.stamp()}) == 5
 
 
 def test_which_packages_belong_to_a_section(monkeypatch):

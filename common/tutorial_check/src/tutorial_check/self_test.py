@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import re
-import shutil
 import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Iterator
 
 from tutorial_check.course import Course, checks_of
+from tutorial_check.isolation.environment import copy_tree
 from tutorial_check.launcher import examine
 from tutorial_check.model import UNREACHED, WRONG, CannotCheck, Outcome
 from tutorial_check.order import Order
@@ -62,7 +62,7 @@ def _examined(course: Course, underlay: str, check: str, layers: list[Path]) -> 
         for layer in layers:
             try:
                 if layer.is_dir():
-                    shutil.copytree(layer, scratch, dirs_exist_ok=True)
+                    copy_tree(layer, Path(scratch))
                 else:
                     patch(Path(scratch), layer)
             except CannotCheck as why:

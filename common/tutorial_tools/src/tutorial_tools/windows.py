@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 from typing import Iterator, Sequence
 from urllib.parse import urlencode
@@ -33,16 +34,18 @@ def _fields(text: str) -> list[str]:
     return [first, *(f"{above}/{other}" for other in others)]
 
 
-def make_rqt(repository: Path, share: Path, folder: Path) -> Iterator[Path]:
-    """Make the packages that are not below share, where ROS has its own; yield each program."""
+def make_rqt(repository: Path, real: Sequence[str], folder: Path) -> Iterator[Path]:
+    """Make the packages, but for the real ones, which ROS has; yield each program."""
     for name in TABS:
-        if name == "rqt_gui" or (share / name / "package.xml").exists():
+        if name == "rqt_gui" or name in real:
             continue
         program = folder / name / "scripts" / name
         program.parent.mkdir(parents=True, exist_ok=True)
         for file in ("CMakeLists.txt", "package.xml"):
             text = (repository / MODEL / file).read_text(encoding="utf-8")
             (folder / name / file).write_text(text.replace("rqt_gui", name), encoding="utf-8")
+        # A copy: catkin writes through a link, into a clone that may be another user's.
         program.unlink(missing_ok=True)
-        program.symlink_to(repository / MODEL / "scripts/rqt_gui")
+        shutil.copyfile(repository / MODEL / "scripts/rqt_gui", program)
+        program.chmod(0o755)
         yield program

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+import stat
 from pathlib import Path
 from typing import Iterable, Mapping
 
@@ -31,10 +32,18 @@ def variables(folder: Path, environment: Mapping[str, str]) -> dict[str, str]:
     }
 
 
+def copy_tree(source: Path, target: Path) -> None:
+    """Copy a folder of the suite, which a user may not write; what is copied may be written."""
+    shutil.copytree(source, target, symlinks=True, dirs_exist_ok=True)
+    for path in (target, *target.rglob("*")):
+        if not path.is_symlink():
+            path.chmod(path.stat().st_mode | stat.S_IWUSR)
+
+
 def prepare(folder: Path) -> None:
     """Make the folders of a session, with stand-ins of programs that need a screen."""
     for name in ("bin", "view"):  # and where ROS finds RViz
-        shutil.copytree(Path(__file__).parent / "session" / name, folder / name, symlinks=True)
+        copy_tree(Path(__file__).parent / "session" / name, folder / name)
     for program in (folder / "bin").iterdir():  # here they are data
         program.chmod(0o755)
     # The handout's listings begin with `env python`, as did all in its time.

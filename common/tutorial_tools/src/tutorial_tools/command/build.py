@@ -20,7 +20,7 @@ from pathlib import Path
 from node_kit.manifests import broken_manifests, manifests
 from tutorial_tools.hidden import hidden_stand_ins
 from tutorial_tools.system.apt import SetUpError, say
-from tutorial_tools.windows import TABS, make_rqt
+from tutorial_tools.windows import MODEL, TABS, make_rqt
 
 REPOSITORY = Path(__file__).resolve().parents[5]
 # The prefix of a ROS that is not the system's own, as ./tutorial has found it.
@@ -34,14 +34,24 @@ WRONG = re.compile("rror|invalid|mismatched|not found")
 
 def stamp() -> str:
     """Return a checksum of what catkin reads; the Python files themselves are used in place."""
-    found = hashlib.sha1(f"{sys.version} {PREFIX} {COMMANDS} {TABS}".encode())
+    found = hashlib.sha1(f"{sys.version} {PREFIX} {COMMANDS} {TABS} {real_packages()}".encode())
     for depth in ("*", "common/*", "common/stand_ins/*"):
         for name in ("CMakeLists.txt", "package.xml", "setup.py"):
             for path in sorted(REPOSITORY.glob(f"{depth}/{name}")):
                 found.update(path.read_bytes())
-    for path in sorted(REPOSITORY.glob("test/ros/*/*.*")):
-        found.update(str(path.relative_to(REPOSITORY)).encode())
+    for path in sorted((REPOSITORY / MODEL / "scripts").iterdir()):  # which is copied
+        found.update(path.read_bytes())
+    for suffix in (".py", ".test"):  # as test/CMakeLists.txt looks for them
+        for path in sorted(REPOSITORY.glob(f"test/ros/*/*{suffix}")):
+            found.update(str(path.relative_to(REPOSITORY)).encode())
     return found.hexdigest()
+
+
+def real_packages() -> list[str]:
+    """Return the names of the packages that ROS has here, and that would have a stand-in."""
+    stand_ins = (path.parent.name for path in manifests(REPOSITORY / "common/stand_ins"))
+    names = {*TABS, *stand_ins}
+    return sorted(name for name in names if (SHARE / name / "package.xml").exists())
 
 
 def clean_catkin_make(below: Path | None, folder: Path, log: Path) -> bool:
@@ -114,12 +124,12 @@ def build_both(workspace: Path) -> None:
         own = f"{os.environ['SUDO_USER']}'s own calls do not use"
         say(f"   which {own}: call ./tutorial without sudo, it asks for it itself")
     # The underlay: what a student uses and never writes; stand-ins only for what is not installed.
+    real = real_packages()
     common = [path.parent for path in manifests(REPOSITORY / "common")]
-    there = [folder for folder in common if (SHARE / folder.name / "package.xml").exists()]
-    common = [one for one in common if one.parent.name != "stand_ins" or one not in there]
+    common = [package for package in common if package.name not in real]
     with contextlib.suppress(FileNotFoundError):
         (workspace / "built").unlink()  # what it stands for changes from here on
-    rqt = list(make_rqt(REPOSITORY, SHARE, workspace / "rqt"))
+    rqt = list(make_rqt(REPOSITORY, real, workspace / "rqt"))
     made = [program.parents[1] for program in rqt]
     link_packages(lower, [REPOSITORY / "fake_turtlebot_sim", *common, *made])
     if not (lower / "devel").exists():
@@ -250,7 +260,7 @@ def install_from_pypi(workspace: Path, name: str, requirements: str, kind: str) 
             command = [*pip, "--require-hashes", "--no-deps", "-r", str(wanted)]
             done = subprocess.run(command, check=False, stdout=file, stderr=file)
         if not done.returncode:
-            shutil.copy(wanted, folder / "installed")
+            shutil.copyfile(wanted, folder / "installed")
             return
         todo = "then run ./tutorial setup again: it goes on where it stopped"
         line = f"not installed from PyPI: {names}. Check the network ({log}), {todo}"
@@ -259,7 +269,7 @@ def install_from_pypi(workspace: Path, name: str, requirements: str, kind: str) 
             print(*errors[:3], sep="\n", file=sys.stderr)
             raise SetUpError(line)
         say(f"{line}\ntutorial: all but replay_bag works without")
-        shutil.copy(wanted, failed)
+        shutil.copyfile(wanted, failed)
 
 
 def build(workspace: Path, part: str) -> None:
