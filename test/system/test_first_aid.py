@@ -4,21 +4,20 @@ Each is made here, as far as this machine can, in bash. What is printed must hav
 the page, in which "..." stands for names, and the doctor's words, where it is the tool.
 """
 
-import os
 import re
 import shutil
-import subprocess
 
 import pytest
 
-from tutorial_testing.processes import REPOSITORY
+from tutorial_testing.processes import REPOSITORY, Program
 from tutorial_testing.waiting import LONGEST_S
 
 PAGE = (REPOSITORY / "common/doc/TROUBLE.md").read_text()
 SENTENCES = PAGE.split("## By the sentence")[1].split("## By what you see")[0]
 CELLS = re.findall(r"^\| (`.*?) \| (.*) \|$", SENTENCES, re.M)
-# What the scripts share: a package in the workspace of this folder, a master, the doctor.
+# What the scripts share: a package in the workspace of their folder, a master, the doctor.
 COMMON = r"""
+cd "$0"
 trap 'kill $(jobs -p) 2>/dev/null; wait' EXIT
 tools=$(rospack find tutorial_tools)
 doctor() { echo DOCTOR; /usr/bin/python3 "$tools/scripts/doctor.py"; }
@@ -142,15 +141,14 @@ def test_the_sentence_that_a_beginner_reads(sentence, script, words, tmp_path, m
     for program in ("zsh", "rviz"):
         if program in script and not shutil.which(program):
             pytest.skip(f"no {program} here")
-    environment = {**os.environ, "ROS_MASTER_URI": master_uri, "TUTORIAL_IN": ""}
-    done = subprocess.run(
-        ["bash", "-c", COMMON + script], cwd=tmp_path, env=environment, timeout=LONGEST_S,
-        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False,
-    )  # fmt: skip
-    said = " ".join(done.stdout.split())
+    given = {"ROS_MASTER_URI": master_uri, "TUTORIAL_IN": ""}
+    with Program("bash", "-c", COMMON + script, str(tmp_path), **given) as program:
+        program.wait(LONGEST_S)
+        output = program.output
+    said = " ".join(output.split())
     shape = ".*".join(map(re.escape, sentence.split("...")))
-    assert re.search(shape, said, re.IGNORECASE), done.stdout
+    assert re.search(shape, said, re.IGNORECASE), output
     doctors = said.rpartition("DOCTOR ")[2] if words else ""
-    assert words in doctors and "Traceback" not in doctors, done.stdout
+    assert words in doctors and "Traceback" not in doctors, output
     if "executable" in sentence:  # one sentence for two problems
         assert "chmod +x" in answer and "add_executable" in answer

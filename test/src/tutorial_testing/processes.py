@@ -22,6 +22,11 @@ REPOSITORY = Path(__file__).resolve().parents[3]
 MARK = "STARTED_BY_A_TEST"  # environment variable by which a program's descendants are known
 
 
+def environment(**more):
+    """Return that of a program that a test starts: Python prints at once in it, to a pipe, too."""
+    return {**os.environ, "PYTHONUNBUFFERED": "1", **more}
+
+
 def lives(pid):
     """Return whether a process is there and has not exited, as a zombie has."""
     try:
@@ -111,7 +116,8 @@ class Program:
     Use it as a context manager, so that nothing keeps running after the test.
     """
 
-    def __init__(self, *command, stdin=subprocess.DEVNULL, **environment):
+    def __init__(self, *command, stdin=subprocess.DEVNULL, **more):
+        """more: variables of its environment."""
         self._output = tempfile.TemporaryFile("w+")  # noqa: SIM115  closed in __exit__
         self._mark = str(uuid.uuid4())
         self._process = subprocess.Popen(
@@ -119,8 +125,7 @@ class Program:
             stdin=stdin,
             stdout=self._output,
             stderr=subprocess.STDOUT,
-            # Unbuffered: a test waits for what roslaunch, a Python program itself, prints.
-            env={**os.environ, "PYTHONUNBUFFERED": "1", **environment, MARK: self._mark},
+            env=environment(**{**more, MARK: self._mark}),
             start_new_session=True,  # with a process group that Ctrl-C reaches, as in a terminal
         )
 
