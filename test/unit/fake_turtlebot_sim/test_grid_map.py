@@ -1,6 +1,10 @@
 """Maps as map_server reads them: values of cells, the message, the place where a robot starts."""
 
+import struct
+import sys
+from io import BytesIO
 from math import pi
+from zlib import crc32
 
 import numpy as np
 import pytest
@@ -25,6 +29,25 @@ PICTURE = Image.fromarray(GREY)
 INDEXED = Image.new("P", (2, 1))
 INDEXED.putpalette([200, 255, 255, 0, 0, 0])
 INDEXED.putdata((0, 1))
+ONE_BIT = Image.new("1", (4, 2))
+ONE_BIT.putdata((0, 1, 1, 1, 0, 1, 1, 1))
+HOLED = Image.fromarray(np.array([[0, 205, 254, 100]], np.uint8))  # gray, with alpha
+BMP, PBM = {"image": "map.bmp"}, {"image": "map.pbm"}
+SCALED, RAW = {"mode": "scale"}, {"mode": "raw"}
+
+
+def bmp(bits, pixels, columns, compression=0, masks=b""):
+    """Return a BMP of one row."""
+    length = -(-columns * bits // 32) * 4
+    colours = b"".join(bytes((k, k, k, 0)) for k in range(2**bits)) if bits <= 8 else b""
+    head = struct.pack("<IiiHHIIiiII", 40, columns, 1, 1, bits, compression, 0, 0, 0, 0, 0)
+    start = 14 + len(head + masks + colours)
+    file = b"BM" + struct.pack("<IHHI", start + length, 0, 0, start)
+    return file + head + masks + colours + pixels.ljust(length, b"\0")
+
+
+BLUE_CYAN_WHITE = bytes((255, 0, 0, 255, 128, 0, 254, 254, 254))  # B, G, R
+CLEAR_SOLID = bytes((100, 100, 100, 0, 100, 100, 100, 255))  # B, G, R, A
 
 
 @pytest.mark.parametrize(
@@ -38,9 +61,27 @@ INDEXED.putdata((0, 1))
         (CLEAR, {"mode": "scale"}, [100, 0, 66]),
         (INDEXED, {}, [100, 100]),  # the number of the colour, as SDL gives it
         (b"P5 4 1 255\n" + bytes([0, 100, 255, 200]), {"mode": "raw", **PNM}, [0, 100, -1, -56]),
-        (b"P2 3 1 255\n0 50 # a comment\n100", {"mode": "raw", **PNM}, [0, 50, 100]),
-        (b"P2 1 2 255 0 254", PNM, [0, 100]),  # the lowest row first
+        (b"P2 3 1 255\n0 50 # a comment\n100\n", {"mode": "raw", **PNM}, [0, 50, 100]),
+        (b"P2 1 2 255 0 254 ", PNM, [0, 100]),  # the lowest row first
         (b"P6 1 1 255\n\0\xff\0", PNM, [100]),
+        # What follows was measured: map_server's rules over the pixels of SDL_image 1.2.12.
+        (ONE_BIT, BMP, [100] * 8),  # the number of the colour, 0 or 1
+        (ONE_BIT, PBM, [100] * 8),
+        (b"P1 4 1\n0110\n", {**PBM, "negate": 1}, [0] * 4),
+        (b"P1 4 1\n0 1 1 0\n", {**PBM, **RAW}, [0, 1, 1, 0]),
+        (bmp(4, b"\x0f\xf0", 4), {**BMP, **RAW}, [0, 15, 15, 0]),
+        (bmp(8, bytes((0, 205, 254)), 3), BMP, [100, -1, 0]),
+        (bmp(16, b"\x64\xff", 1), {**BMP, **SCALED}, [24]),
+        (bmp(24, BLUE_CYAN_WHITE, 3), {**BMP, **SCALED}, [100, -1, 0]),  # R counts as alpha
+        (bmp(24, BLUE_CYAN_WHITE, 3), BMP, [100, -1, 0]),
+        (bmp(32, CLEAR_SOLID, 2), BMP, [100, -1]),  # alpha is averaged, too
+        (bmp(32, CLEAR_SOLID, 2), {**BMP, **SCALED}, [-1, 89]),
+        (bmp(32, CLEAR_SOLID, 2), {**BMP, **RAW}, [100, 100]),
+        (bmp(32, CLEAR_SOLID, 2, 3, struct.pack("<IIII", 255 << 16, 255 << 8, 255, 0)),
+         {**BMP, **RAW}, [75, -118]),
+        (b"P5 4 1 127\n\0\x28\x7f\x40", {**PNM, **RAW}, [0, 80, -1, -128]),
+        (b"P2 3 1 100\n0 50 100\n", {**PNM, **RAW}, [0, 127, -1]),  # cut off: not -128
+        (b"P5 3 1 15\n\0\x07\x0f", {**PNM, **SCALED}, [100, 73, 0]),
     ],
 )  # fmt: skip
 def test_cells_are_those_of_map_server(tmp_path, image, given, values):
@@ -50,6 +91,41 @@ def test_cells_are_those_of_map_server(tmp_path, image, given, values):
     else:
         image.save(tmp_path / about["image"])
     assert read_map(tmp_path / "map.yaml", about).cells.ravel().tolist() == values
+
+
+@pytest.mark.parametrize(
+    ("image", "transparency", "values"),
+    [
+        (HOLED, 205, [-1, -1, 0, -1]),  # gray and alpha, averaged
+        (HOLED.point(lambda shade: shade // 16 * 17), 204, [-1, -1, 0, -1]),
+        (COLOURS, (170, 170, 0), [-1, -1]),  # of RGB it counts for nothing
+        (INDEXED, b"\xff\0", [100, 100]),
+        (INDEXED, b"\xff\xff", [100, 100]),
+        (INDEXED, b"\xff\x80", [0, 100]),  # half of a colour: RGBA
+    ],
+)
+def test_transparency_of_a_png_counts_as_in_sdl_image(tmp_path, image, transparency, values):
+    image.save(tmp_path / "map.png", transparency=transparency)
+    assert read_map(tmp_path / "map.yaml", ABOUT).cells.ravel().tolist() == values
+
+
+def test_of_16_bits_all_count_for_transparency(tmp_path):
+    picture, data = Image.fromarray(np.array([[0, 205 << 8 | 7, 205 << 8]], np.uint16)), BytesIO()
+    picture.save(data, "PNG")
+    png, chunk = data.getvalue(), b"tRNS" + struct.pack(">H", 205 << 8)
+    head, pixels = png[:33], png[33:]  # after IHDR
+    chunk = struct.pack(">I", 2) + chunk + struct.pack(">I", crc32(chunk))
+    (tmp_path / "map.png").write_bytes(head + chunk + pixels)
+    assert read_map(tmp_path / "map.yaml", ABOUT).cells.ravel().tolist() == [-1, 0, -1]
+
+
+@pytest.mark.parametrize(
+    "data", [b"P2 2 1 255\n0 254\n", b"P5 2 1 255\n\0\xfe", bmp(24, bytes(3) + b"\xfe" * 3, 2)]
+)
+def test_all_but_png_are_read_without_pillow(tmp_path, monkeypatch, data):
+    monkeypatch.setitem(sys.modules, "PIL", None)
+    (tmp_path / "map.png").write_bytes(data)
+    assert read_map(tmp_path / "map.yaml", ABOUT).cells.ravel().tolist() == [100, 0]
 
 
 def write_map(folder, shades, **given):

@@ -2,9 +2,12 @@
 
 import os
 import sys
+from io import BytesIO
 
+import numpy as np
 import PIL
 import pytest
+from PIL import Image
 
 from fake_turtlebot_sim.simulator.parameters import parse_parameters
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
@@ -68,15 +71,32 @@ def test_a_mistake_is_one_line(tmp_path, text, said):
     assert said in str(error.value) and "\n" not in str(error.value)
 
 
+def png(shade):
+    """Return a PNG of one pixel."""
+    data = BytesIO()
+    Image.fromarray(np.full((1, 1), shade)).save(data, "PNG")
+    return data.getvalue()
+
+
 @pytest.mark.parametrize(
     ("data", "said"),
     [
         (b"GIF89a", "no PGM, PNG or BMP"),
-        (b"P2 3 1 255\n0 50 -1", "cut short, or has a negative number"),
-        (b"P5 2 1 65535\n\0\xff\0\0", "map_server reads the higher 8, which are all 0"),
+        (b"P2 3 1 255\n0 50 -1\n", "its shades must be numbers from 0 to 255"),
+        (b"P2 3 1 255\n", "its shades must be numbers"),
+        (b"P2 3 1 255\n0 50\n", "cut short"),
+        (b"P2 3 1 255\n0 50 100", "needs an end of line after the last number"),
+        (b"P1 3 1\n01\n", "cut short"),
+        (b"P5 3 1 255\n\0\0", "cut short"),
+        (b"P5 3 1\n", "its header is malformed"),
+        (b"P5 2 1 256\n" + bytes(4), "256 shades: .* does not load on the robot .*; convert it"),
+        (b"P5 2 1 65535\n" + bytes(4), "65535 shades: .*convert OLD.pgm -depth 8 NEW.pgm"),
+        (png(np.uint16(255)), "map_server reads the higher 8, which are all 0"),
+        (png(np.uint8(0))[:30], "cut short"),
+        (b"BM" + bytes(40), "none"),
         (b"P5 20 10 255\n" + bytes(200), "reaches farther than 10000 m"),
         (b"P5 4096 4097 255\n", "more than 16777216 cells"),
-        (b"P5 1 1 255\n\0", "takes Pillow: apt install python3-pil"),  # where that is missing
+        (png(np.uint8(0)), "takes Pillow: apt install python3-pil"),  # where that is missing
     ],
 )  # fmt: skip
 def test_an_image_that_is_no_map_is_one_line(tmp_path, monkeypatch, data, said):

@@ -1,17 +1,15 @@
 """Maps as map_server reads them, their walls, and where in them a robot has room (pure, numpy).
 
-The rules are those of map_server's main.cpp and image_loader.cpp, and of SDL_image below them.
+The rules are those of map_server's main.cpp and image_loader.cpp.
 """
 
 from __future__ import annotations
 
-import re
 from cmath import rect
 from contextlib import suppress
 from dataclasses import dataclass
 from errno import EFBIG
 from functools import cached_property
-from io import BytesIO
 from pathlib import Path
 from stat import S_ISREG
 from typing import Any, Mapping
@@ -19,9 +17,9 @@ from typing import Any, Mapping
 import numpy as np
 
 from fake_turtlebot_sim.simulator.differential_drive import Pose
+from fake_turtlebot_sim.simulator.map_images import read_pixels
 
 OCCUPIED, UNKNOWN = 100, -1  # nav_msgs/OccupancyGrid; 0: free
-LARGEST_MAP = 4096 * 4096  # cells
 LARGEST_IMAGE = 100_000_000  # bytes
 MOST_WALLS = 200_000  # pieces of outlines
 FARTHEST_M = 1e4  # from (0, 0): beyond, places round to more than a touch
@@ -124,7 +122,7 @@ def read_map(path: Path, about: Mapping[str, Any]) -> Grid:
     image = path.parent / str(about["image"])
     try:
         check_file(image, LARGEST_IMAGE)
-        pixels = _pixels(image.read_bytes())
+        pixels, has_alpha = read_pixels(image.read_bytes())
     except ImportError:
         raise WorldError(f"{image}: reading it takes Pillow: apt install python3-pil") from None
     except Exception as error:  # Pillow lets struct.error and more through
@@ -133,7 +131,7 @@ def read_map(path: Path, about: Mapping[str, Any]) -> Grid:
     if np.hypot(x, y) + np.hypot(*pixels.shape[:2]) * resolution > FARTHEST_M:
         raise WorldError(f"{image}: reaches farther than {FARTHEST_M:g} m from (0, 0)")
     channels = pixels.shape[2]
-    counted = channels - (channels == 4 and mode != TRINARY)  # without alpha
+    counted = channels - (has_alpha and mode != TRINARY)
     mean = np.arange(255 * counted + 1) / counted  # for each sum of the channels
     table = _values(255 - mean if str(negate) == "1" else mean, mode, occupied, free)
     cells = table[pixels[..., :counted].sum(axis=2, dtype=np.uint16)]
@@ -161,30 +159,3 @@ def _values(shades: Any, mode: str, occupied: float, free: float) -> Any:
     between = 1 + 98 * (share - free) / (occupied - free or 1.0) if mode == SCALE else UNKNOWN
     values = np.where(share > occupied, OCCUPIED, np.where(share < free, 0, between))
     return values.astype(np.int8)
-
-
-def _pixels(data: bytes) -> Any:
-    """Return the bytes of an image's pixels as SDL_image has them: (rows, columns, channels)."""
-    from PIL import Image  # noqa: PLC0415  a quarter of the node's start, and for maps alone
-
-    if not re.match(rb"P[1-6]\s|\x89PNG\r|BM", data):  # Pillow 7 has no formats=
-        raise WorldError("no PGM, PNG or BMP")
-    Image.MAX_IMAGE_PIXELS = None  # it is checked here
-    picture = Image.open(BytesIO(data))
-    cells = picture.width * picture.height
-    if cells > LARGEST_MAP:
-        raise WorldError(f"more than {LARGEST_MAP} cells")
-    if data[:2] in {b"P2", b"P3"}:  # numbers as text: Pillow makes up what is missing
-        text = np.frombuffer(re.sub(rb"#[^\r\n]*", b"", data), np.uint8)
-        numbers = np.count_nonzero((text[:-1] <= ord(" ")) & (text[1:] > ord(" ")))
-        if numbers < 3 + cells * len(picture.getbands()) or ord("-") in text:
-            raise WorldError("cut short, or has a negative number")
-    kinds = {"1": "L", "F": "L", "LA": "RGBA", "PA": "RGBA", "CMYK": "RGB"}
-    if isinstance(picture.info.get("transparency"), bytes):
-        kinds["P"] = "RGBA"  # else the number of the colour counts
-    pixels = np.asarray(picture.convert(kinds.get(picture.mode, picture.mode)))
-    if pixels.dtype != np.uint8:  # 16 bits: keep the higher 8
-        pixels = (pixels >> 8).astype(np.uint8)
-        if not pixels.any():
-            raise WorldError("of its 16 bits map_server reads the higher 8, which are all 0")
-    return pixels.reshape(*pixels.shape[:2], -1)
