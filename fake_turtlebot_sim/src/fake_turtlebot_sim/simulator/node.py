@@ -34,11 +34,13 @@ class FakeTurtlebot:
         mobile_base/commands/reset_odometry (std_msgs/Empty); of a Kobuki those of kobuki_topics
     Publishers: odom (nav_msgs/Odometry), joint_states (sensor_msgs/JointState),
         base_pose_ground_truth (nav_msgs/Odometry; in a world, or if the odometry has errors),
-        in a world map (nav_msgs/OccupancyGrid, latched), world_markers (MarkerArray) and
+        in a world map (nav_msgs/OccupancyGrid), map_metadata (nav_msgs/MapMetaData), both latched,
+        world_markers (MarkerArray) and
         for each robot scan (sensor_msgs/LaserScan), bumper_markers (MarkerArray) and
         mobile_base/events/bumper, cliff, wheel_drop (kobuki_msgs),
         /tf and /tf_static (tf2_msgs/TFMessage), /diagnostics (diagnostic_msgs/DiagnosticArray)
-    Services: ~reset (std_srvs/Empty), and of several robots each one's own, reset
+    Services: ~reset (std_srvs/Empty), and of several robots each one's own, reset; in a world
+        static_map (nav_msgs/GetMap), change_map (nav_msgs/LoadMap)
     Parameters: parameters.Parameters, as a table in README.md
     """
 

@@ -10,7 +10,7 @@ from typing import Any, Callable
 import numpy as np
 import yaml
 
-from fake_turtlebot_sim.simulator.grid_map import FARTHEST_M, WorldError, check_file, read_map
+from fake_turtlebot_sim.simulator.grid_map import FARTHEST_M, Grid, WorldError, check_file, read_map
 from fake_turtlebot_sim.simulator.world import World
 from node_kit.parameters import is_number
 
@@ -67,6 +67,14 @@ def read_world(path: Path) -> World:
         if count > MOST.get(name, 3):
             raise WorldError(f"line {line}: {name}: {count} are too many: at most {MOST[name]}")
     return World(**found)
+
+
+def read_grid(path: Path) -> Grid:
+    """Return the Grid of a map of map_server, a YAML file. Raises WorldError."""
+    _, data = _parsed(path)
+    if not isinstance(data, dict) or "image" not in data:
+        raise WorldError("must be a map of map_server, with image:")
+    return read_map(path, data)
 
 
 def _parsed(path: Path) -> tuple[Any, Any]:

@@ -26,14 +26,20 @@ GREY, RED = ColorRGBA(0.45, 0.42, 0.38, 1.0), ColorRGBA(0.85, 0.1, 0.1, 1.0)
 
 def world_map(world: World, frame: str, stamp: Any, resolution: float = 0.05) -> OccupancyGrid:
     """Return the OccupancyGrid of a world in the frame: a map as it is, others with cells drawn."""
-    drawn = world.grid or _drawn(world, resolution)
-    x, y, yaw = drawn.origin
-    grid = OccupancyGrid(data=array("b", drawn.cells.tobytes()))
-    grid.header.frame_id, grid.header.stamp, grid.info.map_load_time = frame, stamp, stamp
-    grid.info.resolution, (grid.info.height, grid.info.width) = drawn.resolution, drawn.cells.shape
-    grid.info.origin.position = Point(x, y, 0.0)
-    grid.info.origin.orientation = Quaternion(0.0, 0.0, sin(0.5 * yaw), cos(0.5 * yaw))
-    return grid
+    return grid_message(world.grid or _drawn(world, resolution), frame, stamp)
+
+
+def grid_message(grid: Grid, frame: str, stamp: Any) -> OccupancyGrid:
+    """Return the OccupancyGrid of a Grid, loaded at the stamp."""
+    x, y, yaw = grid.origin
+    message = OccupancyGrid(data=array("b", grid.cells.tobytes()))
+    message.header.frame_id, message.header.stamp = frame, stamp
+    info = message.info
+    info.map_load_time, info.resolution = stamp, grid.resolution
+    info.height, info.width = grid.cells.shape
+    info.origin.position = Point(x, y, 0.0)
+    info.origin.orientation = Quaternion(0.0, 0.0, sin(0.5 * yaw), cos(0.5 * yaw))
+    return message
 
 
 def _drawn(world: World, resolution: float) -> Grid:

@@ -8,13 +8,13 @@ from typing import Any, Callable
 import numpy as np
 import rospy
 from kobuki_msgs.msg import CliffEvent
-from nav_msgs.msg import OccupancyGrid
 from rospy.msg import serialize_message
 from sensor_msgs.msg import LaserScan
 from visualization_msgs.msg import MarkerArray
 
 from fake_turtlebot_sim.simulator.kobuki import BOTTOM, EVENTS, QUEUE
 from fake_turtlebot_sim.simulator.laser import Laser
+from fake_turtlebot_sim.simulator.map_topics import MapTopics
 from fake_turtlebot_sim.simulator.parameters import Parameters
 from fake_turtlebot_sim.simulator.ros_messages import ORIGIN, Place
 from fake_turtlebot_sim.simulator.sensors import Sensed
@@ -29,7 +29,7 @@ MARKERS_S = 1.0  # how often they are sent: RViz drops a marker that comes befor
 
 
 class WorldTopics:
-    """Publishers: map, latched, world_markers and the SensorTopics of each robot."""
+    """Publishers: world_markers, MapTopics and the SensorTopics of each robot."""
 
     def __init__(
         self,
@@ -41,11 +41,7 @@ class WorldTopics:
         """Take the robots by name and publish the map and the markers."""
         self._parameters, self._robots = parameters, list(robots.values())
         self._sensors = [SensorTopics(name, parameters, world, warn) for name in robots]
-        self._map = rospy.Publisher("map", OccupancyGrid, queue_size=1, latch=True)
-        # Serialised once: a map as large as a building takes a while.
-        shown = io.BytesIO()
-        world_map(world, parameters.map_frame, rospy.Time.now()).serialize(shown)
-        self._map.publish(rospy.AnyMsg().deserialize(shown.getvalue()))
+        self._map = MapTopics(world_map(world, parameters.map_frame, rospy.Time.now()), warn)
         self._markers = PromptPublisher("world_markers", MarkerArray)
         self._cycles_per_markers = round(MARKERS_S * parameters.rate)
         shown = io.BytesIO()
