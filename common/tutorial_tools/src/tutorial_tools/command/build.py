@@ -72,7 +72,11 @@ def one_at_a_time(workspace: Path) -> Iterator[None]:
     """Of two calls at once let one do the work, and the other wait and find it done."""
     workspace.mkdir(parents=True, exist_ok=True)
     with open(workspace / "lock", "w", encoding="utf-8") as file:
-        fcntl.flock(file, fcntl.LOCK_EX)
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            say("another ./tutorial is building here; this one waits for it")
+            fcntl.flock(file, fcntl.LOCK_EX)
         yield
 
 

@@ -1,0 +1,29 @@
+"""Two ./tutorial at once: one builds, and the other one says that it waits."""
+
+import fcntl
+import threading
+
+from tutorial_testing.waiting import wait_for
+from tutorial_tools.command import build
+
+
+def test_who_waits_for_a_build_says_so(tmp_path, capsys):
+    said, done = [], threading.Event()
+
+    def build_too():
+        with build.one_at_a_time(tmp_path):
+            done.set()
+
+    with open(tmp_path / "lock", "w") as file:
+        fcntl.flock(file, fcntl.LOCK_EX)
+        waiter = threading.Thread(target=build_too)
+        waiter.start()
+        wait_for(lambda: said.append(capsys.readouterr().err) or "waits" in "".join(said), "a line")
+        assert not done.is_set()
+    waiter.join(30)
+    assert done.is_set() and "another ./tutorial is building" in "".join(said)
+
+
+def test_who_does_not_wait_says_nothing(tmp_path, capsys):
+    with build.one_at_a_time(tmp_path):
+        assert not capsys.readouterr().err
