@@ -7,6 +7,8 @@ import math
 import re
 from typing import NoReturn
 
+from node_kit.printable import printable
+
 CHOICE = re.compile(r"argument \S+: invalid choice: '(.*)' \(choose from (.*)\)")
 
 
@@ -19,7 +21,7 @@ class Parser(argparse.ArgumentParser):
         if wrong:
             *others, last = wrong[2].replace("'", "").split(", ")
             message = f'"{wrong[1]}": must be {", ".join(others)} or {last}'
-        self.exit(2, f"{self.prog}: {message}; {self.prog} --help shows more\n")
+        self.exit(2, printable(f"{self.prog}: {message}; {self.prog} --help shows more\n"))
 
 
 def above_zero(text: str) -> float:

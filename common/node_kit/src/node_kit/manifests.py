@@ -11,6 +11,8 @@ from pathlib import Path
 from typing import Iterator
 from xml.etree import ElementTree
 
+MOST_BYTES = 256 << 10  # of package.xml; parsed, it takes ten times the memory
+
 
 def broken_manifests(folder: str | Path) -> list[tuple[str, str]]:
     """Return [(path, what is wrong)] of each package.xml below a folder that is unreadable."""
@@ -37,6 +39,8 @@ def manifests(folder: Path, above: frozenset[str] = frozenset()) -> Iterator[Pat
 
 def _complaint(path: Path) -> str:
     try:
+        if path.stat().st_size > MOST_BYTES:
+            return f"larger than {MOST_BYTES >> 10} kB"
         name = ElementTree.parse(path).findtext("name")
     except (ElementTree.ParseError, OSError, ValueError, LookupError) as error:
         return str(error)

@@ -17,6 +17,7 @@ from node_kit.ending import (
     wait_for_goodbye,
 )
 from node_kit.parameters import checked_value, switch
+from node_kit.printable import printable
 from node_kit.ros_api import Answer, call, holder
 from node_kit.rospy_patches.connections import be_careful
 from node_kit.rospy_patches.shutdown import end_only_if_replaced
@@ -86,7 +87,7 @@ def as_callback(function: Callable[..., object]) -> Callable[..., None]:
 
 
 def _fail(name: str, why: object) -> int:
-    print(f"{name}: {why}", file=sys.stderr)
+    print(printable(f"{name}: {why}"), file=sys.stderr)
     return 1
 
 
