@@ -10,7 +10,7 @@ import pytest
 import stored
 from edits import literal  # noqa: F401
 
-from tutorial_check.launcher import examine
+from tutorial_check.examination import examine
 from tutorial_check.order import Order
 
 HERE = Path(__file__).resolve().parent

@@ -14,7 +14,7 @@ from test_awkward import PYTHONPATH, command, examines
 from test_endings import path_without_namespaces
 from test_mistakes import OF_HANDOUT
 
-from tutorial_check.launcher import examine
+from tutorial_check.examination import examine
 from tutorial_check.order import Order
 from tutorial_testing.processes import Program, command_line, descendants, signal_all
 from tutorial_testing.two_hosts.network import Network

@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 from edits import LAUNCH_BAG, TALKER, J, built, put
 
+from tutorial_check.examination import examine
 from tutorial_check.isolation import bubblewrap
-from tutorial_check.launcher import examine
 from tutorial_check.order import Order
 
 pytestmark = pytest.mark.skipif(

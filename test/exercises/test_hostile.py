@@ -9,8 +9,8 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 from edits import JOY2TWIST, TALKER, put, write
 
+from tutorial_check.examination import examine
 from tutorial_check.isolation import bubblewrap
-from tutorial_check.launcher import examine
 from tutorial_check.order import Order
 from tutorial_check.report.text import lines_of
 from tutorial_testing.processes import command_line
@@ -47,6 +47,17 @@ while not rospy.is_shutdown():
     loud.publish(msg)
     loud2.publish(Joy(axes=[0.3, 0.4, 0, 0, 0, 0], buttons=[0] * 12))
     rospy.sleep(0.02)
+"""
+# What Python would run at the start of each program with this home folder.
+PLANTS_PYTHON = """import os, sys
+ours = os.path.join(os.environ['HOME'], '..', 'ours', '.local', 'lib')
+ours = os.path.join(ours, 'python%d.%d' % sys.version_info[:2], 'site-packages')
+try:
+    os.makedirs(ours)
+    with open(os.path.join(ours, 'usercustomize.py'), 'w') as file:
+        file.write('import os; os._exit(9)')
+except OSError:
+    pass
 """
 # Of joy2twist.py, after init_node: (lines, checks that may be wrong, words of the first).
 JOINED = {
@@ -85,6 +96,14 @@ def test_a_hostile_joy2twist_has_a_verdict_and_harms_no_file(literal, underlay, 
     assert victim.read_bytes() == before
     check, report = first_wrong(outcome)
     assert check in checks.split() and words in report, report
+
+
+def test_what_a_program_leaves_in_our_home_folder_runs_in_no_program_of_ours(literal, underlay):
+    """In 4.4 the simulated robot starts after it."""
+    lines = textwrap.indent(PLANTS_PYTHON, "    ")
+    put(JOY2TWIST, AFTER_INIT, f"{AFTER_INIT}{lines}")(literal)
+    (outcome,) = examine(Order(literal.parent, underlay, ["4.4"]))
+    assert outcome.passed, (first_wrong(outcome), outcome.trouble)
 
 
 def test_a_link_planted_where_the_checker_writes_is_not_followed(

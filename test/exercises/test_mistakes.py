@@ -9,7 +9,7 @@ import pytest
 from edits import apply
 
 from tutorial_check.course import read_course
-from tutorial_check.launcher import examine
+from tutorial_check.examination import examine
 from tutorial_check.order import Order
 from tutorial_check.report.text import lines_of
 

@@ -10,7 +10,7 @@ from edits import *
 from test_mistakes import is_reported
 
 from tutorial_check.course import checks_of, read_course
-from tutorial_check.launcher import examine
+from tutorial_check.examination import examine
 from tutorial_check.order import Order
 from tutorial_check.report.text import lines_of
 from tutorial_testing.processes import REPOSITORY

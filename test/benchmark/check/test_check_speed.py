@@ -5,7 +5,7 @@ import shutil
 import time
 
 from tutorial_check.course import read_course
-from tutorial_check.launcher import examine
+from tutorial_check.examination import examine
 from tutorial_check.order import Order
 from tutorial_testing.processes import REPOSITORY
 

@@ -10,7 +10,14 @@ import pytest
 from tutorial_check.model import CannotCheck
 from tutorial_check.record import session
 from tutorial_check.source import workspace
-from tutorial_check.source.workspace import copy, find_layout, hand_in, packages_below, unpack
+from tutorial_check.source.workspace import (
+    Layout,
+    copy,
+    find_layout,
+    hand_in,
+    packages_below,
+    unpack,
+)
 
 XML = """<package format="2"><name>{}</name><version>0.0.0</version><description>x</description>
 <maintainer email="a@b.example">a</maintainer><license>x</license>
@@ -202,3 +209,14 @@ def test_a_launch_file_or_cmakelists_of_any_text_is_read_at_once(tmp_path, text)
     assert workspace.named_outside(tmp_path) == []
     assert not session.NEEDS_BUILD.search(text * 99_999)
     assert time.process_time() - began_s < 60.0
+
+
+@pytest.mark.parametrize(
+    "reads", [find_layout, lambda top: copy(Layout(top, top), top.parent / "to")]
+)
+def test_folders_in_folders_without_end_are_one_line(tmp_path, reads):
+    top = tmp_path / "handed_in"
+    top.joinpath(*["d"] * (workspace.MOST_DEPTH + 5)).mkdir(parents=True)
+    with pytest.raises(CannotCheck, match="folders in folders") as caught:
+        reads(top)
+    assert str(caught.value).startswith(f"{top}:")

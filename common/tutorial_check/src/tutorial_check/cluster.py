@@ -24,8 +24,8 @@ from urllib.parse import urlsplit
 
 from node_kit.arguments import Parser
 from tutorial_check.course import OURS, read_course
+from tutorial_check.examination import examine
 from tutorial_check.isolation import bubblewrap, landlock, privileges
-from tutorial_check.launcher import examine
 from tutorial_check.model import CannotCheck, Outcome
 from tutorial_check.order import Order
 from tutorial_check.report.memory import digest_of_checks

@@ -15,8 +15,8 @@ from typing import NoReturn, Sequence
 
 from node_kit.arguments import Parser
 from tutorial_check.course import OURS, read_course
+from tutorial_check.examination import examine
 from tutorial_check.isolation import bubblewrap
-from tutorial_check.launcher import examine
 from tutorial_check.model import CannotCheck, Outcome, fault
 from tutorial_check.order import Order
 from tutorial_check.package import package
@@ -223,7 +223,7 @@ def watch(options: argparse.Namespace) -> NoReturn:
         try:
             outcomes = _look(options, only_first=True)
         except CannotCheck as error:
-            print(f"check: {error}")  # half-saved, or a folder that is just being moved
+            print(f"check: {fault(error)}")  # half-saved, or a folder that is just being moved
         else:
             solved = ", ".join(one.id for one in outcomes if one.solved)
             all_passed = all(outcome.passed for outcome in outcomes)
@@ -268,7 +268,7 @@ def main() -> None:
     try:
         code = _run(options)
     except CannotCheck as error:
-        print(f"\ncheck: no verdict: {error}", file=sys.stderr)
+        print(f"\ncheck: no verdict: {fault(error)}", file=sys.stderr)
         code = 2
     except BrokenPipeError:  # The reader, as head, has seen enough.
         sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115  for what is unwritten

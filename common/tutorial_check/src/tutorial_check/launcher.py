@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import compileall
 import contextlib
 import functools
 import itertools
@@ -17,6 +16,7 @@ from dataclasses import is_dataclass, replace
 from pathlib import Path
 from typing import Any, Callable, Iterator, cast, get_args, get_origin, get_type_hints
 
+from node_kit.printable import quotable
 from tutorial_check.ask_once import HANDED_IN, Answers, Ask, AskOnce
 from tutorial_check.course import FILE, OURS, Course, checks_of, read_course
 from tutorial_check.isolation import bubblewrap, privileges
@@ -91,7 +91,7 @@ class Case(Session):
         return True
 
     def as_sent(self, result: Result) -> Result:
-        """Return a result with the student's own paths."""
+        """Return a result with the student's own paths, in words that a terminal may show."""
         layout = self.layout
         copied = f"{self.source.parent}/" if layout.is_workspace else f"{self.source}/"
         # Commands work in any folder, where the workspace is known.
@@ -99,10 +99,11 @@ class Case(Session):
         root = f"{shlex.quote(str(layout.root))}/" if is_known else ""
         roots = {"hint": root, "look": root}
         found: dict[str, Any] = {
-            name: words.replace(copied, roots.get(name, "")) if isinstance(words, str) else words
+            name: quotable(words.replace(copied, roots.get(name, "")))
             for name, words in vars(result).items()
+            if isinstance(words, str)
         }
-        return Result(**found)
+        return replace(result, **found)
 
 
 def must_be_whole(recorded: type) -> None:
@@ -128,12 +129,7 @@ def examine(
 
     side_by_side: a second worker may record what the last exercises need while the first are made.
     """
-    if not os.path.isfile(asked.underlay):
-        why = "no such file, or may not be read; ./tutorial setup builds it"
-        raise CannotCheck(f"{asked.underlay}: {why}")
-    # A worker, which writes nothing, would compile our modules each time.
-    compileall.compile_dir(str(Path(__file__).parent), quiet=2)
-    course = read_course(asked.course)
+    asked, course = sourced(asked), read_course(asked.course)
     try:
         with contextlib.ExitStack() as stack:
             order, worker = stack.enter_context(_worker(asked))
@@ -153,7 +149,7 @@ def _worker(asked: Order) -> Iterator[tuple[Order, Worker]]:
     """Yield the whole order and a worker that can record."""
     user = privileges.unused_user(next(NUMBERS)) if os.geteuid() == 0 else None
     # Isolated, a worker does not reach the folder itself.
-    folder, cleaner = privileges.folder_until_end("tutorial_check_")
+    folder, cleaner = privileges.folder_until_end("tutorial_check_", user)
     try:
         order = prepared(asked, Path(folder))
         wrapper = bubblewrap.command(folder, order.shown, SUITE)
@@ -161,12 +157,11 @@ def _worker(asked: Order) -> Iterator[tuple[Order, Worker]]:
         must_start_programs(order, is_other=user is not None)
         if user is not None:
             privileges.open_to(user, folder)
-        with Worker(order, [*wrapper, *privileges.as_user(user)]) as worker:
+        wrapper = [*privileges.unlimited(), *wrapper, *privileges.as_user(user)]
+        with Worker(order, wrapper) as worker:
             worker.begin()
             yield order, worker
     finally:
-        if user is not None:
-            subprocess.run([*privileges.as_user(user), "sh", "-c", "kill -KILL -1"], check=False)
         cleaner.communicate()
 
 
@@ -206,11 +201,22 @@ def prepared(asked: Order, folder: Path) -> Order:
         course.mkdir()
         for path in (asked.course / FILE, *asked.course.glob("*.py")):
             shutil.copy(path, course)
-    underlay = os.path.abspath(asked.underlay)
+    asked = sourced(asked)
     return replace(
-        asked, underlay=underlay, course=course, folder=folder, layout=layout,
-        environment=_environment(underlay), shown=(*shown, course, *_needed(underlay)),
+        asked, course=course, folder=folder, layout=layout,
+        shown=(*shown, course, *_needed(asked.underlay)),
     )  # fmt: skip
+
+
+def sourced(asked: Order) -> Order:
+    """Return an order with the environment of a shell of its underlay. Raises CannotCheck."""
+    if asked.environment:
+        return asked
+    if not os.path.isfile(asked.underlay):
+        why = "no such file, or may not be read; ./tutorial setup builds it"
+        raise CannotCheck(f"{asked.underlay}: {why}")
+    underlay = os.path.abspath(asked.underlay)
+    return replace(asked, underlay=underlay, environment=_environment(underlay))
 
 
 def _needed(underlay: str) -> tuple[Path, ...]:
@@ -236,7 +242,8 @@ def _environment(underlay: str) -> dict[str, str]:
     # rospy loads numpy, which starts a thread for each processor; none is needed here.
     found = environment_of(done.stdout.split("\0"))
     own = {name: os.environ[name] for name in OF_SUITE if name in os.environ}
-    return {**found, **own, "OPENBLAS_NUM_THREADS": "1"}
+    # Nor what a student's program puts into a home folder for all that Python starts later.
+    return {**found, **own, "OPENBLAS_NUM_THREADS": "1", "PYTHONNOUSERSITE": "1"}
 
 
 def must_start_programs(order: Order, is_other: bool) -> None:

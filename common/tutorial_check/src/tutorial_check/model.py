@@ -8,6 +8,8 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Callable, Iterable, Iterator
 
+from node_kit.printable import quotable
+
 OK, WRONG, NOTE, UNREACHED = "ok", "wrong", "note", "unreached"
 LINE = re.compile(r":\d+$")  # line number at the end of a place
 
@@ -87,9 +89,10 @@ class CannotCheck(Exception):
 def fault(error: Exception) -> str:
     """Return in one line why an exception keeps the checker from working; where, if it is a bug."""
     if isinstance(error, CannotCheck):
-        return str(error)
+        return quotable(str(error))
     line = traceback.extract_tb(error.__traceback__)[-1]
-    return f"{type(error).__name__}: {error} ({Path(line.filename).name}:{line.lineno})"
+    where = f"({Path(line.filename).name}:{line.lineno})"
+    return quotable(f"{type(error).__name__}: {error} {where}")
 
 
 @dataclass(frozen=True)

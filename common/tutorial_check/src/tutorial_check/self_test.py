@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Iterator
 
 from tutorial_check.course import Course, checks_of
+from tutorial_check.examination import examine
 from tutorial_check.isolation.environment import copy_tree
-from tutorial_check.launcher import examine
 from tutorial_check.model import UNREACHED, WRONG, CannotCheck, Outcome
 from tutorial_check.order import Order
 

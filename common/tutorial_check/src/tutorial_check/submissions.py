@@ -10,8 +10,9 @@ from collections import Counter
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 
+from node_kit.printable import printable
 from tutorial_check.cluster import MOST_AT_ONCE, Cluster, Gone
-from tutorial_check.launcher import examine
+from tutorial_check.examination import examine
 from tutorial_check.model import CannotCheck, fault
 from tutorial_check.order import Order
 from tutorial_check.report.class_page import Student, table_csv, table_html
@@ -109,7 +110,7 @@ class Check:
                 for student, remark in (done.result() for done in as_completed(checks)):
                     bar.update()
                     verdict = student.trouble or summary(student.outcomes)
-                    bar.write(f"{student.name}: {verdict}, {remark}")
+                    bar.write(printable(f"{student.name}: {verdict}, {remark}"))
                     self._show()
             except (KeyboardInterrupt, Gone):  # the pool would go on to the last student
                 for check in checks:
@@ -147,7 +148,7 @@ class Check:
         student.seconds = time.monotonic() - began_s
         report = f"could not be checked: {student.trouble}\n" if student.trouble else ""
         try:
-            text = f"{student.name}\n\n{report or text_of(student.outcomes)}"
+            text = printable(f"{student.name}\n\n{report or text_of(student.outcomes)}")
             write(self._out / f"{student.name}.txt", text)
             if student.outcomes:
                 report = as_json(student.outcomes, with_recordings=False)

@@ -16,6 +16,7 @@ from tutorial_check.model import Wrong
 from tutorial_check.record.session import Session
 from tutorial_check.record.stage import Stage
 from tutorial_check.source import launch_xml
+from tutorial_check.source.student_files import text_of_file
 
 DIED = re.compile(r"^\[([^\]]+)-\d+\] process has died", re.MULTILINE)
 
@@ -47,7 +48,7 @@ def launch_file(session: Session, package: str, name: str) -> LaunchFile:
     if facts[0]["fault"]:
         fault = launch_xml.Fault(**facts[0]["fault"])
         path, line = launch_xml.blamed(fault, session.is_own)
-        text, where = Path(path).read_text(errors="replace"), os.path.relpath(path, folder)
+        text, where = text_of_file(Path(path)), os.path.relpath(path, folder)
         raise launch_xml.parse_error(fault, where, line, text, session.may_see)
     file = LaunchFile(session, package, paths[name], facts[0]["nodes"])
     for node in file.nodes:

@@ -6,6 +6,7 @@ import contextlib
 import ctypes
 import os
 import resource
+import shlex
 import subprocess
 import tempfile
 from pathlib import Path
@@ -23,13 +24,20 @@ LIMITS = {
     resource.RLIMIT_CORE: 0,
     resource.RLIMIT_NOFILE: 1024,
 }
+# Of the process that reads what was handed in. All nine exercises take it 3 s and 80 MB.
+MOST_CPU_S, MOST_MB = 20, 450
+OF_READER = {resource.RLIMIT_CPU: MOST_CPU_S, resource.RLIMIT_DATA: MOST_MB << 20}
 
 
-def folder_until_end(prefix: str) -> tuple[str, subprocess.Popen[bytes]]:
-    """Return a new folder, and a process that removes it once its input closes, as when we end."""
+def folder_until_end(prefix: str, user: int | None = None) -> tuple[str, subprocess.Popen[bytes]]:
+    """Return a new folder, and a process that removes it once its input closes, as when we end.
+
+    user: whose processes it ends before, if that is another one than ours.
+    """
     folder = tempfile.mkdtemp(prefix=prefix)
+    end = shlex.join([*as_user(user), "sh", "-c", "kill -KILL -1"]) if user is not None else ":"
     # Programs that end at the same time may still write.
-    remove = 'read -r _; for try in 1 2 3 4 5; do rm -rf -- "$1" && break; sleep 1; done'
+    remove = f'read -r _; {end}; for n in 1 2 3 4 5; do rm -rf -- "$1" && break; sleep 1; done'
     words = ["sh", "-c", remove, "sh", folder]
     return folder, subprocess.Popen(words, stdin=subprocess.PIPE, start_new_session=True, env={})
 
@@ -86,6 +94,20 @@ def limit(limits: dict[int, int]) -> None:
             hard = resource.getrlimit(what)[1]
             value = wanted if hard == resource.RLIM_INFINITY else min(wanted, hard)
             resource.setrlimit(what, (value, value))
+
+
+def limit_reader() -> None:
+    """Set the limits of a reader, which Linux enforces, for this process."""
+    for what, most in OF_READER.items():
+        hard = resource.getrlimit(what)[1]
+        resource.setrlimit(what, (most if hard < 0 else min(most, hard), hard))
+
+
+def unlimited() -> list[str]:
+    """Return the words before a command that run it without the limits of a reader."""
+    hard = (resource.getrlimit(what)[1] for what in OF_READER)
+    cpu, data = ("unlimited" if most < 0 else str(most) for most in hard)
+    return ["prlimit", f"--cpu={cpu}:", f"--data={data}:"]
 
 
 def limits_of_programs() -> dict[int, int]:

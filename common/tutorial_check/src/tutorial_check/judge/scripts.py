@@ -94,7 +94,8 @@ def _faults(session: Session, package: str, script: str) -> Iterator[Wrong]:
         expected = "a file in UTF-8, or in the coding that its first lines name"
         yield Wrong(expected, text, f"{script}:{line}", hint, look=look)
     if facts and facts.error:
-        seen, where = f"{facts.error}: {facts.error_text}", f"{script}:{facts.error_line}"
+        seen = ": ".join(filter(None, (facts.error, facts.error_text)))
+        where = f"{script}:{facts.error_line}"
         hint = explain(facts.error, facts.error_text, whole, "syntax")
         look = f"python3 -m py_compile {whole}"
         yield Wrong("Python that can be read", seen, where, hint, look=look)

@@ -5,12 +5,12 @@ from __future__ import annotations
 import contextlib
 import json
 import os
-import re
 import xml.etree.ElementTree as ET
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, Callable, Mapping, Sequence
 
+from node_kit.printable import printable
 from tutorial_check.model import NOTE, OK, UNREACHED, WRONG, CannotCheck, Outcome
 from tutorial_check.report.text import heading, lines_of
 
@@ -70,19 +70,14 @@ def as_junit(outcomes: Sequence[Outcome]) -> str:
             case = ET.SubElement(suite, "testcase", about, name=f"{result.id} {result.title}")
             tag = {WRONG: "failure", UNREACHED: "skipped", NOTE: "system-out"}.get(result.status)
             if tag:
-                message = {} if result.status == NOTE else {"message": _legal(result.seen)}
+                message = {} if result.status == NOTE else {"message": printable(result.seen)}
                 inner = ET.SubElement(case, tag, message)
                 if result.status != UNREACHED:
-                    inner.text = _legal("\n".join(line.strip() for line in lines_of(result)[1:]))
+                    inner.text = printable("\n".join(line.strip() for line in lines_of(result)[1:]))
         if outcome.trouble:
             case = ET.SubElement(suite, "testcase", about, name="no verdict")
-            ET.SubElement(case, "error", message=_legal(outcome.trouble))
+            ET.SubElement(case, "error", message=printable(outcome.trouble))
     return ET.tostring(root, encoding="unicode", xml_declaration=True) + "\n"
-
-
-def _legal(text: str) -> str:
-    """Return a text without the characters that XML forbids; a program may print anything."""
-    return re.sub("[^\n\t\x20-\ufffd\U00010000-\U0010ffff]", "", text)
 
 
 def points_of(outcome: Outcome) -> float:

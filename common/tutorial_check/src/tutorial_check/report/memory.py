@@ -148,7 +148,10 @@ def digest_of_checks(course: Course, exercises: Iterable[str], hints: int) -> st
 
 
 def digest_of(path: Path, checks: str) -> str:
-    """Return a digest of what a student handed in, and of what checks it; empty if it has none."""
+    """Return a digest of what a student handed in, and of what checks it; empty if it has none.
+
+    Raises CannotCheck.
+    """
     digest, left = hashlib.sha256(checks.encode()), MOST_BYTES
     try:
         for file in all_below(path) if path.is_dir() else [str(path)]:
@@ -161,7 +164,9 @@ def digest_of(path: Path, checks: str) -> str:
                 left -= about.st_size
                 if left < 0:
                     return ""
-                digest.update(Path(file).read_bytes())
+                with open(file, "rb") as opened:
+                    for block in iter(lambda: opened.read(1 << 20), b""):
+                        digest.update(block)
     except OSError:
         return ""
     return digest.hexdigest()

@@ -5,14 +5,15 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Callable, Sequence
+from typing import Callable, Iterator, Sequence
 from xml.parsers import expat
 
 from tutorial_check.model import Wrong
 from tutorial_check.source.causes import advice, explained, meant, packages_of_ros
+from tutorial_check.source.student_files import text_of_file
 
 CURLY = re.compile("[“”‘’]")
-COMMENT = re.compile(r"<!--(.*?)-->", re.DOTALL)
+COMMENT_START, COMMENT_END = "<!--", "-->"
 VALUE = re.compile(r"=\s*(\"[^\"]*\"|'[^']*')")
 QUOTES = 'each value stands between two quotes: name="value"'
 # Those that a launch file of the exercises may name.
@@ -30,14 +31,30 @@ GAPS = (
 )
 
 
+def comments(text: str) -> Iterator[tuple[int, int]]:
+    """Yield (start, end) of each comment, in time that grows as the text: no regular expression."""
+    start = text.find(COMMENT_START)
+    while start >= 0:
+        end = text.find(COMMENT_END, start + len(COMMENT_START))
+        if end < 0:
+            return
+        yield start, end + len(COMMENT_END)
+        start = text.find(COMMENT_START, end + len(COMMENT_END))
+
+
 def without_comments(text: str) -> str:
     """Return the text with blanks in place of comments: its lines keep their numbers."""
-    return COMMENT.sub(lambda found: re.sub(r"[^\n]", " ", found[0]), text)
+    parts, done = [], 0
+    for start, end in comments(text):
+        blank = "\n".join(" " * len(line) for line in text[start:end].split("\n"))
+        parts += [text[done:start], blank]
+        done = end
+    return "".join([*parts, text[done:]])
 
 
 def read(path: Path) -> str:
-    """Return the text of a launch file, or manifest, without its comments."""
-    return without_comments(path.read_text(errors="replace"))
+    """Return the text of a launch file, or manifest, without its comments. Raises Wrong."""
+    return without_comments(text_of_file(path))
 
 
 def place_of(where: str, text: str, *words: str) -> str:
@@ -91,8 +108,9 @@ def not_xml(error: str, text: str) -> tuple[int | None, str]:
 
 def _not_well_formed(text: str, line: int, index: int) -> tuple[int, str]:
     """Return the same for a file in which expat came as far as text[index], in that line."""
-    inner = [(each.start(1), f"{each[1]}-") for each in COMMENT.finditer(text)]
-    if line in [line_of(text, start + each.index("--")) for start, each in inner if "--" in each]:
+    ends = -len(COMMENT_END) + 1  # with the first hyphen of its end, as in "--->"
+    inner = ((start, text.find("--", start + 4, end + ends)) for start, end in comments(text))
+    if line in {line_of(text, index) for _, index in inner if index >= 0}:
         return line, "within <!-- --> there may be no --: delete it, or the whole line"
     if text.startswith("<!--", index):
         return line, "each <!-- needs its -->"
@@ -173,7 +191,7 @@ def parse_error(
         number, hint = not_xml(fault.words, text)
         return Wrong(expected, words, f"{where}:{number}" if number else where, hint)
     text = without_comments(text)
-    open_find = re.search(r"\$\((?:find|arg)\b[^)\"'<>]*[\"'<>]", text)
+    open_find = re.search(r"\$\((?:find|arg)\b[^)\"'<>]{0,300}[\"'<>]", text)
     if open_find:
         place = place_of(where, text, open_find[0])
         hint = "each $( needs its ): $(find PACKAGE)/launch/FILE"

@@ -10,6 +10,7 @@ from functools import cached_property
 from typing import Any, Iterable, Iterator, Sequence, Tuple, Union
 
 from tutorial_check.source.python_text import is_broad, last_name, python_lines, text_of
+from tutorial_check.source.student_files import MOST_BYTES, TOO_LARGE
 
 KEYBOARD = ("input", "raw_input", "tcgetattr", "setraw", "setcbreak", "initscr", "getch", "getchar")
 Place = Union[Tuple[int, str], Tuple[()]]  # (line, text), or empty: there is none
@@ -42,6 +43,8 @@ class PythonFacts:
 
     def __init__(self, text: str) -> None:
         self.error, self.error_line = "", 0
+        if len(text) > MOST_BYTES:
+            text, self.error, self.error_line = "", f"the file is {TOO_LARGE}", 1
         self.text = dict(enumerate(python_lines(text), 1))  # {number: line}
         tree = ast.Module([], [])
         try:

@@ -10,7 +10,9 @@ from typing import Iterable
 # In which a file is written, from a comment in the first or second line (PEP 263).
 CODING = re.compile(rb"(?:[ \t\f]*(?:#[^\n]*)?\n)??[ \t\f]*#[^\n]*?coding[:=][ \t]*([-\w.]+)")
 # The start of an except that hides every kind of error.
-MASK = re.compile(r"^([ \t]*except)\b[ \t(]*(?:(?:Base)?Exception)?\)?(?=[ \t]*(?:as\b.*)?:)", re.M)
+MASK = re.compile(
+    r"^([ \t]*except)\b[ \t(]{0,99}(?:(?:Base)?Exception)?\)?(?=[ \t]{0,99}(?:as\b.*)?:)", re.M
+)
 
 
 def unreadable(data: bytes) -> tuple[int, str] | None:

@@ -1,4 +1,4 @@
-"""Files where a student's programs may write: no link that one of them planted is followed."""
+"""A student's files: so much of them is read, and no link that a program planted is followed."""
 
 import contextlib
 import os
@@ -6,7 +6,25 @@ import stat
 from pathlib import Path
 from typing import Iterator, Tuple
 
-from tutorial_check.model import CannotCheck
+from tutorial_check.model import CannotCheck, Wrong
+
+# A program, launch file or manifest of the exercises has some 2 kB; what is said of one must not
+# take the time and memory that a hundred times as much takes.
+MOST_BYTES = 256 << 10
+TOO_LARGE = f"larger than {MOST_BYTES >> 10} kB"
+
+
+def is_too_large(path: Path) -> bool:
+    """Return whether a text file is larger than any that is written by hand."""
+    return path.stat().st_size > MOST_BYTES
+
+
+def text_of_file(path: Path) -> str:
+    """Return what a text file holds. Raises Wrong for one that is too large."""
+    if is_too_large(path):
+        hint = "nobody writes so much by hand: what made it?"
+        raise Wrong("a file of a few kB", f"{path.name} is {TOO_LARGE}", path.name, hint, sure=True)
+    return path.read_text(errors="replace")
 
 
 def put(base: Path, path: Path, text: str, mode: int = 0o644) -> None:
@@ -21,13 +39,16 @@ def put(base: Path, path: Path, text: str, mode: int = 0o644) -> None:
 
 
 def read(base: Path, path: Path) -> bytes:
-    """Return what a file below a folder holds. Raises CannotCheck, also for a pipe or a device."""
+    """Return what a file below a folder holds, of one that is TOO_LARGE a byte more than it may.
+
+    Raises CannotCheck, also for a pipe or a device.
+    """
     with _folder_of(base, path) as (folder, name):
         flags = os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK
         with open(os.open(name, flags, dir_fd=folder), "rb") as file:
             if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
                 raise OSError("no regular file")
-            return file.read()
+            return file.read(MOST_BYTES + 1)
 
 
 @contextlib.contextmanager

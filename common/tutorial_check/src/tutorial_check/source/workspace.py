@@ -16,9 +16,11 @@ from xml.etree import ElementTree
 from catkin_pkg.package import InvalidPackage, parse_package
 
 from tutorial_check.model import CannotCheck
+from tutorial_check.source.student_files import TOO_LARGE, is_too_large, text_of_file
 
 MOST_BYTES = 300 << 20  # sources of a workspace, including bags
 MOST_FILES = 20_000
+MOST_DEPTH = 100  # of folders in folders; each of them is a call more in Python
 SOLUTIONS = {"beginner_tutorials", "joy2twist"}  # the packages of the exercises
 COPY = "handed_in/src"  # the copy of what was handed in, as in a workspace
 # The words of a launch file, and in one of them what a node of the exercises reads.
@@ -41,9 +43,9 @@ class Package:
 
     @property
     def cmake(self) -> str | None:
-        """The text of its CMakeLists.txt without comments; None if there is none."""
+        """The text of its CMakeLists.txt without comments; None if there is none. Raises Wrong."""
         path = self.folder / "CMakeLists.txt"
-        return re.sub(r"#.*", "", path.read_text(errors="replace")) if path.is_file() else None
+        return re.sub(r"#.*", "", text_of_file(path)) if path.is_file() else None
 
 
 @dataclass(frozen=True)
@@ -112,7 +114,7 @@ def find_layout(folder: str | Path) -> Layout:
     found: dict[Layout, set[str]] = {}
     try:
         os.listdir(folder)
-        for here, folders, _ in os.walk(folder):
+        for here, folders, _ in _walk(folder):
             layout = _layout_of(Path(here))
             inside = [*packages_below(layout.source), *packages_beside(layout)] if layout else []
             if layout and (inside or not found):
@@ -194,6 +196,8 @@ class _Copying:
                 return
             if not is_folder:
                 self._copy_file(opened, about, source, target)
+            elif len(seen) > MOST_DEPTH:
+                raise CannotCheck(_too_deep(source.parents[MOST_DEPTH]))
             elif real not in seen and real != self.target:  # no link to a folder above
                 target.mkdir(exist_ok=True)
                 for name in sorted(set(os.listdir(opened)) - LEFT_OUT):
@@ -214,6 +218,7 @@ class _Copying:
 def named_outside(source: Path) -> list[str]:
     """Return the recordings and RViz views that exist and that launch files name by whole paths."""
     files = [each for each in source.rglob("*.launch") if each.is_file()]
+    files = [each for each in files if not is_too_large(each)]
     texts = [each.read_text(errors="replace") for each in files]
     words = {word for text in texts for word in BETWEEN_WORDS.split(text)}
     # A path, or a parameter's as _file:=/a/path.
@@ -221,9 +226,21 @@ def named_outside(source: Path) -> list[str]:
     return sorted({each[0] for each in named if each and os.path.isfile(each[0])})
 
 
+def _walk(top: str | Path) -> Iterator[tuple[str, list[str], list[str]]]:
+    """Yield what os.walk does, which may be changed as there. Raises CannotCheck."""
+    for here, folders, files in os.walk(top):
+        if len(Path(here).parts) - len(Path(top).parts) > MOST_DEPTH:
+            raise CannotCheck(_too_deep(top))
+        yield here, folders, files
+
+
+def _too_deep(folder: str | Path) -> str:
+    return f"{folder}: folders in folders, more than {MOST_DEPTH} deep"
+
+
 def all_below(folder: str | Path) -> Iterator[str]:
     """Yield the path of all that is in a folder, in order, without what is IGNORED."""
-    for here, folders, files in os.walk(folder):
+    for here, folders, files in _walk(folder):
         folders[:] = sorted(set(folders) - IGNORED)
         # A folder may be a link.
         yield from (os.path.join(here, name) for name in sorted((*files, *folders)))
@@ -232,7 +249,7 @@ def all_below(folder: str | Path) -> Iterator[str]:
 def packages_below(folder: str | Path) -> list[Package]:
     """Return every package in a folder, with what is wrong with it, in the order of their paths."""
     found = []
-    for here, folders, files in os.walk(folder):
+    for here, folders, files in _walk(folder):
         folders[:] = sorted(each for each in {*folders} - LEFT_OUT if each[0] != ".")
         if "CATKIN_IGNORE" in files:
             folders.clear()
@@ -250,6 +267,9 @@ def packages_beside(layout: Layout) -> list[Package]:
 
 def read_package(place: Path, root: str | Path) -> Package:
     package = Package(place, os.path.relpath(place, root))
+    if is_too_large(place / "package.xml"):
+        package.name, package.error, package.malformed = place.name, TOO_LARGE, True
+        return package
     try:
         parsed = parse_package(str(place), warnings=[])
         parsed.evaluate_conditions({"ROS_PYTHON_VERSION": "3", "ROS_VERSION": "1"})

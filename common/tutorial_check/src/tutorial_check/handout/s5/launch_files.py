@@ -21,6 +21,7 @@ from tutorial_check.source import launch_xml
 from tutorial_check.source.causes import meant
 from tutorial_check.source.launch_xml import Lines, line_of, place_of, read
 from tutorial_check.source.manifests import is_stand_in
+from tutorial_check.source.student_files import text_of_file
 
 BAG, STICK = "launch_bag.launch", "launch_joy_node.launch"
 TURTLEBOT, REAL = "joy2twist_turtlebot.launch", "launch_joy_node_realTurtlebot.launch"
@@ -168,7 +169,7 @@ def _fault(file: LaunchFile, fault: launch_xml.Fault) -> Wrong:
     """Return the Wrong for what roslaunch cannot read, in this file or in an included one."""
     session = file.session
     path, line = launch_xml.blamed(fault, session.is_own)
-    text = Path(path).read_text(errors="replace")
+    text = text_of_file(Path(path))
     wrong = launch_xml.parse_error(fault, shown(session, path), line, text, session.may_see)
     inner, number = fault.places[-1]
     if not session.is_own(inner) and fault.kind != launch_xml.UNSET:
