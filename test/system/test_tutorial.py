@@ -1,5 +1,6 @@
 """./tutorial as a user calls it: what it prints, its exit code, what it leaves behind."""
 
+import re
 import socket
 import subprocess
 
@@ -64,6 +65,19 @@ def test_of_two_calls_at_once_one_builds_and_both_go_on(tutorial, tmp_path):
     with Program(*command) as one, Program(*command) as other:
         assert (one.wait(), other.wait()) == (0, 0), one.output + other.output
         assert (one.output + other.output).count("tutorial: building") == 1
+
+
+def test_the_first_build_shows_an_error_of_cmake_with_its_message_in_english(call, tmp_path):
+    package = tmp_path / "src" / "mine"
+    package.mkdir(parents=True)
+    about = "<version>0.0.1</version><description>d</description><license>BSD</license>"
+    person = '<maintainer email="ada@example.com">Ada</maintainer>'
+    xml = f'<package format="2"><name>mine</name>{about}{person}</package>'
+    (package / "package.xml").write_text(xml)
+    (package / "CMakeLists.txt").write_text('message(FATAL_ERROR "no part, in $ENV{LC_ALL}")')
+    code, output = call("run", "--in", str(tmp_path), "echo", "went on", LC_ALL="de_DE.UTF-8")
+    assert re.search(r"^   CMake Error at .*\n     no part, in C\.UTF-8$", output, re.MULTILINE)
+    assert (code, output.count("does not build")) == (0, 1) and output.endswith("went on\n")
 
 
 def test_a_broken_package_xml_is_named_before_everything_fails_over_it(call, tmp_path):

@@ -18,6 +18,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 from node_kit.manifests import broken_manifests, manifests
+from tutorial_tools.command.errors import first_errors
 from tutorial_tools.hidden import hidden_stand_ins
 from tutorial_tools.system.apt import SetUpError, say
 from tutorial_tools.windows import MODEL, TABS, make_rqt
@@ -29,7 +30,6 @@ SHARE = Path(PREFIX or "/usr", "share")  # where its packages are
 OVERLAY = ("beginner_tutorials", "joy2twist", "test")  # the solutions
 # Commands of the shell, under these names.
 COMMANDS = ("common/tutorial_tools/scripts/2to3", "tutorial")
-WRONG = re.compile("rror|invalid|mismatched|not found")
 
 
 def stamp() -> str:
@@ -58,7 +58,7 @@ def clean_catkin_make(below: Path | None, folder: Path, log: Path) -> bool:
     """Return whether catkin_make succeeds over another workspace; without any other environment."""
     hidden = ("CMAKE_PREFIX_PATH", "ROS_PACKAGE_PATH", "PYTHONPATH")
     environment = {name: value for name, value in os.environ.items() if name not in hidden}
-    environment["PATH"] = "/usr/bin:/bin"
+    environment.update(PATH="/usr/bin:/bin", LC_ALL="C.UTF-8")  # its words are read
     make = 'catkin_make -C "$1" -DPYTHON_EXECUTABLE=/usr/bin/python3'
     script = f'. "$0"; {make}' if below else make
     with open(log, "a", encoding="utf-8") as file:
@@ -215,7 +215,7 @@ def build_new(workspace: Path, student: Path) -> None:
     (student / "devel/lib/python3/dist-packages").mkdir(parents=True, exist_ok=True)
     if not clean_catkin_make(workspace / "lower" / "devel" / "setup.bash", student, log):
         lines = log.read_text(errors="replace").splitlines()
-        for line in [line for line in lines if WRONG.search(line)][:5] or lines[-1:]:
+        for line in first_errors(lines):
             print(f"   {line}", file=sys.stderr)
         todo = f"fix what is said above, then catkin_make in it ({log} has all)"
         say(f"{student} does not build: {todo}")
