@@ -115,6 +115,19 @@ def test_pip_installs_only_what_a_lock_has():
     assert named - {"test/requirements-{kind}.txt"} <= set(locks.values())
 
 
+def test_ci_has_an_environment_like_a_users():
+    """With what the network needs; PYTHONUNBUFFERED would hide a test that awaits a pipe."""
+    path, kept = "/usr/bin:/bin", {"PIP_CERT": "a", "https_proxy": "b", "TUTORIAL_JOBS": "1"}
+    left = ("PYTHONUNBUFFERED", "PYTHONDONTWRITEBYTECODE", "DEBIAN_FRONTEND", "USER", "CERTAIN")
+    given = {**kept, **dict.fromkeys(left, "1"), "HOME": "/h", "PATH": path, "LANG": "C"}
+    command = [REPOSITORY / ".ci/as_user", "env", "-0"]
+    said = subprocess.run(command, env=given, stdout=subprocess.PIPE, text=True, check=True).stdout
+    environment = dict(line.split("=", 1) for line in said.split("\0")[:-1])
+    assert environment.pop("PATH").endswith("/usr/sbin:/usr/bin:/sbin:/bin")
+    assert environment == {**kept, "HOME": "/h", "LANG": "C", "TERM": "dumb"}
+    assert '/as_user" "${BASH_SOURCE[0]}"' in (REPOSITORY / ".ci/run").read_text()
+
+
 def test_workflows_may_only_read_and_take_actions_by_their_commit():
     made = REPOSITORY / "common/tutorial_check/src/tutorial_check/autograder/check.yml"
     for text in map(Path.read_text, [made, *(REPOSITORY / ".github/workflows").glob("*.yml")]):
