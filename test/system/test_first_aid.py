@@ -82,7 +82,7 @@ ROS_DISTRO was set to '...' before. Please make sure that the environment does n
     mkdir -p jazzy/lib/std_msgs; echo 'raise ImportError' >jazzy/lib/std_msgs/__init__.py; doctor
   > ROS 2 is in this terminal, too
 setup.bash:.:8: no such file or directory: .../setup.sh
-    zsh -c "source ${CMAKE_PREFIX_PATH%%:*}/setup.bash"
+    LC_ALL=C.UTF-8 zsh -c "source ${CMAKE_PREFIX_PATH%%:*}/setup.bash"
 qt.qpa.xcb: could not connect to display
     DISPLAY=:9999 timeout 20 $(command -v rviz)
 /usr/bin/env: ‘python3\r’: No such file or directory
