@@ -2,6 +2,8 @@
 
 import re
 
+import pytest
+
 LAST_LINE = r"(\d+) trials, (\d+) faults, (\d+) violations, worst time to rest (\d+\.\d+) s"
 
 
@@ -12,11 +14,19 @@ def test_random_faults_violate_nothing(call):
     assert int(hits) >= int(trials) > 0
 
 
-def test_a_hunt_finds_that_the_handouts_class_drives_on_after_its_end(call):
-    """6.2 of the handout: one zero, then about 50 more velocities while its shutdown sleeps."""
-    first = ("--node", "handout", "--kinds", "end:joy2twist", "--seed", "1", "--trials", "1")
+@pytest.mark.parametrize(
+    ("fault", "violation"),
+    [
+        # 6.2 of the handout: one zero, then about 50 more velocities while its shutdown sleeps.
+        ("end:joy2twist", r"\(d\) wheels turn \d\.\d+ s after the loss by end:joy2twist"),
+        # A program that goes on sending is obeyed by a base that was restarted.
+        ("kill:base", r"\(b\) moved again after \d\.\d+ s"),
+    ],
+)
+def test_a_hunt_finds_that_the_handouts_class_drives_on(call, fault, violation):
+    first = ("--node", "handout", "--kinds", fault, "--seed", "1", "--trials", "1")
     code, output = call("test", "faults", *first, deadline_s=900)
     assert code == 1, output
-    assert re.search(r"\(d\) wheels turn \d\.\d+ s after the loss by end:joy2twist", output)
+    assert re.search(violation, output)
     again = re.search(r"again: \./tutorial test faults (.*)", output)[1].split()
     assert sorted(again) == sorted(first)

@@ -16,6 +16,7 @@ LIMIT_S = TIMEOUT_S + 0.02  # from a loss to wheels at rest; /odom comes every 0
 SLACK_S = 0.05  # between the stamps of this process and those of the nodes
 # What the preset of the F710 allows with RB held, and the mux and the base with it.
 MAX_LINEAR, MAX_ANGULAR = 0.7, 2.0
+STARTS_S = 0.3  # a node that is restarted does nothing sooner: it loads rospy
 LATE_S = 0.15  # a gap in the odometry, or a fault that was not there at once
 
 # What an Event is about; of the last two the value is a velocity.
@@ -113,9 +114,13 @@ class Trial:
         return last
 
     def _waits(self):
-        """Yield (b): wheels at rest turn without a release."""
-        stood_s = None
+        """Yield (b): wheels at rest turn without a release. A base rests while it is not there."""
+        restarts = any(fault.part == "base" and fault.is_restart for fault in self.hits)
+        stood_s, last_s = None, math.inf
         for now, _, velocity in self.of(WHEELS):
+            if restarts and stood_s is None and now - last_s > STARTS_S:
+                stood_s = last_s
+            last_s = now
             if not moves(velocity):
                 stood_s = now if stood_s is None else stood_s
             elif stood_s is not None:

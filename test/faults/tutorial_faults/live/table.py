@@ -43,6 +43,11 @@ class Fault(NamedTuple):
     def name(self):
         return f"{self.family}:{self.part}"
 
+    @property
+    def is_restart(self):
+        """Whether the part is ended, and started again."""
+        return self.family in ("kill", "end")
+
 
 class Raw:
     """A message that goes over the wire as these bytes."""

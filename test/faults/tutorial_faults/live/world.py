@@ -20,7 +20,7 @@ from tutorial_testing.waiting import BUSY_S, wait_for
 ENDS_S = 1.5 + BUSY_S  # for a node to exit, when asked to
 MOVES_S = 4.0  # to release all and drive again, at least
 DRIVES_S = 90.0  # after which a system that does not drive has failed
-STARTS_S = 0.3  # a node that is restarted does nothing sooner: it loads rospy
+REPORTS_S = 0.5  # for which a base that was restarted is watched, at least
 
 
 class World(rig.Rig):
@@ -88,8 +88,8 @@ class World(rig.Rig):
     def heal(self, name):
         now = time.time()
         next(self._hits.pop(name), None)
-        is_restart = FAULTS[name].family in ("kill", "end")
-        self._see(judge.ENDS, name, time.time() + STARTS_S if is_restart else now)
+        is_restart = FAULTS[name].is_restart
+        self._see(judge.ENDS, name, time.time() + judge.STARTS_S if is_restart else now)
 
     def hold(self):
         """Hold LB and the stick after a release, and begin to keep what is seen."""
@@ -105,6 +105,15 @@ class World(rig.Rig):
         self.hands.show(DRIVE)
         return shown
 
+    def _release(self, plan):
+        """Release all, but not before the wheels of a base that was restarted are seen."""
+        if any(name in ("kill:base", "end:base") for *_, name in plan.hits):
+            restarted_s = max(at_s for at_s, what, _ in self._stream if what == judge.ENDS)
+            wait_for(lambda: self.since(restarted_s), "base that was restarted")
+            back_s = self.since(restarted_s)[0].stamp
+            wait_for(lambda: self.since(back_s + REPORTS_S), "its odometry")
+        self.hands.show(RELEASED)
+
     def act(self, plan):
         """Drive, and do what a Plan says; return the stream of judge.Events."""
         self.seed = plan.seed
@@ -118,7 +127,7 @@ class World(rig.Rig):
         acts = [(at_s, self.hands.show, shows) for at_s, shows in plan.hands]
         acts += [(at_s, self.hit, name) for at_s, _, name in plan.hits]
         acts += [(end_s, self.heal, name) for _, end_s, name in plan.hits]
-        acts.append((plan.ends_s, self.hands.show, RELEASED))
+        acts.append((plan.ends_s, self._release, plan))
         began_s = time.monotonic()
         for at_s, do, what in sorted(acts, key=lambda act: act[0]):
             time.sleep(max(0.0, began_s + at_s - time.monotonic()))

@@ -1,0 +1,30 @@
+"""What the judge of the live hunt sees in a stream of events."""
+
+import pytest
+
+from tutorial_faults.live.judge import BEGINS, ENDS, HANDS, WHEELS, Event, Trial, velocity
+from tutorial_testing.hands import DRIVE, RELEASED
+
+DRIVES, RESTS = velocity(0.3, 0.0), velocity(0.0, 0.0)
+
+
+def odometry(begin_s, end_s, seen):
+    """Return what a base reports at 50 Hz."""
+    return [Event(k / 50, WHEELS, seen) for k in range(round(begin_s * 50), round(end_s * 50))]
+
+
+@pytest.mark.parametrize(
+    ("about", "fault", "hands", "back", "letters"),
+    [
+        ("it stands", "kill:base", [], RESTS, ""),
+        ("it drives as soon as it is back", "kill:base", [], DRIVES, "b"),
+        ("it was ended in another way", "end:base", [], DRIVES, "b"),
+        ("all was released", "kill:base", [(1.5, RELEASED), (2.0, DRIVE)], DRIVES, ""),
+        ("it was not ended", "stop:base", [], DRIVES, ""),
+    ],
+)
+def test_a_base_that_was_restarted_under_a_held_stick_waits(about, fault, hands, back, letters):
+    stream = [Event(at_s, HANDS, shows) for at_s, shows in [(0.0, DRIVE), *hands]]
+    stream += [Event(1.0, BEGINS, fault), Event(1.5, ENDS, fault)]
+    stream += odometry(0.0, 1.0, DRIVES) + odometry(2.5, 3.5, back)
+    assert "".join(violation.invariant for violation in Trial(stream).violations) == letters, about
