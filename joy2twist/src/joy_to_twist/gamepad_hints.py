@@ -21,9 +21,18 @@ class GamepadHints:
         self._used = {axis.index for axis in parameters.axes}
         self._count: int | None = None  # the number of axes that was looked at last
         self._look_for_swap = False
+        self._turbo = parameters.enable_turbo_button
+        self._buttons: int | None = None  # the number of buttons that was looked at last
 
-    def hint(self, axes: Sequence[float]) -> str | None:
+    def hint(self, axes: Sequence[float], buttons: Sequence[int]) -> str | None:
         """Return one line that says what to do, or None."""
+        if len(buttons) != self._buttons:
+            self._buttons = len(buttons)
+            if self._turbo >= self._buttons:
+                return (
+                    f"The gamepad has no button {self._turbo} (~enable_turbo_button): it has "
+                    f"{self._buttons} buttons. That button counts as not pressed."
+                )
         if len(axes) != self._count:
             self._count = len(axes)
             self._look_for_swap = self._count == D_MODE_AXES and not SWAPPED_STICK & self._used

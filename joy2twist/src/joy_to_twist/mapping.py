@@ -34,7 +34,7 @@ class Mapping:
         self._free = not parameters.require_enable_button
         self._needed_axes = 1 + max((a.index for a in parameters.axes), default=-1)
         self._stop, self._reset = parameters.stop_button, parameters.stop_reset_button
-        self._needed_buttons = 1 + max(self._enable, self._turbo, self._stop, self._reset)
+        self._needed_buttons = 1 + max(self._enable, self._stop, self._reset)
         self._curve = parameters.axis_curve
         self._inverted_reverse = parameters.inverted_reverse
         self._max_linear = parameters.max_linear_speed or math.inf
@@ -51,7 +51,7 @@ class Mapping:
         if not math.hypot(*axes) <= LARGEST_AXIS_VALUE:
             raise BadJoyError(f"not every axis has a usable value: {list(axes)}")
 
-        turbo = self._turbo >= 0 and buttons[self._turbo]
+        turbo = 0 <= self._turbo < len(buttons) and buttons[self._turbo]
         if not (turbo or self._free or (self._enable >= 0 and buttons[self._enable])):
             return None
         velocity = [0.0] * 6
@@ -80,7 +80,7 @@ class Mapping:
         for component, index, _, _ in self._axes:
             if index >= len(axes):
                 return f"no axis {index} (-> {COMPONENTS[component]}): it has {len(axes)} axes"
-        names = ("enable_button", "enable_turbo_button", "stop_button", "stop_reset_button")
+        names = ("enable_button", "stop_button", "stop_reset_button")
         name = max(names, key=lambda name: getattr(self._parameters, name))
         return f"no button {self._needed_buttons - 1} (~{name}): it has {len(buttons)} buttons"
 

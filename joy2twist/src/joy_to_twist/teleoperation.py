@@ -72,7 +72,7 @@ class Teleoperation:
             if self.mapping.resets(buttons):
                 self.safety.reset()
             return None
-        hint = self._hints.hint(axes)
+        hint = self._hints.hint(axes, buttons)
         if hint:
             self._warn(hint)
         matters = self._parameters.arm_on_neutral or not self.safety.arming.armed

@@ -27,6 +27,13 @@ MODE, SWITCH, EIGHT = "press MODE", "8 axes and not 6: check the D/X switch", (0
 )
 def test_a_gamepad_in_another_mode_is_reported_once(about, messages, given, hint):
     looker = GamepadHints(load(given))
-    found = [line for line in map(looker.hint, messages) if line]
+    found = [line for line in (looker.hint(axes, ()) for axes in messages) if line]
     assert len(found) == (hint is not None), about
     assert hint is None or hint in found[0]
+
+
+def test_a_missing_turbo_button_is_reported_once():
+    looker = GamepadHints(load({"enable_button": 0, "enable_turbo_button": 5}))
+    shown = [looker.hint(six(), (1,) * count) for count in (6, 4, 4, 6, 6)]
+    assert [bool(line) for line in shown] == [False, True, False, False, False]
+    assert "no button 5 (~enable_turbo_button): it has 4 buttons" in shown[1]

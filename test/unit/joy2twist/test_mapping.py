@@ -38,6 +38,9 @@ CAR = {"inverted_reverse": True}
          (0.8, 0, 0, 0, 0, 1.5)),
         ("turbo from a map", TURBO_MAP, AXES, (0, 1), (0.8, 4.0, 1.2, 2.1, 1.6, 0.3)),
         ("enable not required, turbo", NOT_REQUIRED, AXES, (0, 1), (0.8, 0, 0, 0, 0, 0.9)),
+        # As teleop_twist_joy has it: a button that the gamepad lacks is not pressed.
+        ("no turbo button", DIFFERENTIAL, AXES, (1,), (0.4, 0, 0, 0, 0, 0.9)),
+        ("no turbo button, not held", DIFFERENTIAL, AXES, (0,), None),
         ("turbo is the only dead-man, and button 0", TURBO, AXES, (1, 0), (0.4, 0, 0, 0, 0, 0.3)),
         ("no other button drives then", TURBO, AXES, (0, 1), None),
         ("on the spot", CAR, (0.3, 0.0), (), (0, 0, 0, 0, 0, 0.3)),
@@ -59,7 +62,7 @@ def test_axes_and_buttons_give_a_velocity_or_none(about, given, axes, buttons, e
     [
         ({}, (0.5,), (), "no axis 1 (-> linear.x): it has 1 axes"),
         ({"axis_linear": 9}, AXES, (), "no axis 9 (-> linear.x): it has 6 axes"),
-        (PAD, AXES, (1,), "no button 1 (~enable_turbo_button): it has 1 buttons"),
+        (PAD, AXES, (), "no button 0 (~enable_button): it has 0 buttons"),
         ({}, (0.0, 0.1, float("nan")), (), "nan"),
         ({}, (float("inf"), float("-inf")), (), "inf"),
         ({}, (0.0, 1e6 + 0.5), (), "1000000.5"),
