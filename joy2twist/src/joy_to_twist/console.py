@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import contextlib
 import logging
+import os
 import sys
+import time
 from typing import Sequence
 
 import rospy
@@ -46,7 +48,11 @@ class Console(Log):
 
 def _write(lines: list[str]) -> None:
     """Write lines as rospy.loginfo does to the screen, which takes longer than all else."""
-    screen = RosStreamHandler(colorize=False)
-    for line in lines:
-        screen.emit(logging.LogRecord("rosout.joy", logging.INFO, __file__, 0, line, (), None))
+    if rospy.rostime.is_wallclock() and "ROSCONSOLE_FORMAT" not in os.environ:
+        # What RosStreamHandler makes of each: its search for every tag costs ten times as much.
+        sys.stdout.write("".join([f"[INFO] [{time.time():f}]: {line}\n" for line in lines]))
+    else:
+        screen = RosStreamHandler(colorize=False)
+        for line in lines:
+            screen.emit(logging.LogRecord("rosout.joy", logging.INFO, __file__, 0, line, (), None))
     sys.stdout.flush()

@@ -21,7 +21,6 @@ JOY2TWIST = [
     "_arm_on_neutral:=true", "_max_joy_age:=0.5", "_max_linear_speed:=5.0",
     "_max_angular_speed:=5.0",
 ]  # fmt: skip
-TICKS_PER_S = os.sysconf("SC_CLK_TCK")
 PERIOD_NS = 20_000_000
 QUIET = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
 
@@ -62,16 +61,31 @@ def observe(commands, topics, seconds):
 
 def delays(kind, rate, count):
     """Return how long each message of probe.py took until it was answered [s], in order of size."""
-    probe = [sys.executable, str(HERE / "probe.py"), kind, str(rate), str(count)]
-    done = subprocess.run(probe, stdout=subprocess.PIPE, text=True, check=True, timeout=300)
-    return json.loads(done.stdout)
+    with probing(kind, rate, count) as probe:
+        return json.loads(probe.stdout.readline())
+
+
+def delays_and_processor(kind, rate, count, pid):
+    """Return (delays, processor time [s] that the process took for each of these messages)."""
+    with probing(kind, rate, count) as probe:
+        before_s = processor_time(pid)
+        took_s = json.loads(probe.stdout.readline())
+        return took_s, (processor_time(pid) - before_s) / count
+
+
+@contextmanager
+def probing(kind, rate, count):
+    """Run probe.py, as soon as all is connected and warm."""
+    command = [sys.executable, str(HERE / "probe.py"), kind, str(rate), str(count)]
+    with running(command, stdout=subprocess.PIPE, text=True) as probe:
+        assert probe.stdout.readline() == "ready\n"
+        yield probe
 
 
 def processor_time(pid):
     """Return the processor time [s] that a process and its running children have used."""
-    children = Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
-    fields = Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
-    own_s = (int(fields[11]) + int(fields[12])) / TICKS_PER_S
+    children = map(int, Path(f"/proc/{pid}/task/{pid}/children").read_text().split())
+    own_s = time.clock_gettime(~pid << 3 | 2)  # as clock_getcpuclockid(3); /proc has 10 ms only
     return own_s + sum(map(processor_time, children))
 
 

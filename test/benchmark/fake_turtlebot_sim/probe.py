@@ -1,6 +1,8 @@
 #!/usr/bin/python3
 """Times numbered messages until each is answered. probe.py KIND RATE COUNT -> JSON: times [s].
 
+A line "ready" comes before, when all is connected and warm.
+
 KIND: joy, which a Twist answers; cmd_vel, which an Odometry answers; or page:PORT:TOKEN, for the
 inputs of a page of the cockpit, which a Twist answers.
 """
@@ -87,6 +89,7 @@ for _ in range(10):  # released first: a node that arms waits for that
 while count + 1 not in heard_s:  # all is connected and warm
     ask(count + 1)
     time.sleep(WARM_PERIOD_S)
+print("ready", flush=True)
 sent_s, start_s = {}, time.monotonic()
 for number in range(1, count + 1):
     time.sleep(max(0.0, start_s + number / rate - time.monotonic()))
