@@ -4,11 +4,11 @@ import { byId, number, say } from "./dom.js";
 import { Driver } from "./driver.js";
 
 const NOTHING = {
-  session: { driver: null, yours: false, robot: "" },
+  session: { driver: null, yours: false, robot: "", topic: "" },
   drives: { robots: {}, who: "", ready: "", how: "", refusal: "", no_reset: "" },
 };
 export const STALE_S = 1; // an older speed is not shown, and other news of this age is greyed
-const CUT = "This page no longer drives: its connection was lost. Press Drive from this page to go on.";
+const CUT = "This page no longer drives: its connection was lost. Press Drive from this page, or Publish, to go on.";
 
 export class DriverSession {
   #role = null; // "driver" or "viewer", once the server has said so
@@ -35,10 +35,10 @@ export class DriverSession {
       const heir = byId("heir");
       if (heir.reportValidity()) link.send("hand_over", { to: heir.valueAsNumber });
     };
-    addEventListener("keydown", (event) => event.key === "Escape" && this.yours && this.#stop());
+    addEventListener("keydown", (event) => event.key === "Escape" && !byId("stop").disabled && this.#stop());
   }
 
-  /** Whether this page drives, by hand or with a recording. */
+  /** Whether this page drives, by hand, with a recording, or by a form. */
   get yours() {
     return this.#now.session.yours;
   }
@@ -58,7 +58,7 @@ export class DriverSession {
   show() {
     const { isOpen, heardAt } = this.link;
     const { session, drives } = this.#now;
-    const isByHand = session.yours && !session.plays;
+    const isByHand = session.yours && !session.plays && !session.topic;
     if (isByHand) this.driver.start();
     else this.driver.stop();
     if (!session.yours && byId("notice").textContent === this.#advice) this.notice("");
@@ -74,13 +74,13 @@ export class DriverSession {
     this.#showButtons(session, drives, isByHand);
   }
 
-  #showButtons({ yours, driver, robot }, { refusal, no_reset: noReset }, isByHand) {
+  #showButtons({ yours, driver, robot, topic }, { refusal, no_reset: noReset }, isByHand) {
     const mayDrive = this.link.isOpen && this.#role === "driver";
     const [take, stop, reset] = [byId("take"), byId("stop"), byId("reset")];
     const focused = [take, stop, reset].find((one) => one === document.activeElement);
     take.hidden = yours;
     take.disabled = !mayDrive || Boolean(refusal);
-    stop.disabled = !mayDrive || driver === null || !(yours || robot === this.tab.look);
+    stop.disabled = !mayDrive || driver === null || !(yours || topic || robot === this.tab.look);
     reset.disabled = !mayDrive || Boolean(noReset);
     reset.title = noReset;
     if (focused && (focused.hidden || focused.disabled)) { // the keyboard goes on from what can be pressed
@@ -109,8 +109,9 @@ export class DriverSession {
   }
 
   #take(session) {
-    if (session.yours && !this.yours) this.tab.floor.setFollow(true); // a driver sees the driven robot
-    if (session.yours && session.robot !== this.tab.look) this.tab.lookAt(session.robot); // it was handed over
+    const drives = session.yours && !session.topic; // a form may move what is no robot
+    if (drives && !this.yours) this.tab.floor.setFollow(true); // a driver sees the driven robot
+    if (drives && session.robot !== this.tab.look) this.tab.lookAt(session.robot); // it was handed over
     if (session.yours) this.driver.mode = byId("mode").value;
     if (session.yours && session.armed) this.notice(""); // it may go on
     this.#hear({ session });

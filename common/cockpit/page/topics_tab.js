@@ -10,6 +10,7 @@ const LISTED = 100; // of the names that are found
 const MOST_RATES = 40, LONGEST_RATES = 3000; // topics, and characters of their names, as the server takes them
 const LOOK_MS = 500; // between two looks at which topics are in sight
 const ECHOED = 100; // messages that are kept
+const SIGN_MS = 50; // between two signs of life, while this page publishes again and again, or drives by its form
 const LONGEST_VALUE = 2000; // characters of a field, as the server takes it
 const FORMS = { // of each kind: what the server is asked to describe, and what the form does
   topics: { what: "message", title: "Publish a message", act: "Publish" },
@@ -53,7 +54,11 @@ export class TopicsTab {
   #paused = false; // messages
   #drives = false; // whether this page may publish and call
   #graph = { topics: [], services: [], parameters: [], edges: [] };
-  #repeats = 0; // the timer of what is published again and again, or 0
+  #signs = 0; // the timer of signs of life, or 0
+  #repeats = false; // whether a message is published again and again
+  #moves = false; // whether this page drives by its form
+  #n = 0; // of the newest sign
+  #beat = 0; // the newest of the server
   #chosen = null; // the name
   #type = ""; // of the chosen topic
   #rows = new Map(); // name -> its row
@@ -64,6 +69,8 @@ export class TopicsTab {
     this.watch = watch;
     this.page = page;
     link.on("hello", ({ role }) => (this.#drives = role === "driver"));
+    link.on("beat", ({ n }) => (this.#beat = n));
+    link.on("session", ({ yours, topic }) => this.#drive(yours && Boolean(topic)));
     link.on("graph", (graph) => {
       this.#graph = graph;
       this.#list();
@@ -107,7 +114,7 @@ export class TopicsTab {
   show(on) {
     this.#shown = on;
     this.watch({ graph: on, rates: [], topic: on && this.#isTopics ? this.#chosen : null });
-    if (!on) return this.#rest();
+    if (!on) return this.#leave();
     this.#list();
   }
 
@@ -182,7 +189,7 @@ export class TopicsTab {
   }
 
   #choose(name) {
-    this.#rest();
+    this.#leave();
     this.#chosen = name;
     this.#type = this.#described = "";
     byId("topics").dataset.kind = this.#kind;
@@ -235,16 +242,40 @@ export class TopicsTab {
     else if (this.#kind === "parameters") this.link.send("set", { parameter: this.#chosen, values });
     else if (this.#repeats) this.#rest();
     else if (this.link.send("publish", { topic: this.#chosen, type: this.#type, values, period }) && period) {
-      this.#repeats = setInterval(() => this.link.send("again", { t: performance.now() }), 1000 * period);
+      this.#repeats = true;
+      this.#begin(1000 * period);
       say(byId("topics-send"), "Stop publishing");
     }
   }
 
-  /** Publish no more; what is hidden, left or not connected publishes nothing. */
+  /** Send signs of life, some of which publish. period: between two messages [ms]; without one none is due. */
+  #begin(period = Infinity) {
+    clearInterval(this.#signs);
+    const steps = Math.ceil(period / SIGN_MS); // from one message to the next
+    let step = 0;
+    const sign = () => this.link.send("again",
+      { n: ++this.#n, t: performance.now(), beat: this.#beat, due: ++step % steps === 0 });
+    this.#signs = setInterval(sign, period < Infinity ? period / steps : SIGN_MS);
+  }
+
+  /** Whether this page's form drives, as the server says. */
+  #drive(on) {
+    if (on && !this.#signs) this.#begin();
+    if (!on && this.#moves) this.#rest();
+    this.#moves = on;
+  }
+
+  /** Another tab or name: what is published again and again ends, and a motion goes on, as Stop is above all tabs. */
+  #leave() {
+    if (this.#repeats) this.#rest();
+  }
+
+  /** Publish no more; what is hidden or not connected publishes nothing, and moves nothing. */
   #rest() {
-    if (!this.#repeats) return;
-    clearInterval(this.#repeats);
-    this.#repeats = 0;
+    if (!this.#signs) return;
+    clearInterval(this.#signs);
+    this.#signs = 0;
+    this.#repeats = false;
     this.link.send("publish_end");
     say(byId("topics-send"), "Publish");
   }

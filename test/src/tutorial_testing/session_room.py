@@ -6,6 +6,7 @@ from types import SimpleNamespace
 from cockpit_server.clients import Client
 from cockpit_server.driving.driver_session import DriverSession, Input
 from cockpit_server.driving.who_drives import Driving
+from cockpit_server.graph import Graph
 from tutorial_testing.nodes import serialised
 
 ANNA, BOB = 1, 2
@@ -58,14 +59,16 @@ class Room:
         self.sent.clear()
 
 
-class Free:
-    """In the place of Driving: a page that drives, by its number, or None."""
+class Free(Driving):
+    """Without a robot. driver: a page that drives, by its number, or None."""
 
     def __init__(self, driver=None):
-        self.driver = driver
-
-    def must_be_free(self, client):
-        Driving.must_be_free(SimpleNamespace(session=self), client)
+        joysticks = SimpleNamespace(
+            send=lambda *_: None, advertise=lambda *_: None, rival=lambda *_: ""
+        )
+        super().__init__({}, SimpleNamespace(graph=Graph()), joysticks, None, None)
+        if driver is not None:
+            self.session.take(driver, "", 0.0)
 
 
 def page(role="driver", number=7, **watch):

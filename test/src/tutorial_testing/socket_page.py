@@ -40,7 +40,7 @@ GOOD = {
     "publish": {"topic": "/x", "type": "std_msgs/String", "values": {"data": "a"}, "period": None},
     "call": {"service": "/x/reset", "values": {}},
     "set": {"parameter": "/x/rate", "values": {"value": "10"}},
-    "again": {"t": 12.5},
+    "again": {"n": 1, "t": 12.5, "beat": 0, "due": True},
     "publish_end": {},
 }  # fmt: skip
 
@@ -53,14 +53,16 @@ def request(port, token=None, **headers):
 
 
 class SocketPage(Started):
-    """A context manager; while hand is not None, that position is sent as a page does."""
+    """A context manager; while hand is not None, that position is sent as a page does. While signs,
+    so are signs of life, as of a page that publishes at each of them.
+    """
 
     def __init__(self, port, token=None, **headers):
         super().__init__()
         self._request = request(port, token, **headers)
         self.messages = []  # all that came but beats
         self.refusal = None  # HTTP status, where the WebSocket was refused
-        self.hand = None
+        self.hand, self.signs = None, False
         self._beat, self._n = 0, 0
         self._socket = None
         self._loop = asyncio.new_event_loop()
@@ -102,6 +104,10 @@ class SocketPage(Started):
         while True:
             if self.hand is not None:
                 self._write(self.input(*self.hand))
+            if self.signs:
+                self._n += 1
+                about = {"t": 1000 * time.monotonic(), "beat": self._beat, "due": True}
+                self._write({"kind": "again", "n": self._n, **about})
             await asyncio.sleep(PERIOD_S)
 
     def _write(self, fields):

@@ -29,8 +29,11 @@ def test_reset_is_of_one_robot():
 
 def test_robots_hear_a_joystick_or_have_an_odometry():
     assert GRAPH.robots() == {"", "robot_1", "real"}
+    topics = ("/cmd_vel", "/robot_1/cmd_vel_mux/input", "/robot_11/x")
+    assert list(map(GRAPH.robot_with, topics)) == ["", "robot_1", ""]
+    assert Graph().robot_with("/turtle1/cmd_vel") == "turtle1"
     column = [["/odom", ["/sim", "/cockpit"]], ["/joy", ["/cockpit"]]]
-    assert without("/cockpit", column, ["/joy"]) == {"/odom": {"/sim"}, "/joy": {"/cockpit"}}
+    assert without({"/cockpit"}, column, ["/joy"]) == {"/odom": {"/sim"}, "/joy": {"/cockpit"}}
 
 
 PUBLISHERS = [["/odom", ["/sim"]], ["/x", ["/cockpit"]], ["/rosout", ["/cockpit"]]]
@@ -48,10 +51,12 @@ GONE = [
 
 @pytest.fixture
 def master(monkeypatch):
-    """Answers by the name of the question; a test may change them."""
+    """Answers by the name of the question, or with its address; a test may change them."""
     answers = dict(WELL)
-    monkeypatch.setattr(graph_watch, "call", lambda _uri, name, *_, **__: answers[name])
+    answer = lambda uri, name, *_, **__: answers.get((uri, name)) or answers[name]  # noqa: E731
+    monkeypatch.setattr(graph_watch, "call", answer)
     monkeypatch.setattr(graph_watch, "PERIOD_S", 0.0)
+    monkeypatch.setattr(graph_watch, "MASTER_S", 0.0)
     return answers
 
 
@@ -65,3 +70,16 @@ def test_master_that_has_gone_is_noticed(master, question, answer):
     assert not is_lost.wait(0.05)
     master[question] = answer
     assert is_lost.wait(30)
+
+
+def test_a_node_that_was_killed_is_not_shown_until_it_is_back(master):
+    """The master still lists it, and waiting for it would keep a page from driving for 2 s."""
+    master["http://here:1/", "getPid"] = (Answer.REFUSED, None)
+    watch = graph_watch.GraphWatch("/cockpit")
+    assert watch.graph.published == ["/x"]
+    master["http://here:1/", "getPid"] = (Answer.SILENT, None)  # it is there, and busy
+    watch.look()
+    assert watch.graph.published == ["/odom", "/x"]
+    master["http://here:1/", "getPid"] = (Answer.REFUSED, None)  # each is asked once
+    watch.look()
+    assert watch.graph.published == ["/odom", "/x"]

@@ -18,6 +18,9 @@ WHO = {
     "a recording of this page": (SEAT._replace(plays=True), "You play a recording to ada."),
     "a recording of another": (
         SEAT._replace(plays=True, driver=BOB), "Firefox plays a recording to ada."),
+    "a form of this page": (SEAT._replace(topic="/a/v"), "You drive by a form, on /a/v."),
+    "a form of another": (
+        SEAT._replace(topic="/a/v", driver=BOB), "Firefox drives by a form, on /a/v."),
     "a recording of rosbag": (About(said=MOVING, senders=PLAYS), "/rosbag_play drives ada."),
     "a joystick at rest": (
         About(said=ARMED, senders=PLAYS),

@@ -38,6 +38,11 @@ class Graph:
         """Return all robots, which have an odometry or hear a /joy; "" has no namespace."""
         return self.robots_with_odometry() | self._robots_with("/joy", JOY, self.subscribers)
 
+    def robot_with(self, topic: str) -> str:
+        """Return the robot in whose namespace a topic is: the innermost, or the namespace."""
+        names = [robot for robot in self.robots() if topic.startswith(topic_of(robot, ""))]
+        return max(names, key=len, default=robot_of(topic))
+
     def turtlesims(self) -> set[str]:
         """Return the nodes that publish where turtles are."""
         topics = [topic for topic, kind in self.types.items() if kind == POSE]
@@ -100,10 +105,10 @@ def robot_of(topic: str) -> str:
     return topic.rsplit("/", 1)[0].strip("/")
 
 
-def without(name: str, column: Iterable[Any], shown_in: Container[str] = ()) -> Column:
-    """Return a column of getSystemState() as {entry: nodes}, with a node in shown_in only."""
+def without(names: set[str], column: Iterable[Any], shown_in: Container[str] = ()) -> Column:
+    """Return a column of getSystemState() as {entry: nodes}, with some nodes in shown_in only."""
     users = {
-        entry: frozenset(nodes) - ({name} if entry not in shown_in else set())
+        entry: frozenset(nodes) - (names if entry not in shown_in else set())
         for entry, nodes in column
     }
     return {entry: nodes for entry, nodes in users.items() if nodes}

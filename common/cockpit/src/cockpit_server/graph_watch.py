@@ -15,6 +15,8 @@ from cockpit_server.schema import switch
 from node_kit.ros_api import Answer, call
 
 PERIOD_S = 1.0
+MASTER_S = 0.2  # how often it is asked whether it is there: until that is noticed, a form drives on
+NODE_S = 0.3  # within which a node that is there accepts a connection
 
 
 class GraphWatch(Source):
@@ -48,9 +50,14 @@ class GraphWatch(Source):
         threading.Thread(target=self._run, args=(lost,), daemon=True).start()
 
     def _run(self, lost: Callable[[], None]) -> None:
+        next_look_s = time.monotonic() + PERIOD_S
         while not self._is_lost:
-            time.sleep(PERIOD_S)
-            self.look()
+            time.sleep(MASTER_S)
+            if call(self._uri, "getPid", caller=self._own_name)[0] is Answer.REFUSED:
+                self._is_lost = True
+            elif time.monotonic() >= next_look_s:
+                self.look()
+                next_look_s = time.monotonic() + PERIOD_S
         lost()
 
     def look(self) -> None:
@@ -68,14 +75,20 @@ class GraphWatch(Source):
             self._is_lost = True
             return
         types, shown = dict(types or []), {topic for topic, _ in state[0]} - {"/rosout"}
-        publishers = without(self._own_name, state[0], shown_in=shown)
-        subscribers, services = [without(self._own_name, part) for part in state[1:]]
-        known = self.graph.machines
+        known, names = self.graph.machines, {n for part in state for _, nodes in part for n in nodes}
+        machines = {n: known.get(n) or self._machine(n) for n in names - {self._own_name}}
+        dead = {name for name, machine in machines.items() if machine is None}
+        publishers = without({self._own_name}, without(dead, state[0]).items(), shown_in=shown)
+        subscribers, services = [without({self._own_name, *dead}, part) for part in state[1:]]
         graph = Graph(publishers, subscribers, services, types, parameters=sorted(parameters or []))
-        graph.machines.update({n: known.get(n) or self._machine(n) for n in graph.nodes})
+        graph.machines.update({n: machines.get(n) or "" for n in graph.nodes})
         if graph != self.graph:
             self.graph, self._text = graph, encoded("graph", **graph.parts())
 
-    def _machine(self, node: str) -> str:
+    def _machine(self, node: str) -> str | None:
+        """Return that of a node; None if it was killed, and the master does not know."""
         answer, uri = call(self._uri, "lookupNode", node, caller=self._own_name)
-        return (urlsplit(uri).hostname or "") if answer is Answer.WELL else ""
+        if answer is not Answer.WELL:
+            return ""
+        answer, _ = call(uri, "getPid", caller=self._own_name, timeout_s=NODE_S)
+        return None if answer is Answer.REFUSED else urlsplit(uri).hostname or ""

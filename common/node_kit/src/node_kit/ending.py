@@ -14,7 +14,8 @@ LONGEST_GOODBYE_S = 1.2
 
 
 def end_on_signals() -> None:
-    """Let SIGINT and SIGTERM shut the node down; call before init_node(disable_signals=True).
+    """Let SIGINT, SIGTERM and SIGHUP, which comes when a terminal is closed, shut the node down;
+    call before init_node(disable_signals=True). What nohup starts goes on ignoring SIGHUP.
 
     rospy's own handler calls the master from the thread that it has interrupted. If that was doing
     the same, as while the node starts, it waits for its own lock without end.
@@ -26,8 +27,9 @@ def end_on_signals() -> None:
             target=rospy.signal_shutdown, args=(f"signal {number}",), daemon=True
         ).start()
 
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, end)
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        if number != signal.SIGHUP or signal.getsignal(number) != signal.SIG_IGN:
+            signal.signal(number, end)
 
 
 def end_in_time() -> None:

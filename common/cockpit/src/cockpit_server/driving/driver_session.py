@@ -85,6 +85,8 @@ class DriverSession:
     def _clear(self) -> None:
         self.driver, self.robot = None, ""
         self.plays = False  # a recording, in place of a hand
+        self.topic = ""  # on which a form of the page publishes, in place of a hand
+        self._rest_form: Callable[[], object] | None = None  # publishes what ends its motion
         self.armed = False  # all was seen released since the last loss
         self.newest = 0  # number of the newest input that was taken
         self._last: tuple[Axes, Buttons] | None = None  # (axes, buttons) published last
@@ -98,6 +100,10 @@ class DriverSession:
     def state(self) -> tuple[int | None, str, bool, bool, str]:
         return self.driver, self.robot, self.plays, self.armed, self.why
 
+    @property
+    def is_by_hand(self) -> bool:
+        return not self.plays and not self.topic
+
     def take(self, client: int, robot: str, now: float, *, plays: bool = False) -> None:
         """Sit down. Raises RefusedError if another sits there."""
         refusal = self.refusal(client)
@@ -110,12 +116,33 @@ class DriverSession:
         self._fresh_at = now
         self._beats.clear()
 
+    def publish(
+        self, client: int, robot: str, topic: str, rest: Callable[[], object], now: float
+    ) -> None:
+        """Sit down with a form, which publishes on a topic. rest: called once, when that ends.
+
+        Raises RefusedError if another sits there.
+        """
+        self.take(client, robot, now)
+        self.topic, self._rest_form, self.armed = topic, rest, True
+        self._fresh_at = now + SILENCE_S  # The first beat has yet to go to the page and back.
+
+    def sign(self, client: int, message: Input, now: float) -> bool:
+        """Take a sign of life of the page whose form drives; return whether it is fresh."""
+        self.tick(now)
+        if client != self.driver or not self.topic or not self._is_fresh(message, now):
+            return False
+        self.newest, self._fresh_at = message.n, max(now, self._fresh_at)
+        return True
+
     def refusal(self, client: int) -> str:
         """Return why a client may not sit down, or ""."""
         if self._has_ended:
             return "the cockpit is being shut down"
-        taken = self.driver not in (None, client)
-        return "another page drives; its driver may hand over" if taken else ""
+        if self.driver in (None, client):
+            return ""
+        way = "its driver may hand over" if self.is_by_hand else "Stop ends that"
+        return f"another page drives; {way}"
 
     def leave(self, client: int) -> None:
         if client == self.driver:
@@ -124,7 +151,7 @@ class DriverSession:
 
     def hand_over(self, client: int, to: int, now: float) -> None:
         """Let another client sit down. Raises RefusedError."""
-        if client != self.driver or self.plays:
+        if client != self.driver or not self.is_by_hand:
             raise RefusedError("only the page that drives may hand over")
         robot = self.robot
         self.leave(client)
@@ -139,7 +166,7 @@ class DriverSession:
         whether all that hear this joystick will see that everything is released.
         """
         self.tick(now)  # a silence that was not yet noticed
-        if client != self.driver or self.plays or not self._is_fresh(message, now):
+        if client != self.driver or not self.is_by_hand or not self._is_fresh(message, now):
             return
         self.newest, self._fresh_at = message.n, now
         neutral = is_neutral(message.axes, message.buttons)
@@ -190,7 +217,7 @@ class DriverSession:
         self._rest()
         self.armed = False
         self._report_lost(self.driver, why)
-        if self.plays:
+        if not self.is_by_hand:
             self._clear()
 
     def free(self, why: str) -> None:
@@ -205,7 +232,7 @@ class DriverSession:
 
     def _keep(self, why: str) -> None:
         """Keep the reason of a stop, if the robot moved until now."""
-        if self._last is not None and not is_neutral(*self._last):
+        if self._rest_form or (self._last is not None and not is_neutral(*self._last)):
             self.why, self.stopped = why, self.robot
 
     def moves_on(self, robot: str) -> None:
@@ -226,6 +253,9 @@ class DriverSession:
         self._has_ended = True
 
     def _rest(self) -> None:
+        if self._rest_form:
+            self._rest_form()
+            self._rest_form = None
         if self._last is not None:
             self._publish(*neutral_of(*self._last))
             self._last = None

@@ -67,6 +67,20 @@ class Driving(Source):
         """Return whether this is what is played now."""
         return player is not None and player is self._player and self.session.plays
 
+    def publish(self, client: Client, topic: str, rest: Callable[[], object], now: float) -> None:
+        """Let a client drive by a form. rest: publishes what ends its motion.
+
+        Raises RefusedError.
+        """
+        self.must_be_free(client)
+        robot = self._graphs.graph.robot_with(topic)
+        self.session.publish(client.number, robot, topic, rest, now)
+        self._begin(now)
+
+    def publishes(self, client: Client, topic: str) -> bool:
+        """Return whether a client drives by a form on a topic."""
+        return self.is_driver(client) and self.session.topic == topic
+
     def _sit_down(self, client: Client, robot: str, now: float, plays: bool = False) -> None:
         refusal = self.refusal(client, robot, now)
         if refusal:
@@ -151,7 +165,7 @@ class Driving(Source):
     def tick(self, now: float) -> None:
         """Notice what has not come, and publish what is due of a recording; call every 10 ms."""
         self.session.tick(now)
-        self._joysticks.advertise(self.driven)
+        self._joysticks.advertise(None if self.session.topic else self.driven)
         player, number = self._player, self.session.driver
         if player is None or number is None or not self.plays(player):
             return
@@ -167,7 +181,7 @@ class Driving(Source):
         if self.session.driver is None:
             return
         rival = self._joysticks.rival(self.session.robot, self._sat_at)
-        if rival:
+        if rival and not self.session.topic:
             self.session.free(f"{rival} also drives this robot: end it first")
             return
         self._beats += 1
@@ -180,7 +194,7 @@ class Driving(Source):
         self._changes += 1
         if number in self._pages:
             keeps = number == self.session.driver
-            may_go_on = keeps and not self.session.plays
+            may_go_on = keeps and self.session.is_by_hand
             todo = words.again(self._abouts.get(self.session.robot, About())) if may_go_on else ""
             text = f"{words.lost_text(why, keeps)} {todo}".strip()
             self._pages[number].send("lost", text=text, keeps=may_go_on)
@@ -202,6 +216,7 @@ class Driving(Source):
             driver=page.number if page else None,
             name=page.name if page else "",
             plays=bool(page) and session.plays,
+            topic=session.topic if page else "",
             armed=bool(page) and session.armed,
             why=session.why if robot == session.stopped else "",
             said=self._teleop.newest(robot, now),
@@ -217,13 +232,13 @@ class Driving(Source):
         if client.take_if_new("session", (session.state, self._changes)):
             client.send(
                 "session", driver=session.driver, robot=session.robot, plays=session.plays,
-                yours=self.is_driver(client), armed=session.armed,
+                topic=session.topic, yours=self.is_driver(client), armed=session.armed,
             )  # fmt: skip
         robot = client.watch.look or ""
         about = self._abouts.get(robot, About())
         refusal = self.refusal(client, robot, now)
         said = {
-            "who": words.who(about, robot, client.number),
+            "who": self._who(about, robot, client),
             "ready": words.ready(about, robot, client.number, refusal),
             "how": words.how_to(about, client.number, not refusal),
             "refusal": words.sentence(refusal),
@@ -232,3 +247,11 @@ class Driving(Source):
         }
         if client.take_if_new("drives", said):
             client.send("drives", **said)
+
+    def _who(self, about: About, robot: str, client: Client) -> str:
+        """Return what drives the robot in sight, and whose form drives, which may be any robot."""
+        who, driver = words.who(about, robot, client.number), self.session.driver
+        if driver is None or not self.session.topic or about.driver is not None:
+            return who
+        form = words.by_form(self._pages[driver].name, self.is_driver(client), self.session.topic)
+        return f"{form} {who}" if about.is_driven_by_node else form

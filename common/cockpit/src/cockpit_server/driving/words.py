@@ -24,6 +24,7 @@ class About(NamedTuple):
     driver: Optional[int] = None  # number of the page that drives it
     name: str = ""  # name of the page that drives it
     plays: bool = False  # whether that page plays a recording
+    topic: str = ""  # on which a form of that page publishes
     armed: bool = False  # whether all was seen released
     why: str = ""  # the last stop by a loss of the driver
     said: Optional[Report] = None
@@ -57,6 +58,8 @@ def who(about: About, robot: str, page: int) -> str:
     its = robot or "the robot"
     if about.driver is not None:
         i = about.driver == page
+        if about.topic:
+            return by_form(about.name, i, about.topic)
         if about.plays:
             return sentence(f"{'you play' if i else f'{about.name} plays'} a recording to {its}")
         return sentence(f"{'you drive' if i else f'{about.name} drives'} {its}")
@@ -68,6 +71,11 @@ def who(about: About, robot: str, page: int) -> str:
     if not some:
         return "Nobody drives."
     return f"Nobody drives. Publishers of its joystick topic: {some}."
+
+
+def by_form(name: str, is_own: bool, topic: str) -> str:
+    """Return a sentence that says to a page which one's form drives."""
+    return sentence(f"{'you drive' if is_own else f'{name} drives'} by a form, on {topic}")
 
 
 def again(about: About) -> str:
@@ -98,7 +106,7 @@ def ready(about: About, robot: str, page: int, refusal: str) -> str:
     button = held(about)
     if about.driver != page:
         todo = sentence(refusal)
-    elif about.plays:
+    elif about.plays or about.topic:
         todo = ""
     elif not about.armed:
         some = f"{button} and the stick" if button else "the stick"
@@ -113,7 +121,7 @@ def ready(about: About, robot: str, page: int, refusal: str) -> str:
 def how_to(about: About, page: int, may_drive: bool) -> str:
     """Return how a page drives this robot; "" where a hand can do nothing now."""
     is_others = about.driver not in (None, page) or about.is_driven_by_node
-    if not may_drive or is_others or about.plays or not about.is_heard:
+    if not may_drive or is_others or about.plays or about.topic or not about.is_heard:
         return ""
     button = held(about)
     if button is None:

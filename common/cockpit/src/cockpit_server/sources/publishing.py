@@ -2,7 +2,8 @@
 that driving has.
 
 The page gives the beat: what it does not send, or sends late, is not published. After a silence
-there is a zero velocity, where velocities were published, and nothing more until a person begins.
+nothing more is published until a person begins. What moves a robot makes its page the driver, so
+that the end of that session, by whatever loss, publishes what stops the robot.
 """
 
 from __future__ import annotations
@@ -10,15 +11,23 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import AbstractSet, Any, ClassVar, Mapping, Sequence
 
+import rospy
 from rosgraph.names import is_legal_name
 
 from cockpit_server.clients import Client, RefusedError, Source
-from cockpit_server.driving.driver_session import LATE_S, SILENCE_S, Delay
+from cockpit_server.driving.driver_session import (
+    LATE_S,
+    SILENCE_S,
+    Delay,
+    Input,
+    is_neutral,
+    neutral_of,
+)
 from cockpit_server.driving.who_drives import Driving
 from cockpit_server.feeds import later
 from cockpit_server.graph import JOY
 from cockpit_server.graph_watch import GraphWatch
-from cockpit_server.schema import MILLISECONDS, full_name, number, or_null, text
+from cockpit_server.schema import MILLISECONDS, full_name, number, or_null, switch, text, whole
 from cockpit_server.sources.forms import TEXTS, filled
 from node_kit.message_types import message_class
 from node_kit.rospy_patches.prompt_publisher import PromptPublisher
@@ -28,6 +37,7 @@ MOST_PUBLISHERS = 20
 UNUSED_S = 5.0  # after which a publisher ends
 CONNECT_S = 1.0  # A new publisher waits so long for its subscribers.
 VELOCITY = "geometry_msgs/Twist"
+SILENT = f"the page was silent for {SILENCE_S:g} s: publish again"
 
 
 @dataclass
@@ -46,8 +56,7 @@ class Outlet:
         if self.publisher:
             self.publisher.end()
 
-    def send(self, message: Any, now: float) -> None:
-        self.used_at = now
+    def send(self, message: Any) -> None:
         if self.waits:
             self.waits = message
         else:
@@ -62,84 +71,130 @@ class Outlet:
 
 
 @dataclass
-class Repeat:
-    """What a page publishes again and again."""
+class Held:
+    """What a page publishes again and again, or a motion that it has begun."""
 
     form: dict[str, Any]  # topic, type, values
-    period: float  # [s]
+    drives: bool  # The session of its page judges whether the operator is lost.
     fresh_at: float  # [s]
     delay: Delay = field(default_factory=Delay)
 
 
 class Publishing(Source):
-    """Publishes for pages that may drive, unless another page does; each repeats one message."""
+    """Publishes for pages that may drive, unless another page does; each holds one message."""
 
     messages: ClassVar = {
         "publish": {
             "topic": full_name, "type": text, "values": TEXTS,
             "period": or_null(number(SHORTEST_S, LONGEST_S)),
         },
-        "again": {"t": MILLISECONDS},
+        # A sign of life, with which the message is due or not.
+        "again": {"n": whole, "t": MILLISECONDS, "beat": whole, "due": switch},
         "publish_end": {},
     }  # fmt: skip
 
     def __init__(self, driving: Driving, graph_watch: GraphWatch) -> None:
         self._driving, self._graphs = driving, graph_watch
         self._outlets: dict[tuple[str, str], Outlet] = {}  # by topic and type
-        self._repeats: dict[int, Repeat] = {}  # by page
+        self._held: dict[int, Held] = {}  # by page
 
     def collect(self, clients: Sequence[Client], now: float) -> None:
-        here = {client.number for client in clients}
-        for page, one in list(self._repeats.items()):
-            if page not in here or now - one.fresh_at > one.period + SILENCE_S:
-                self._end(page, now)
+        here = {client.number: client for client in clients}
+        for number, held in list(self._held.items()):
+            client = here.get(number)
+            is_silent = not held.drives and now - held.fresh_at > SILENCE_S
+            if is_silent and client:
+                client.refuse("again", SILENT)
+            if is_silent or not client or not self._is_on(client, held):
+                del self._held[number]
         for key, outlet in list(self._outlets.items()):
             outlet.send_first(self._graphs.graph.subscribers.get(key[0], set()), now)
             if now - outlet.used_at > UNUSED_S:
                 later(self._outlets.pop(key).close)
 
+    def _is_on(self, client: Client, held: Held) -> bool:
+        return not held.drives or self._driving.publishes(client, held.form["topic"])
+
     def on_publish(self, client: Client, now: float, *, period: float | None, **form: Any) -> None:
-        self._end(client.number, now)
-        self._publish(client, now, **form)
-        if period:
-            self._repeats[client.number] = Repeat(form, period, now)
+        message = self._message(client, **form)
+        rest, topic = rest_of(message), form["topic"]
+        drives = rest is not None and bool(period or moves(message))
+        if period or rest is not None:
+            self.on_publish_end(client, now)
+        if drives:
+            outlet_of = lambda: self._outlets[topic, message._type]  # noqa: E731  it comes below
+            self._driving.publish(client, topic, lambda: outlet_of().send(stamped(rest)), now)
+        self._send(topic, message, now)
+        if period or drives:
+            self._held[client.number] = Held(form, drives, now)
 
-    def on_again(self, client: Client, now: float, t: float) -> None:
-        one = self._repeats.get(client.number)
-        if one is None:
-            raise RefusedError("the page was silent for too long: publish again")
-        if one.delay.of(t, now) > LATE_S:
-            return
-        one.fresh_at = now
-        try:
-            self._publish(client, now, **one.form)
-        except RefusedError:
-            self._end(client.number, now)
-            raise
-
-    def on_publish_end(self, client: Client, now: float) -> None:
-        self._end(client.number, now)
-
-    def _publish(
-        self, client: Client, now: float, topic: str, type: str, values: Mapping[str, str]
+    def on_again(
+        self, client: Client, now: float, *, n: int, t: float, beat: int, due: bool
     ) -> None:
+        held = self._held.get(client.number)
+        if held is None or not self._is_on(client, held):
+            return  # it was on its way when that ended
+        if held.drives:
+            is_fresh = self._driving.session.sign(client.number, Input(n, t, beat, (), ()), now)
+        else:
+            is_fresh = held.delay.of(t, now) <= LATE_S
+        if not is_fresh:
+            return
+        held.fresh_at = now
+        try:
+            message = self._message(client, **held.form)
+        except RefusedError:
+            self.on_publish_end(client, now)
+            raise
+        self._outlets[held.form["topic"], message._type].used_at = now
+        if due:
+            self._send(held.form["topic"], message, now)
+
+    def on_publish_end(self, client: Client, _now: float) -> None:
+        held = self._held.pop(client.number, None)
+        if held and held.drives and self._is_on(client, held):
+            self._driving.leave(client)
+
+    def _message(self, client: Client, topic: str, type: str, values: Mapping[str, str]) -> Any:
+        """Return a message that may be published. Raises RefusedError or ValueError."""
         self._driving.must_be_free(client)
         kind, known = message_class(type), self._graphs.graph.types.get(topic, type)
         if kind is None or known != type or not is_legal_name(topic):
             raise RefusedError(f"{topic}: no topic of the type {type}")
         if type == JOY and topic.endswith("/joy"):
             raise RefusedError("a joystick is moved in the tab Robot, where a loss stops the robot")
-        message, outlet = filled(kind, values), self._outlets.get((topic, type))
-        if outlet is None:
-            if len(self._outlets) >= MOST_PUBLISHERS:
-                raise RefusedError(f"at most {MOST_PUBLISHERS} topics in {UNUSED_S:g} s")
-            outlet = self._outlets[topic, type] = Outlet(now, now, message)
-            later(outlet.open, topic, kind)
-        outlet.send(message, now)
+        if len(self._outlets) >= MOST_PUBLISHERS and (topic, type) not in self._outlets:
+            raise RefusedError(f"at most {MOST_PUBLISHERS} topics in {UNUSED_S:g} s")
+        return filled(kind, values)
 
-    def _end(self, page: int, now: float) -> None:
-        """End what a page repeats, with a zero velocity where velocities were published."""
-        one = self._repeats.pop(page, None)
-        outlet = one and self._outlets.get((one.form["topic"], VELOCITY))
+    def _send(self, topic: str, message: Any, now: float) -> None:
+        outlet = self._outlets.get((topic, message._type))
         if outlet:
-            outlet.send(message_class(VELOCITY)(), now)
+            outlet.used_at = now
+            outlet.send(message)
+            return
+        outlet = self._outlets[topic, message._type] = Outlet(now, now, message)
+        later(outlet.open, topic, type(message))
+
+
+def rest_of(message: Any) -> Any:
+    """Return the message that ends a motion which one like this begins; None for other types."""
+    rest = type(message)()
+    if message._type == JOY:
+        rest.axes, rest.buttons = neutral_of(message.axes, message.buttons)
+    elif message._type != VELOCITY:
+        return None
+    return rest
+
+
+def moves(message: Any) -> bool:
+    if message._type == JOY:
+        return not is_neutral(message.axes, message.buttons)
+    return message != rest_of(message)
+
+
+def stamped(message: Any) -> Any:
+    """Return a message with the time, if it has a place for that."""
+    if hasattr(message, "header"):
+        message.header.stamp = rospy.Time.now()
+    return message
