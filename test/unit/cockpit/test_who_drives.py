@@ -132,7 +132,14 @@ def test_pages_are_sent_each_change_of_the_driver(driven):
         found = look(driven, driven.anna, driven.bob)
         return [[one for one in sent if one["kind"] == "session"] for sent in found]
 
-    state = {"kind": "session", "driver": ANNA, "robot": "ada", "plays": False, "topic": "", "armed": True}
+    state = {
+        "kind": "session",
+        "driver": ANNA,
+        "robot": "ada",
+        "plays": False,
+        "topic": "",
+        "armed": True,
+    }
     assert sessions() == [[{**state, "yours": True}], [{**state, "yours": False}]]
     assert sessions() == [[], []]
     driven.on_drive(driven.anna[0], driven.now, **ADA)  # again

@@ -75,7 +75,10 @@ class GraphWatch(Source):
             self._is_lost = True
             return
         types, shown = dict(types or []), {topic for topic, _ in state[0]} - {"/rosout"}
-        known, names = self.graph.machines, {n for part in state for _, nodes in part for n in nodes}
+        known, names = (
+            self.graph.machines,
+            {n for part in state for _, nodes in part for n in nodes},
+        )
         machines = {n: known.get(n) or self._machine(n) for n in names - {self._own_name}}
         dead = {name for name, machine in machines.items() if machine is None}
         publishers = without({self._own_name}, without(dead, state[0]).items(), shown_in=shown)

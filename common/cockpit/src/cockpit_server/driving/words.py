@@ -57,12 +57,7 @@ def who(about: About, robot: str, page: int) -> str:
     """Return a sentence that says to a page what drives the robot."""
     its = robot or "the robot"
     if about.driver is not None:
-        i = about.driver == page
-        if about.topic:
-            return by_form(about.name, i, about.topic)
-        if about.plays:
-            return sentence(f"{'you play' if i else f'{about.name} plays'} a recording to {its}")
-        return sentence(f"{'you drive' if i else f'{about.name} drives'} {its}")
+        return by_page(about, its, about.driver == page)
     some = " and ".join(about.senders)
     if about.is_driven_by_node:
         return f"{some or 'A joystick'} drives {its}."
@@ -71,6 +66,14 @@ def who(about: About, robot: str, page: int) -> str:
     if not some:
         return "Nobody drives."
     return f"Nobody drives. Publishers of its joystick topic: {some}."
+
+
+def by_page(about: About, its: str, is_own: bool) -> str:
+    if about.topic:
+        return by_form(about.name, is_own, about.topic)
+    if about.plays:
+        return sentence(f"{'you play' if is_own else f'{about.name} plays'} a recording to {its}")
+    return sentence(f"{'you drive' if is_own else f'{about.name} drives'} {its}")
 
 
 def by_form(name: str, is_own: bool, topic: str) -> str:

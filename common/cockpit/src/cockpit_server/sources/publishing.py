@@ -72,7 +72,7 @@ class Outlet:
 
 @dataclass
 class Held:
-    """What a page publishes again and again, or a motion that it has begun."""
+    """What a page publishes again and again, or a motion that it has started."""
 
     form: dict[str, Any]  # topic, type, values
     drives: bool  # The session of its page judges whether the operator is lost.
@@ -100,13 +100,13 @@ class Publishing(Source):
 
     def collect(self, clients: Sequence[Client], now: float) -> None:
         here = {client.number: client for client in clients}
-        for number, held in list(self._held.items()):
-            client = here.get(number)
+        for page, held in list(self._held.items()):
+            client = here.get(page)
             is_silent = not held.drives and now - held.fresh_at > SILENCE_S
             if is_silent and client:
                 client.refuse("again", SILENT)
             if is_silent or not client or not self._is_on(client, held):
-                del self._held[number]
+                del self._held[page]
         for key, outlet in list(self._outlets.items()):
             outlet.send_first(self._graphs.graph.subscribers.get(key[0], set()), now)
             if now - outlet.used_at > UNUSED_S:
@@ -122,8 +122,9 @@ class Publishing(Source):
         if period or rest is not None:
             self.on_publish_end(client, now)
         if drives:
-            outlet_of = lambda: self._outlets[topic, message._type]  # noqa: E731  it comes below
-            self._driving.publish(client, topic, lambda: outlet_of().send(stamped(rest)), now)
+            key = topic, message._type  # of the publisher, which comes below
+            rest_it = lambda: self._outlets[key].send(stamped(rest))  # noqa: E731  short
+            self._driving.publish(client, topic, rest_it, now)
         self._send(topic, message, now)
         if period or drives:
             self._held[client.number] = Held(form, drives, now)
