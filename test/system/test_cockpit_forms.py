@@ -11,12 +11,15 @@ import rospkg
 
 from node_kit.ros_api import accepts
 from tutorial_testing.cockpit.world import World
+from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import suspended
+from tutorial_testing.robot import OBSERVER
 from tutorial_testing.socket_page import SocketPage
 from tutorial_testing.waiting import tolerance, wait_for
 
 pytestmark = pytest.mark.xdist_group("cockpit")
 BOUND_S = 0.6  # from the loss to rest
+ARM_S = 1.0  # A page waits for twice as long for a subscriber that does not connect.
 TWIST = {"topic": "/cmd_vel", "type": "geometry_msgs/Twist"}
 CURVE = {"linear/x": "0.2", "angular/z": "0.5"}
 CONFIG = rospkg.RosPack().get_path("fake_turtlebot_sim") + "/config"
@@ -35,7 +38,9 @@ class WithMaster(Careless):
         uri = self.environment["ROS_MASTER_URI"]
         self.master = self.run("rosmaster", "--core", "-p", uri.rpartition(":")[2])
         wait_for(lambda: accepts(uri), "master")
-        super().begin()
+        self.launched = self.run("roslaunch", *self.launch, *self._arguments)
+        self.observe(OBSERVER, **self.environment)
+        self.start_cockpit()
 
 
 @pytest.fixture(scope="module")
@@ -130,14 +135,22 @@ def test_without_a_master_or_with_one_that_hangs_a_robot_without_a_timeout_is_st
             judge(world, world.master.kill)
 
 
-def test_a_cockpit_that_is_killed_leaves_it_to_the_timeout_of_a_turtlebot_and_comes_back():
+def test_a_cockpit_that_is_killed_leaves_a_turtlebot_to_its_timeout():
+    with World() as world, moved(world, 0.05):
+        judge(world, world.cockpit.kill, bound_s=0.7)
+
+
+def test_a_cockpit_that_was_killed_is_not_shown_by_the_next_one_which_arms_at_once():
     with World() as world:
-        with moved(world, 0.05):
-            judge(world, world.cockpit.kill, bound_s=0.7)
-        world.start_cockpit()
         with SocketPage(world.port) as page:
-            page.say("watch", look="", robots=True)
-            drives = page.wait_for("drives", lambda drives: drives["ready"])
-            assert drives["who"] == "Nobody drives."  # the dead one is not shown
             page.sit_down()
-            wait_for(lambda: page.of("session")[-1]["armed"], "session")
+            world.cockpit.kill()
+        command = node_path("cockpit", "cockpit.py"), "--port", str(world.port), "__name:=another"
+        world.cockpit = world.run(*command)
+        world.find_page()
+        with SocketPage(world.port) as page:
+            drives = page.wait_for("drives", lambda drives: not drives["refusal"])
+            assert drives["who"] == "Nobody drives."
+            late_s, begin_s = tolerance(), time.monotonic()
+            page.sit_down()
+            assert time.monotonic() - begin_s < ARM_S + late_s()
