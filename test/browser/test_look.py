@@ -2,6 +2,7 @@
 
 import pytest
 
+from tutorial_testing.cockpit.accessibility import violations
 from tutorial_testing.waiting import wait_for
 
 TABS = ("robot", "graph", "topics", "bag", "plot", "log", "doctor")
@@ -13,24 +14,11 @@ CHOSEN = {
 }
 NARROW = (320, 256)  # 1280 x 1024 at 400 %: WCAG 2.2, 1.4.10
 VIEWS = {"dark": (1280, 800), "light": NARROW}
-WCAG = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22a", "wcag22aa"]
 # The widest of what is shown, beside pictures and tables that may be scrolled.
 WIDEST = """Math.max(document.documentElement.scrollWidth,
   ...[...document.querySelectorAll("body *")].filter((one) => one.getClientRects().length
     && !one.closest("#graph-picture svg, pre, .unseen, table"))
     .map((one) => one.getBoundingClientRect().right))"""
-# What is wrong alone is looked at closely, and comes back: all else would take twice as long.
-AXE = """const [given, done] = arguments, options = {runOnly: given, resultTypes: ["violations"]};
-axe.run(document, options).then((found) => done(found.violations));"""
-
-
-def violations(page):
-    """Return [(rule of WCAG, first element that breaks it)] of what is shown, as axe finds them."""
-    axe_selenium = pytest.importorskip("selenium_axe_python", reason="needs Python 3.9")
-    if page.ask("typeof axe") == "undefined":
-        axe_selenium.Axe(page.driver).inject()
-    found = page.driver.execute_async_script(AXE, WCAG)
-    return [(one["id"], one["nodes"][0]["html"]) for one in found]
 
 
 @pytest.mark.parametrize("view", VIEWS)

@@ -12,10 +12,12 @@ from tutorial_check.report.class_page import POLICY, Student, table_csv, table_h
 
 NOTED = Outcome("2", [Result("C1", NOTE, "one", seen="a name")], 1.0, True)
 BAD = Outcome("2", [Result("C1", WRONG, "one", seen="=none", hint="mkdir src")], 1.0, True)
-UNDECIDED = Outcome("5", [Result("C21", UNREACHED, "two", seen="first fix C1")], 1.0, True)
+FILES = Result("C20", OK, "files", seen="launch/joy.launch")
+UNDECIDED = Outcome("5", [FILES, Result("C21", UNREACHED, "two", seen="first fix C1")], 1.0, True)
 NO_VERDICT = Outcome("5", UNDECIDED.results, 1.0, True, "C21: no space")
 EMPTY = Outcome("5", [Result("C21", OK, "two", empty=True)], done=True)
 TITLES = {"2": "a package", "5": "launch files"}
+ABOUT = "/home/ada/class, 27 November 2026, 14:40"
 TEXTS = ("title", "expected", "seen", "where", "hint")
 HOSTILE = "<script>alert(1)</script>\"'><img src=x onerror=alert(1)>"
 
@@ -41,11 +43,14 @@ def test_the_table_has_what_could_be_checked():
         ["o'neill_7@uni.example = b - c", "ok", "not done", "1", "1"],
     ]
     assert [row[6:] for row in rows[1:]] == [["", ""], ["'=none", "not isolated"], ["", ""]]
-    page = table_html(students, ["2", "5"], TITLES)
+    page = table_html(students, ["2", "5"], TITLES, ABOUT)
     assert 'title="C21: no space">?</td>' in page and 'class="wrong"' in page
     for cell in (">-<small>first fix C1</small>", ">not done<", "<td>1 of 2</td><td>1</td>"):
         assert cell in page
-    assert "<td>=bob</td><td>not isolated</td>" in page
+    assert "=bob</a></td><td>not isolated</td>" in page
+    assert f"<p>{ABOUT}</p>" in page and f"<title>Exercises: {ABOUT}</title>" in page
+    total = "<tr><th>all 3</th><td>2 of 3</td><td>0 of 3</td><td>0 of 3</td><td>2</td>"
+    assert total in page
 
 
 def wrong(seen, check="C16", **more):
@@ -61,13 +66,15 @@ def test_how_many_fail_what_and_why():
     ]
     assert class_page.failures(students) == [("C16", "axes", 3), ("C12", "axes", 1)]
     found = class_page.causes(students)
-    assert [count for count, _ in found] == [2, 1, 1]
+    assert [[one.name for one in whose] for whose, _ in found] == [["bob", "eve"], ["ada"], ["zoe"]]
     assert found[0][1].seen == "angular.z = -0.98 * axes[0]"
     # An example does not say whose it is.
     assert (found[1][1].seen, found[1][1].hint) == ("the sign of NAME is wrong", "fix NAME's")
-    page = table_html(students, ["5"], TITLES)
+    page = table_html(students, ["5"], TITLES, ABOUT)
     below = page[page.index("<h2>") :]
-    assert "ada" not in below and "<td>C16</td><td>axes</td><td>3</td>" in below
+    assert "<td>C16</td><td>axes</td><td>3</td>" in below
+    bob, eve = (f'<a href="./{name}.txt">{name}</a>' for name in ("bob", "eve"))
+    assert f"<tr><td>{bob}, {eve}</td><td>C16 axes</td>" in below
     assert ">C16<small>angular.z = -0.98 * axes[0]</small></td>" in page
 
 
@@ -81,10 +88,12 @@ def test_what_changed_since_the_last_run():
     assert changes(again)["stuck"] == ["C16 axes"]
     assert (changes(fixed)["now done"], changes(worse)["no more done"]) == (["5"], ["5"])
     assert not any(changes(another).values())
-    page = table_html([again, fixed, worse, another], ["5"], TITLES)
+    page = table_html([again, fixed, worse, another], ["5"], TITLES, ABOUT)
     since = page[page.index("Since the last run") : page.index("Legend")]
     assert [name in since for name in ("ada", "bob", "eve", "zoe")] == [True, True, True, False]
-    assert "Since the last run" not in table_html([Student("ada", None, [BAD])], ["2"], TITLES)
+    assert "Since the last run" not in table_html(
+        [Student("ada", None, [BAD])], ["2"], TITLES, ABOUT
+    )
 
 
 @pytest.mark.parametrize("field", ["name", "trouble", *TEXTS])
@@ -93,7 +102,7 @@ def test_nothing_in_a_page_is_a_tag(field):
     name, trouble = words.pop("name"), words.pop("trouble")
     outcomes = [Outcome("5", [Result("C16", WRONG, **words)], done=True)]
     student = Student(name, None, [] if trouble else outcomes, trouble=trouble, before=outcomes)
-    page = table_html([student], ["5"], TITLES)
+    page = table_html([student], ["5"], TITLES, ABOUT)
     tags = set(re.findall(r"<(\w+)", page))
     assert not tags & {"script", "img"}
     assert "&lt;script&gt;" in page and " onerror" not in re.sub(r"&lt;.*?&gt;", "", page)

@@ -207,3 +207,14 @@ def test_a_run_that_was_interrupted_goes_on_where_it_was(group, monkeypatch):
         group.check_all()
     assert group.check_all()[0] == 0
     assert group.started == ["ada", "bob", "bob"]
+
+
+def test_moodles_folders_have_the_names_of_students(tmp_path):
+    """Of two of one name both have the folder's, as reports are files."""
+    group = Group(tmp_path / "class")
+    ending = "_assignsubmission_file_"
+    folders = [f"Ada Lovelace_2101{ending}", f"Bo Li_7{ending}", f"Bo Li_8{ending}"]
+    for name in folders:
+        (group.folder / name).mkdir()
+    names = [one.name for one in submissions.find_students(group.folder, group.check)]
+    assert names == ["Ada Lovelace", *folders[1:]]

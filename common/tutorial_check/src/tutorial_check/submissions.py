@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import contextlib
 import os
+import re
 import time
 from collections import Counter
 from concurrent.futures import ThreadPoolExecutor, as_completed
@@ -24,6 +25,8 @@ from tutorial_check.worker_process import no_more
 
 ARCHIVES = (".zip", ".tar", ".tgz", ".gz", ".bz2", ".xz", ".7z", ".rar")
 TABLES = ("table.csv", "table.html")
+# Of the folders in which Moodle hands out what was handed in: NAME_12345_assignsubmission_file_
+OF_MOODLE = re.compile(r"_\d+_assignsubmission_[a-z]+_?.*")
 QUICK_S = 0.05  # for the page of a class that is not large
 RESULTS = (".csv", ".html", ".txt", ".json")
 
@@ -41,6 +44,7 @@ def find_students(folder: str | Path, out: str | Path, tasks: str = "") -> list[
     if not paths:
         raise CannotCheck(f"{folder}: no workspace and no zip in it")
     short = [path.stem if path.suffix.lower() == ".zip" else path.name for path in paths]
+    short = [OF_MOODLE.sub("", name) or name for name in short]
     claims = Counter(word for path, name in zip(paths, short) for word in {name, path.name})
     names = (name if claims[name] == 1 else path.name for name, path in zip(short, paths))
     return [Student(name, path) for name, path in zip(names, paths)]
@@ -128,7 +132,8 @@ class Check:
         if began_s < self._next_s and not is_last:
             return
         titles = {name: one.title for name, one in self._options.course.exercises.items()}
-        page = table_html(self._students, self._options.exercises, titles)
+        about = f"{os.path.abspath(self._options.all)}, {time.strftime('%d %B %Y, %H:%M')}"
+        page = table_html(self._students, self._options.exercises, titles, about)
         write(self._out / f".{TABLES[1]}", page)
         os.replace(self._out / f".{TABLES[1]}", self._out / TABLES[1])
         self._last_run.keep(self._students)

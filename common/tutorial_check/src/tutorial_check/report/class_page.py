@@ -13,7 +13,7 @@ from string import Template
 from typing import Any, Iterable, Iterator, Mapping, Sequence
 from urllib.parse import quote
 
-from tutorial_check.model import NOTE, Outcome, Result
+from tutorial_check.model import NOTE, UNREACHED, Outcome, Result
 from tutorial_check.report.text import lines_of
 
 # Where a spreadsheet may see the start of a cell, with any separator, followed by a formula.
@@ -53,7 +53,8 @@ class Student:
             return wrong.id, _short(wrong.seen), "\n".join(lines_of(wrong))
         if outcome.trouble:
             return "?", "", outcome.trouble
-        return "-", next((_short(one.seen) for one in outcome.results), ""), "not reached"
+        why = next((one.seen for one in outcome.results if one.status == UNREACHED), "")
+        return "-", _short(why), "not reached"
 
     @property
     def done(self) -> str:
@@ -103,24 +104,45 @@ def table_csv(students: Iterable[Student], exercises: Sequence[str]) -> str:
 
 
 def table_html(
-    students: Sequence[Student], exercises: Sequence[str], titles: Mapping[str, str]
+    students: Sequence[Student], exercises: Sequence[str], titles: Mapping[str, str], about: str
 ) -> str:
-    """Return the page. While students are still being checked it loads itself again."""
+    """Return the page. While students are still being checked it loads itself again.
+
+    about: of what, and when.
+    """
     heads = ["student", *(f"{each}<small>{escape(titles[each])}</small>" for each in exercises)]
     rows = [_row((*heads, "done", "notes", "took"), "th")]
     for student in students:
-        link = quote(f"{student.name}.txt", errors="surrogateescape")  # a name may be no UTF-8
-        row = f'<tr><td><a href="./{link}">{escape(student.name)}</a></td>'
+        row = f"<tr><th>{_link(student)}</th>"
         for word, cause, details in map(student.cell, exercises):
             small = f"<small>{escape(cause)}</small>" if cause else ""
             kind = KINDS.get(word, "wrong")
             row += f'<td class="{kind}" title="{escape(details)}">{escape(word)}{small}</td>'
-        about = (student.done, str(student.notes or ""), f"{student.seconds:.0f} s")
-        rows.append(row + "".join(f"<td>{word}</td>" for word in about) + "</tr>")
+        last = (student.done, str(student.notes or ""), f"{student.seconds:.0f} s")
+        rows.append(row + "".join(f"<td>{word}</td>" for word in last) + "</tr>")
+    rows.append(_total(students, exercises))
     runs = any(student.cell(exercises[0])[0] == "..." for student in students)
     refresh = '<meta http-equiv="refresh" content="5">' if runs else ""
-    body = f"<table>{''.join(rows)}</table>{''.join(_below(students))}"
-    return PAGE.substitute(policy=escape(POLICY), refresh=refresh, body=body)
+    body = f'<table class="class">{"".join(rows)}</table>{"".join(_below(students))}'
+    return PAGE.substitute(policy=escape(POLICY), refresh=refresh, about=escape(about), body=body)
+
+
+def _link(student: Student) -> str:
+    """Return a student's name, which leads to the report."""
+    path = quote(f"{student.name}.txt", errors="surrogateescape")  # a name may be no UTF-8
+    return f'<a href="./{path}">{escape(student.name)}</a>'
+
+
+def _total(students: Sequence[Student], exercises: Sequence[str]) -> str:
+    """Return the last row: how many students have done each exercise."""
+    checked = [one for one in students if one.outcomes]
+    done = (sum(one.cell(each)[0] == "ok" for one in checked) for each in exercises)
+    counts = (f"<td>{count} of {len(checked)}</td>" for count in done)
+    notes = sum(one.notes for one in checked) or ""
+    took = f"{sum(one.seconds for one in students):.0f} s"
+    all_done = sum(all(each.solved for each in one.outcomes) for one in checked)
+    total = f"<td>{all_done} of {len(checked)}</td><td>{notes}</td><td>{took}</td>"
+    return f"<tr><th>all {len(students)}</th>{''.join(counts)}{total}</tr>"
 
 
 def _row(cells: Iterable[str], tag: str = "td") -> str:
@@ -129,24 +151,32 @@ def _row(cells: Iterable[str], tag: str = "td") -> str:
 
 def _below(students: Sequence[Student]) -> Iterator[str]:
     """Yield what is below the table: a heading and a table each, if there is something in it."""
-    failed = ((one, title, str(count), BAR * count) for one, title, count in failures(students))
-    yield _section("How many fail each check", (), failed)
-    frequent = (
-        (str(count), f"{one.id} {one.title}", *(getattr(one, word) for word in WORDS))
-        for count, one in causes(students)
+    failed = (
+        (one, escape(title), str(count), BAR * count) for one, title, count in failures(students)
     )
-    yield _section("The most frequent causes", ("how many", "check", *WORDS), frequent)
-    changed = ((one.name, *map(", ".join, changes(one).values())) for one in students)
+    yield _section("How many fail each check", ("check", "", "how many", ""), failed)
+    frequent = (
+        (", ".join(map(_link, those)), *(escape(words) for words in _words(example)))
+        for those, example in causes(students)
+    )
+    yield _section("The most frequent causes", ("students", "check", *WORDS), frequent)
+    changed = ((one, [*map(", ".join, changes(one).values())]) for one in students)
     head = ("student", "now done", "no more done", "stuck at the same check")
-    yield _section("Since the last run", head, (row for row in changed if any(row[1:])))
-    remarks = ((one.name, one.remark) for one in students if one.remark)
+    rows = ((_link(one), *map(escape, cells)) for one, cells in changed if any(cells))
+    yield _section("Since the last run", head, rows)
+    remarks = ((_link(one), escape(one.remark)) for one in students if one.remark)
     yield _section("Remarks", ("student", "remark"), remarks)
 
 
+def _words(result: Result) -> Iterator[str]:
+    yield f"{result.id} {result.title}"
+    yield from (getattr(result, word) for word in WORDS)
+
+
 def _section(title: str, head: Sequence[str], rows: Iterable[Iterable[str]]) -> str:
-    lines = [_row(map(escape, row)) for row in rows]
-    top = _row(head, "th") if head else ""
-    return f"<h2>{title}</h2><table>{top}{''.join(lines)}</table>" if lines else ""
+    """Return a table with its heading. rows: of HTML."""
+    lines = [*map(_row, rows)]
+    return f"<h2>{title}</h2><table>{_row(head, 'th')}{''.join(lines)}</table>" if lines else ""
 
 
 def failures(students: Iterable[Student]) -> list[tuple[str, str, int]]:
@@ -155,17 +185,18 @@ def failures(students: Iterable[Student]) -> list[tuple[str, str, int]]:
     return [(*about, count) for about, count in wrong.most_common()]
 
 
-def causes(students: Iterable[Student]) -> list[tuple[int, Result]]:
-    """Return (how many, an example without the student's name) of the most frequent causes."""
+def causes(students: Iterable[Student]) -> list[tuple[list[Student], Result]]:
+    """Return (whose, an example without the student's name) of the most frequent causes."""
     examples: dict[str, Result] = {}
-    counts: Counter[str] = Counter()
+    whose: dict[str, list[Student]] = {}
     for student in students:
         for one in student.wrong:
-            counts[cause_of(one)] += 1
+            whose.setdefault(cause_of(one), []).append(student)
             name = re.compile(rf"\b{re.escape(student.name)}\b", re.IGNORECASE)
             words: dict[str, Any] = {word: name.sub("NAME", getattr(one, word)) for word in WORDS}
             examples.setdefault(cause_of(one), replace(one, **words))
-    return [(count, examples[cause]) for cause, count in counts.most_common(MOST_CAUSES)]
+    frequent = sorted(whose, key=lambda cause: -len(whose[cause]))[:MOST_CAUSES]
+    return [(whose[cause], examples[cause]) for cause in frequent]
 
 
 def changes(student: Student) -> dict[str, list[str]]:
