@@ -1,4 +1,4 @@
-"""The 30 problems that beginners of ROS 1 report most, as TROUBLE.md and the doctor answer them.
+"""The problems that beginners of ROS 1 report most, as TROUBLE.md and the doctor answer them.
 
 Each is made here, as far as this machine can, in bash. What is printed must have the sentence of
 the page, in which "..." stands for names, and the doctor's words, where it is the tool.
@@ -12,7 +12,8 @@ import pytest
 from tutorial_testing.processes import REPOSITORY, Program
 from tutorial_testing.waiting import LONGEST_S
 
-PAGE = (REPOSITORY / "common/doc/TROUBLE.md").read_text()
+PATH = REPOSITORY / "common/doc/TROUBLE.md"
+PAGE = PATH.read_text()
 SENTENCES = PAGE.split("## By the sentence")[1].split("## By what you see")[0]
 CELLS = re.findall(r"^\| (`.*?) \| (.*) \|$", SENTENCES, re.M)
 # What the scripts share: a package in the workspace of their folder, a master, the doctor.
@@ -22,6 +23,10 @@ trap 'kill $(jobs -p) 2>/dev/null; wait' EXIT
 tools=$(rospack find tutorial_tools)
 doctor() { echo DOCTOR; /usr/bin/python3 "$tools/scripts/doctor.py"; }
 bare() { env -i PATH=/usr/bin:/bin HOME="$HOME" CMAKE_POLICY_VERSION_MINIMUM=3.5 "$@"; }
+nodes() { # the launch file with the node a.py, and these attributes
+    echo "<launch><node pkg='mine' type='a.py' name='a' required='true' $1/></launch>" >a.launch
+    export ROS_PACKAGE_PATH=$PWD/ws/src:$ROS_PACKAGE_PATH
+}
 package() {
     mkdir -p ws/src/mine/scripts
     echo '<package format="2"><name>mine</name><version>0.0.1</version><description>d</description>
@@ -102,9 +107,47 @@ Could not find a package configuration file provided by "..."
     package 'COMPONENTS nowhere'; cd ws && bare catkin_make
 process has died [pid ..., exit code ...]
     package; printf '#!/bin/sh\nexit 3\n' >ws/src/mine/scripts/a.py
-    chmod +x ws/src/mine/scripts/a.py
-    echo '<launch><node pkg="mine" type="a.py" name="a" required="true"/></launch>' >a.launch
-    ROS_PACKAGE_PATH=$PWD/ws/src:$ROS_PACKAGE_PATH roslaunch a.launch
+    chmod +x ws/src/mine/scripts/a.py; nodes; roslaunch a.launch
+cannot launch node of type [...]: Cannot locate node of type
+    package; echo '#!/usr/bin/python3' >ws/src/mine/scripts/a.py; nodes
+    until_it_says 'Cannot locate' roslaunch a.launch; TUTORIAL_IN=$PWD/ws doctor
+  > scripts/a.py is not executable: chmod +x
+import: command not found
+    package; echo 'import rospy' >ws/src/mine/scripts/a.py
+    chmod +x ws/src/mine/scripts/a.py; nodes; rosrun mine a.py; TUTORIAL_IN=$PWD/ws doctor
+  > scripts/a.py does not begin with #!: sed
+you may be missing a '#!' declaration
+    package; echo 'import rospy' >ws/src/mine/scripts/a.py
+    chmod +x ws/src/mine/scripts/a.py; nodes; roslaunch a.launch; TUTORIAL_IN=$PWD/ws doctor
+  > scripts/a.py does not begin with #!: sed
+RLException: Roslaunch got a 'No such file or directory' error
+    package; printf '#!/bin/sh\n' >ws/src/mine/scripts/a.py; chmod +x ws/src/mine/scripts/a.py
+    nodes "launch-prefix='no_xterm -e'"; roslaunch a.launch
+The specified source space "..." does not exist
+    mkdir ws; cd ws; bare catkin_make
+Multiple packages found with the same name
+    package; cp -r ws/src/mine ws/src/copy; (cd ws && bare catkin_make); TUTORIAL_IN=$PWD/ws doctor
+  > packages have the name mine:
+Unable to contact my own server at
+    echo '<launch/>' >a.launch; export ROS_IP=192.0.2.7; roslaunch a.launch; doctor
+  > ROS_IP=192.0.2.7 is no address of this machine
+Could not process inbound connection: topic types do not match
+    master; listen='rospy.Subscriber("chatter", std_msgs.msg.Int32, print); rospy.spin()'
+    /usr/bin/python3 -c "import rospy, std_msgs.msg; rospy.init_node('a'); $listen" &
+    until_it_says inbound rosrun beginner_tutorials talker.py; doctor
+  > /chatter
+Cannot load message class for
+    master; send='rospy.Publisher("num", Num, queue_size=1); rospy.spin()'
+    make="Num = type('Num', (std_msgs.msg.String,), {'_type': 'mine/Num'})"
+    /usr/bin/python3 -c "import rospy, std_msgs.msg; rospy.init_node('a'); $make; a = $send" &
+    until rostopic type /num; do sleep 0.1; done; rostopic echo -n 1 num
+'_1' was not declared in this scope
+    printf '#include <ros/ros.h>\nvoid f(int) {}\nint main() { boost::bind(f, _1)(1); }\n' >a.cpp
+    flags=$(sed -n "s/.*'_1' was.*CXXFLAGS='\(.*\)'.*/\1/p" "$PAGE")
+    LC_ALL=C g++ -fsyntax-only $flags a.cpp && LC_ALL=C g++ -fsyntax-only a.cpp
+Invalid roslaunch XML syntax: [Errno 2] No such file
+    echo '<launch><include file="$(find joy2twist)/x.launch"/></launch>' >a.launch
+    roslaunch a.launch
 RLException: Invalid roslaunch XML syntax
     echo '<launch><node></launch>' >a.launch; roslaunch a.launch
 RLException: Invalid <param> tag: Cannot load command parameter
@@ -126,8 +169,8 @@ NOT_MADE = {
 }
 
 
-def test_there_are_30_problems_and_the_page_has_each_where_one_looks():
-    assert len(MADE) + len(NOT_MADE) == 30
+def test_the_page_has_each_problem_where_one_looks():
+    assert len(MADE) + len(NOT_MADE) == 41
     for sentence in NOT_MADE:
         assert sentence in PAGE
     firsts = [cell.split("`")[1].casefold() for cell, _ in CELLS]
@@ -141,7 +184,7 @@ def test_the_sentence_that_a_beginner_reads(sentence, script, words, tmp_path, m
     for program in ("zsh", "rviz"):
         if program in script and not shutil.which(program):
             pytest.skip(f"no {program} here")
-    given = {"ROS_MASTER_URI": master_uri, "TUTORIAL_IN": ""}
+    given = {"ROS_MASTER_URI": master_uri, "TUTORIAL_IN": "", "PAGE": str(PATH)}
     with Program("bash", "-c", COMMON + script, str(tmp_path), **given) as program:
         program.wait(LONGEST_S)
         output = program.output

@@ -16,6 +16,7 @@ from node_kit.manifests import manifests
 
 SYSTEMS = "/usr/bin/python3"  # to which ROS 1 belongs
 PATH = "TUTORIAL_TERMINAL_PATH"  # with which ./tutorial was called; its own has SYSTEMS first
+SCRIPTS = ("scripts", "nodes", "bin")  # the folders of a package in which programs are
 PROBE = """
 import importlib.util, json
 found = {name: importlib.util.find_spec(name) for name in ("rospkg", "catkin_pkg", "em")}
@@ -65,9 +66,34 @@ def _of_workspace(workspace: Path) -> Iterator[tuple[str, str]]:
         yield f"{build} was made by {tool}, not by catkin_make", rebuild
     elif source and os.path.realpath(source[1]) != os.path.realpath(workspace / "src"):
         yield f"{build} was made for {source[1]}", rebuild
-    for script in [path for one in manifests(workspace / "src") for path in one.parent.glob("*/*")]:
-        if re.match("#!.*\r\n", _text(script)):
-            yield f"{script} has the line ends of Windows", f"sed -i 's/\\r$//' {script}"
+    packages = list(manifests(workspace / "src"))
+    yield from _of_names(packages)
+    for script in [path for package in packages for path in sorted(package.parent.glob("*/*"))]:
+        yield from _of_script(script)
+
+
+def _of_names(packages: list[Path]) -> Iterator[tuple[str, str]]:
+    folders: dict[str, list[str]] = {}
+    for package in packages:
+        if name := re.search(r"<name>\s*([^<\s]+)", _text(package)):
+            folders.setdefault(name[1], []).append(str(package.parent))
+    for name, copies in folders.items():
+        if len(copies) > 1:
+            todo = f"delete one, or touch {copies[0]}/CATKIN_IGNORE"
+            yield f"{len(copies)} packages have the name {name}: {', '.join(copies)}", todo
+
+
+def _of_script(script: Path) -> Iterator[tuple[str, str]]:
+    text = _text(script)
+    if re.match("#!.*\r\n", text):
+        yield f"{script} has the line ends of Windows", f"sed -i 's/\\r$//' {script}"
+    if script.parent.name not in SCRIPTS:
+        return
+    executable = os.access(script, os.X_OK)
+    if text.startswith("#!") and not executable:
+        yield f"{script} is not executable", f"chmod +x {script}"
+    elif executable and script.suffix == ".py" and not text.startswith("#!"):
+        yield f"{script} does not begin with #!", f"sed -i '1i #!{SYSTEMS}' {script}"
 
 
 def _text(path: Path) -> str:
