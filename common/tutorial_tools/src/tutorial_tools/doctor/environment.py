@@ -75,8 +75,8 @@ def _of_workspace(workspace: Path) -> Iterator[tuple[str, str]]:
 def _of_names(packages: list[Path]) -> Iterator[tuple[str, str]]:
     folders: dict[str, list[str]] = {}
     for package in packages:
-        if name := re.search(r"<name>\s*([^<\s]+)", _text(package)):
-            folders.setdefault(name[1], []).append(str(package.parent))
+        if match := re.search(r"<name>\s*([^<\s]+)", _text(package)):
+            folders.setdefault(match[1], []).append(str(package.parent))
     for name, copies in folders.items():
         if len(copies) > 1:
             todo = f"delete one, or touch {copies[0]}/CATKIN_IGNORE"
