@@ -10,6 +10,7 @@ import rosgraph
 import rospy
 from rospy.client import load_command_line_node_params
 
+from node_kit.announcement import Announcement, full_name
 from node_kit.ending import (
     end_in_time,
     end_on_signals,
@@ -34,33 +35,37 @@ def run(
     load: Callable[[dict[str, Any]], Any],
     main: Callable[[Any], object],
     keeps_name: bool = False,
+    announcement: Announcement | None = None,
 ) -> int:
     """Run a node: main(load(private parameters)); return its exit code.
 
     name: unless __name:= is given. load: takes a dict of the private parameters; raises ValueError
     with one line. main: called once the node is registered; returns when it is shut down.
     keeps_name: start only if that displaces no other node of the name.
+    announcement: of services that this process has registered already.
 
     Everything is checked before rospy.init_node(), which ends a running node of the same name. The
     parameters of the command line are not put on the master, where they would stay.
     """
     try:
-        full_name = _full_name(name)
+        own_name = full_name(name)
         _check_master()
-        given = _parameters(full_name)
+        given = _parameters(own_name)
         take_over = checked_value(f"~{TAKE_OVER}", given.pop(TAKE_OVER, False), switch)
         parameters = load(given)
         if keeps_name and not take_over:
-            _check_name(full_name)
+            _check_name(own_name)
     except StartError as error:
         return _fail(name, error)
     except ValueError as error:
-        return _fail(name, f"{error} (~ stands for {full_name}/)")
+        return _fail(name, f"{error} (~ stands for {own_name}/)")
     end_on_signals()
     end_only_if_replaced()
     be_careful()
     try:
-        rospy.init_node(name, argv=_without_parameters(sys.argv), disable_signals=True)
+        port = announcement.node_port if announcement else 0
+        argv = _without_parameters(sys.argv)
+        rospy.init_node(name, argv=argv, disable_signals=True, xmlrpc_port=port)
         end_in_time()
         main(parameters)
     except rospy.ROSException:
@@ -89,11 +94,6 @@ def as_callback(function: Callable[..., object]) -> Callable[..., None]:
 def _fail(name: str, why: object) -> int:
     print(printable(f"{name}: {why}"), file=sys.stderr)
     return 1
-
-
-def _full_name(name: str) -> str:
-    name = rospy.names.get_mappings().get("__name", name)
-    return rosgraph.names.ns_join(rosgraph.names.get_ros_namespace(), name)
 
 
 def _check_master() -> None:

@@ -16,12 +16,10 @@ from turtlesim.msg import Color, Pose
 
 from node_kit.rospy_patches.questions import answer
 from simulated_turtles.field import SIZE, Field
+from simulated_turtles.services import OF_TURTLES, SERVICES
 
 PERIOD_S = 0.016  # 62.5 Hz
 BACKGROUND = {"background_r": 69, "background_g": 86, "background_b": 255}
-# Services are methods of Field, and of Turtle; their types have the same names, or are Empty.
-SERVICES = ("clear", "reset", "spawn", "kill")
-OF_TURTLES = ("set_pen", "teleport_absolute", "teleport_relative")
 
 
 class Turtlesim:

@@ -1,0 +1,21 @@
+"""Hands rospy the callers that came to an Announcement, before and after it could answer."""
+
+from __future__ import annotations
+
+import threading
+
+from rospy.impl import tcpros_base
+
+from node_kit.announcement import Announcement
+
+
+def answer_early_callers(announcement: Announcement | None) -> None:
+    """Answer who calls at the announced address; call it once the services are open."""
+    if announcement:
+        announcement.keep()
+        threading.Thread(target=_answer, args=(announcement,), daemon=True).start()
+
+
+def _answer(announcement: Announcement) -> None:
+    while True:  # until the process exits
+        tcpros_base._tcpros_server._tcp_server_callback(*announcement.listener.accept())

@@ -1,0 +1,104 @@
+"""Services that are registered before a node has loaded rospy, at a master that the test plays."""
+
+import atexit
+import signal
+import socket
+import subprocess
+import sys
+import threading
+from xmlrpc.server import SimpleXMLRPCServer
+
+import pytest
+
+from node_kit import announcement
+from node_kit.announcement import announce
+
+SERVICES = ("spawn", "turtle1/set_pen")
+
+
+@pytest.fixture
+def master(monkeypatch):
+    """Return the state of a master, and what it was told: (method, caller, ...)."""
+    state, told = [[], [], []], []
+    server = SimpleXMLRPCServer(("127.0.0.1", 0), logRequests=False)
+    server.register_function(lambda _: (1, "", state), "getSystemState")
+    for method in ("registerService", "unregisterService"):
+        server.register_function(
+            lambda *request, method=method: told.append((method, *request)) or (1, "", 1), method
+        )
+    threading.Thread(target=server.serve_forever, args=(0.01,), daemon=True).start()
+    monkeypatch.setenv("ROS_MASTER_URI", f"http://127.0.0.1:{server.server_address[1]}")
+    monkeypatch.setenv("ROS_IP", "127.0.0.1")
+    monkeypatch.setattr(sys, "argv", ["turtlesim_node"])
+    monkeypatch.setattr(atexit, "register", lambda _: None)  # of the tests' process
+    monkeypatch.setattr(signal, "signal", lambda *_: None)
+    yield state, told
+    server.shutdown()
+    server.server_close()
+
+
+@pytest.fixture
+def sockets(monkeypatch):
+    """Close the sockets of an announcement after the test."""
+    made, make = [], announcement._bound
+    monkeypatch.setattr(announcement, "_bound", lambda: made.append(make()) or made[-1])
+    yield made
+    for each in made:
+        each.close()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "node", "names"),
+    [
+        ([], "/turtlesim", ["/spawn", "/turtle1/set_pen"]),
+        (["__name:=sim", "__ns:=a/b"], "/a/b/sim", ["/a/b/spawn", "/a/b/turtle1/set_pen"]),
+        (["spawn:=hatch", "_x:=1"], "/turtlesim", ["/hatch", "/turtle1/set_pen"]),
+    ],
+)
+def test_services_are_registered_as_the_node_will_name_them(
+    master, sockets, monkeypatch, arguments, node, names
+):
+    monkeypatch.setattr(sys, "argv", ["turtlesim_node", *arguments])
+    made = announce("turtlesim", SERVICES)
+    port = sockets[0].getsockname()[1]
+    where, uri = f"rosrpc://127.0.0.1:{port}", f"http://127.0.0.1:{made.node_port}/"
+    assert master[1] == [("registerService", node, name, where, uri) for name in names]
+    master[1].clear()
+    made.withdraw()
+    assert master[1] == [("unregisterService", node, name, where) for name in names]
+
+
+def test_callers_wait_and_the_node_gets_its_port(master, sockets):
+    made = announce("turtlesim", SERVICES)
+    with socket.create_connection(("127.0.0.1", sockets[0].getsockname()[1])) as caller:
+        assert made.listener.accept()[1] == caller.getsockname()
+    with pytest.raises(ConnectionRefusedError):  # a master may ask: there is no node yet
+        socket.create_connection(("127.0.0.1", made.node_port))
+    place = "127.0.0.1", made.node_port
+    with SimpleXMLRPCServer(place):  # as rospy's
+        made.keep()
+        socket.create_connection(place).close()
+
+
+@pytest.mark.parametrize(
+    "state",
+    [
+        [[["/rosout", ["/turtlesim"]]], [], []],  # it would end the node of that name
+        [[], [], [["/spawn", ["/sim"]]]],
+    ],
+)
+def test_what_runs_already_is_left_alone(master, sockets, state):
+    master[0][:] = state
+    assert announce("turtlesim", SERVICES) is None
+    assert (master[1], sockets) == ([], [])
+
+
+def test_without_a_master_the_start_goes_on_to_the_line_that_says_so(master, monkeypatch):
+    monkeypatch.setenv("ROS_MASTER_URI", "http://127.0.0.1:1")
+    assert announce("turtlesim", SERVICES) is None
+
+
+def test_nothing_slow_is_loaded_before():
+    modules = "import sys, node_kit.announcement; print(*sys.modules)"
+    loaded = subprocess.run([sys.executable, "-c", modules], capture_output=True, text=True).stdout
+    assert not {"rospy", "numpy", "yaml", "genpy", "catkin"} & set(loaded.split())
