@@ -56,7 +56,7 @@ NODES = [
 ]
 TOPICS = [
     ("sim", "rosrun turtlesim turtlesim_node", "Spawning turtle"),
-    ("keys", in_a_tty("rosrun turtlesim turtle_teleop_key"), "arrow keys drive"),
+    ("keys", in_a_tty("rosrun turtlesim turtle_teleop_key"), "Use arrow keys to move the turtle"),
     ("echo", "rostopic echo /turtle1/cmd_vel", ""),
     ("1", "cd; rosrun rqt_graph rqt_graph", "wrote .*rosgraph.png"),
     ("1", "rostopic -h", "rostopic bw"),

@@ -1,6 +1,7 @@
 """turtlesim: each service, the wall, mimic, keys, and a square."""
 
 import math
+import subprocess
 
 import rosgraph
 import rospy
@@ -12,6 +13,8 @@ from turtlesim.msg import Color, Pose
 
 from node_kit import ros_api
 from tutorial_testing.keys import Tmux
+from tutorial_testing.nodes import node_path
+from tutorial_testing.processes import Program
 from tutorial_testing.rostests import RosTest
 from tutorial_testing.waiting import wait_for
 
@@ -102,7 +105,26 @@ class TurtlesimTest(RosTest):
     def test_an_arrow_key_drives_and_q_ends(self):
         terminal = Tmux(f"rosrun turtlesim turtle_teleop_key __ns:={FIRST.strip('/')}")
         self.addCleanup(terminal.close)
-        wait_for(lambda: "arrow keys" in terminal.screen, "help")
+        greeting = (
+            "Reading from keyboard",
+            "---------------------------",
+            "Use arrow keys to move the turtle. 'q' to quit.",
+        )
+        wait_for(lambda: all(line in terminal.screen for line in greeting), "greeting")
         terminal.hold("Up", lambda: self.poses[-1].linear_velocity == 2.0, "drive")
         terminal.press("q")
         wait_for(lambda: terminal.ended, "end")
+
+    def test_keys_come_from_a_pipe_too_and_its_end_ends_the_node(self):
+        name = FIRST.strip("/")
+        program = self.start(
+            node_path("turtlesim", "turtle_teleop_key"), f"__ns:={name}", stdin=subprocess.PIPE
+        )
+        program.type("\x1b[D")  # and the end of the line, which is no key here
+        wait_for(lambda: self.poses[-1].angular_velocity == 2.0, "turn")
+        program.close_input()
+        self.check_end(program)
+
+    def test_without_keys_it_says_where_to_start_it(self):
+        program = Program(node_path("turtlesim", "turtle_teleop_key"))
+        self.check_mistake(program, "no terminal here")

@@ -173,6 +173,10 @@ class Program:
         self._process.stdin.write(f"{line}\n".encode())
         self._process.stdin.flush()
 
+    def close_input(self):
+        """End the input of such a program."""
+        self._process.stdin.close()
+
     def wait(self, deadline_s=DEADLINE_S):
         """Wait for the end; return the exit code. If it is late, AssertionError with the output."""
         what = f"end of {self._process.args}"

@@ -19,8 +19,8 @@ class RosTest(unittest.TestCase):
         self.addCleanup(context.__exit__, None, None, None)
         return value
 
-    def start(self, *command, **environment):
-        return self.enter(Program(*command, **environment))
+    def start(self, *command, **options):
+        return self.enter(Program(*command, **options))
 
     def folder(self):
         return Path(self.enter(tempfile.TemporaryDirectory()))

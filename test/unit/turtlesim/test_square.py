@@ -16,9 +16,15 @@ SCRIPT = f"{rospkg.RosPack().get_path('turtlesim')}/scripts/draw_square"
 
 def test_four_sides_return_to_the_start():
     field = Field(lambda: (0, 0, 0), 0.0)
-    square, corners, now_s = runpy.run_path(SCRIPT)["square"](), [], 0.0
+    square, corners, lines, now_s = runpy.run_path(SCRIPT)["square"](), [], [], 0.0
     turtle, twist = field.turtles["turtle1"], next(square)
-    with mock.patch.object(rospy, "loginfo", lambda _: corners.append(turtle.pose[:2])):
+
+    def log(line):
+        lines.append(line)
+        if line.startswith("New goal ["):
+            corners.append(turtle.pose[:2])
+
+    with mock.patch.object(rospy, "loginfo", log):
         while len(corners) < 9:
             now_s += PERIOD_S
             assert now_s < 60.0
@@ -30,3 +36,4 @@ def test_four_sides_return_to_the_start():
     x, y = START[:2]
     for place, corner in zip(corners[1::2], [(2, 0), (2, 2), (0, 2), (0, 0)]):
         assert place == pytest.approx((x + corner[0], y + corner[1]), abs=0.4)
+    assert lines[1::2] == ["Reached goal"] * 8  # after each goal but the last

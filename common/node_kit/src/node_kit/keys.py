@@ -1,4 +1,4 @@
-"""The keys of a terminal."""
+"""The keys of a terminal, or from a pipe."""
 
 from __future__ import annotations
 
@@ -16,12 +16,13 @@ PERIOD_S = 0.1
 
 def keys() -> Iterator[bytes]:
     """Yield the bytes of the keys that are pressed, one by one, and b"" after each PERIOD_S without
-    one, until the node or standard input, a terminal, ends.
+    one, until the node or standard input ends.
     """
     terminal = sys.stdin.fileno()
-    before = termios.tcgetattr(terminal)
+    before = termios.tcgetattr(terminal) if os.isatty(terminal) else None
     try:
-        tty.setcbreak(terminal)
+        if before:
+            tty.setcbreak(terminal)
         while not rospy.is_shutdown():
             is_ready = select.select([terminal], [], [], PERIOD_S)[0]
             key = os.read(terminal, 1) if is_ready else b""
@@ -29,4 +30,5 @@ def keys() -> Iterator[bytes]:
                 return
             yield key
     finally:
-        termios.tcsetattr(terminal, termios.TCSADRAIN, before)
+        if before:
+            termios.tcsetattr(terminal, termios.TCSADRAIN, before)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import math
 import os
 import threading
 import time
@@ -108,9 +109,21 @@ class Turtlesim:
 
 
 def background() -> tuple[int, ...]:
-    """Return the background (r, g, b); the default for what is no integer, as upstream."""
-    given = ((rospy.get_param(f"~{name}", 0.0), value) for name, value in BACKGROUND.items())
-    return tuple(one & 255 if isinstance(one, int) else value for one, value in given)
+    """Return the background (r, g, b), of the parameters as roscpp reads whole numbers."""
+    given = ((rospy.get_param(f"~{name}", None), value) for name, value in BACKGROUND.items())
+    return tuple(whole(one, default) & 255 for one, default in given)
+
+
+def whole(value: Any, default: int) -> int:
+    """Return a number as an int32; the default for what is no number, as true and false are none.
+
+    Halves are rounded up, and below zero all is rounded down.
+    """
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        return default
+    if not abs(value) < 2**31:  # NaN, too; it is INT_MIN there
+        return 0
+    return math.floor(value) if math.fmod(value, 1.0) < 0.5 else math.ceil(value)
 
 
 def open_window() -> tuple[Any, Any]:
