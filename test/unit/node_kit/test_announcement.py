@@ -100,5 +100,5 @@ def test_without_a_master_the_start_goes_on_to_the_line_that_says_so(master, mon
 
 def test_nothing_slow_is_loaded_before():
     modules = "import sys, node_kit.announcement; print(*sys.modules)"
-    loaded = subprocess.run([sys.executable, "-c", modules], capture_output=True, text=True).stdout
+    loaded = subprocess.check_output([sys.executable, "-c", modules], text=True)
     assert not {"rospy", "numpy", "yaml", "genpy", "catkin"} & set(loaded.split())

@@ -27,5 +27,5 @@ from simulated_turtles.node import background
 )
 def test_numbers_are_rounded_and_the_rest_is_the_default(value, red):
     given = {"~background_r": value}
-    with mock.patch.object(rospy, "get_param", lambda name, default: given.get(name, default)):
+    with mock.patch.object(rospy, "get_param", given.get):
         assert background() == (red, 86, 255)
