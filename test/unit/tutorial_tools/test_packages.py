@@ -1,0 +1,94 @@
+"""The list of packages for a ROS in /opt/ros: what Noetic's own packages bring, and what is missing.
+
+Debian has the package.xml of most of Noetic's packages; the metapackages are those of REP 150.
+"""
+
+import re
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+
+from tutorial_tools.command.build import SHARE
+from tutorial_tools.system import packages as system_packages
+
+REPOSITORY = Path(__file__).resolve().parents[3]
+META = {
+    "ros_base": "ros_core actionlib bond_core class_loader dynamic_reconfigure nodelet_core pluginlib",
+    "ros_core": "catkin cmake_modules common_msgs gencpp geneus genlisp genmsg gennodejs genpy"
+    " message_generation message_runtime ros ros_comm ros_environment rosbag_migration_rule"
+    " rosconsole_bridge roscpp_core rosgraph_msgs roslisp rospack std_msgs std_srvs",
+    "ros": "catkin mk rosbash rosboost_cfg rosbuild rosclean roscreate roslang roslib rosmake rosunit",
+    "ros_comm": "message_filters ros rosbag rosconsole roscpp rosgraph rosgraph_msgs roslaunch"
+    " roslisp rosmaster rosmsg rosnode rosout rosparam rospy rosservice rostest rostopic roswtf"
+    " std_srvs topic_tools xmlrpcpp",
+    "common_msgs": "actionlib_msgs diagnostic_msgs geometry_msgs nav_msgs sensor_msgs shape_msgs"
+    " stereo_msgs trajectory_msgs visualization_msgs",
+}  # fmt: skip
+NOETICS = {*META, *" ".join(META.values()).split(), "diagnostic_updater", "tf_conversions"}
+NOETICS |= {path.parent.name for path in SHARE.glob("*/package.xml")}
+SUITE = {
+    ElementTree.parse(path).findtext("name"): path
+    for pattern in ("*/package.xml", "common/*/package.xml", "common/stand_ins/*/package.xml")
+    for path in REPOSITORY.glob(pattern)
+    if not path.with_name("CATKIN_IGNORE").exists()
+}
+RUN = ("depend", "exec_depend", "run_depend", "build_export_depend", "buildtool_export_depend")
+BUILD = ("depend", "build_depend", "buildtool_depend")
+WITHOUT = {"rviz"}  # [opt-view]; the demo drives without
+
+
+def needed_by(manifest, tags):
+    """Return the keys of a package.xml for Python 3."""
+    parts = (part for part in ElementTree.parse(manifest).getroot() if part.tag in tags)
+    return {part.text for part in parts if "== 2" not in part.get("condition", "")}
+
+
+def closure(names, manifests):
+    """Return all that these names bring. manifests: {name: path}."""
+    brought, left = set(), set(names)
+    while left:
+        name = left.pop()
+        brought.add(name)
+        more = set(META.get(name, "").split())
+        if name in manifests:
+            more |= needed_by(manifests[name], RUN)
+        left |= more - brought
+    return brought
+
+
+@pytest.fixture
+def brought(monkeypatch):
+    """brought(section, ...): what [opt-...] brings on Noetic, as keys of package.xml."""
+    monkeypatch.setenv("TUTORIAL_ROS", "/opt/ros/noetic")
+    monkeypatch.delenv("TUTORIAL_WITHOUT", raising=False)
+    manifests = {path.parent.name: path for path in SHARE.glob("*/package.xml")}
+
+    def keys(*sections):
+        words = system_packages.packages(*sections)
+        prefix = "ros-noetic-"
+        names = {word[len(prefix) :].replace("-", "_") for word in words if word.startswith(prefix)}
+        return closure(names, manifests) | {word for word in words if not word.startswith(prefix)}
+
+    return keys
+
+
+def test_what_the_demo_starts_and_the_build_needs_is_brought_by_opt_demo(brought):
+    started = closure({"joy2twist", "tutorial_tools"}, SUITE)
+    built = set().union(*(needed_by(path, BUILD) for path in SUITE.values()))
+    needed = {name for name in started | built if name not in SUITE} - WITHOUT
+    assert {"diagnostic_updater", "robot_state_publisher", "message_generation"} <= needed
+    assert (needed & NOETICS) - brought("demo") == set()
+    other = needed - NOETICS - {"python3-matplotlib"}  # for pictures of paths, in [opt-test]
+    assert other - brought("demo", "more") == set()
+
+
+@pytest.mark.parametrize("section", ["demo", "more"])
+def test_what_a_section_has_beside_ros_it_has_for_opt_too(brought, section, monkeypatch):
+    of_opt = brought("demo", section)
+    monkeypatch.setenv("TUTORIAL_ROS", "")
+    ros = "|".join(name.replace("_", "-") for name in NOETICS)
+    ours = re.compile(rf"lib.*-dev|ros-.*|(python3-)?({ros})(-tools)?|qt6-.*|rviz")
+    beside = {word for word in system_packages.packages(section) if not ours.fullmatch(word)}
+    assert {"cmake", "make", "g++"} <= beside or section != "demo"
+    assert beside - of_opt - {"libgl1-mesa-dri"} == set()  # RViz of Noetic brings it
