@@ -1,7 +1,7 @@
 """What is said where programs cannot be isolated; test/exercises/test_isolation.py attacks it."""
 
 import contextlib
-import platform
+import subprocess
 import threading
 from concurrent.futures import ThreadPoolExecutor
 from functools import lru_cache
@@ -12,6 +12,7 @@ from tutorial_check import cluster
 from tutorial_check.isolation import bubblewrap, landlock
 from tutorial_check.isolation.bubblewrap import Isolation
 from tutorial_check.model import CannotCheck
+from tutorial_testing.isolation import old_bubblewrap
 
 
 @pytest.mark.parametrize(
@@ -73,9 +74,14 @@ def test_a_worker_without_isolation_checks_nothing(monkeypatch, begin, why):
         begin()
 
 
-def test_landlock_is_not_used_where_the_machine_or_the_kernel_is_unknown(monkeypatch):
-    monkeypatch.setattr(platform, "machine", lambda: "riscv64")
-    assert landlock.version.__wrapped__() == 0
-    monkeypatch.undo()
-    monkeypatch.setattr(landlock, "OLDEST", 1000)
-    assert landlock.version.__wrapped__() == 0
+def test_an_old_bubblewrap_isolates_and_everybody_may_write_into_tmp(monkeypatch, tmp_path):
+    monkeypatch.setenv("PATH", old_bubblewrap(tmp_path), prepend=":")
+    monkeypatch.setattr(bubblewrap, "_granted", lru_cache()(bubblewrap._granted.__wrapped__))
+    if bubblewrap.granted().why:
+        pytest.skip(f"no isolation here: {bubblewrap.granted().why}")
+    assert "does not limit the memory" in "".join(bubblewrap.lacking())
+    scratch = "/var/tmp/scratch"
+    modes = ["stat", "-c", "%a", *bubblewrap.SIZES_MB, scratch, "/var"]
+    words = [*bubblewrap.command(scratch, [], "/usr/share/doc"), *modes]
+    done = subprocess.run(words, capture_output=True, text=True, check=True)
+    assert done.stdout.split() == ["1777"] * 5 + ["755"]

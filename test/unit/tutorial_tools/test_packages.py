@@ -9,22 +9,11 @@ from xml.etree import ElementTree
 
 import pytest
 
+from tutorial_testing.noetic import META
 from tutorial_tools.command.build import SHARE
 from tutorial_tools.system import packages as system_packages
 
 REPOSITORY = Path(__file__).resolve().parents[3]
-META = {
-    "ros_base": "ros_core actionlib bond_core class_loader dynamic_reconfigure nodelet_core pluginlib",
-    "ros_core": "catkin cmake_modules common_msgs gencpp geneus genlisp genmsg gennodejs genpy"
-    " message_generation message_runtime ros ros_comm ros_environment rosbag_migration_rule"
-    " rosconsole_bridge roscpp_core rosgraph_msgs roslisp rospack std_msgs std_srvs",
-    "ros": "catkin mk rosbash rosboost_cfg rosbuild rosclean roscreate roslang roslib rosmake rosunit",
-    "ros_comm": "message_filters ros rosbag rosconsole roscpp rosgraph rosgraph_msgs roslaunch"
-    " roslisp rosmaster rosmsg rosnode rosout rosparam rospy rosservice rostest rostopic roswtf"
-    " std_srvs topic_tools xmlrpcpp",
-    "common_msgs": "actionlib_msgs diagnostic_msgs geometry_msgs nav_msgs sensor_msgs shape_msgs"
-    " stereo_msgs trajectory_msgs visualization_msgs",
-}  # fmt: skip
 NOETICS = {*META, *" ".join(META.values()).split(), "diagnostic_updater", "tf_conversions"}
 NOETICS |= {path.parent.name for path in SHARE.glob("*/package.xml")}
 SUITE = {

@@ -32,6 +32,9 @@ SYSTEM = (
 NAMESPACES = ("--unshare-ipc", "--unshare-net", "--unshare-pid", "--unshare-uts", "--as-pid-1")
 # Of root's rights only those to become another user.
 AS_ROOT = ("--cap-drop", "ALL", "--cap-add", "CAP_SETGID", "--cap-add", "CAP_SETUID")
+SIZES_MB = {"/dev/shm": 64, "/tmp": 64, "/var/tmp": 64, "/dev/input": 1}  # one for a joystick
+# Before a command, in place of --perms: folders, --, the command.
+OPENED = ("sh", "-c", 'while [ "$1" != -- ]; do chmod 1777 "$1"; shift; done; shift; exec "$@"', "sh")
 _one_at_a_time = threading.Lock()
 
 
@@ -41,7 +44,8 @@ class Isolation:
 
     options: tuple[str, ...] = ()  # words of its command; none without isolation
     is_limited: bool = False  # no program can fill the memory with files
-    has_sizes: bool = True  # it knows --size
+    has_sizes: bool = True  # it knows --size, since 0.7
+    has_perms: bool = True  # it knows --perms, since 0.5
     why: str = ""  # there is none
     descriptors: tuple[int, ...] = ()  # that it inherits
 
@@ -58,7 +62,7 @@ def _granted() -> Isolation:
     if not bwrap:
         return Isolation(why="bubblewrap is not installed")
     descriptors: tuple[int, ...] = ()
-    # Since 0.8 bubblewrap has --disable-userns, which root is refused, and since 0.7 --size.
+    # Since 0.8 bubblewrap has --disable-userns, which root is refused.
     users: tuple[str, ...] = ("--unshare-user",)
     closed = (*users, "--disable-userns")
     if os.geteuid() == 0:
@@ -67,13 +71,15 @@ def _granted() -> Isolation:
             descriptors = (_closed_user_namespace(),)
             closed = ("--userns", str(descriptors[0]), *users)
     why = ""
-    for more, has_sizes in dict.fromkeys(((closed, True), (users, True), (users, False))):
+    ways = ((closed, True, True), (users, True, True), (users, False, True), (users, False, False))
+    for more, has_sizes, has_perms in dict.fromkeys(ways):
         options = (bwrap, *NAMESPACES, *more)
+        is_limited = has_sizes and closed != users and more == closed
+        isolation = Isolation(options, is_limited, has_sizes, has_perms, "", descriptors)
         everything = ["--ro-bind", "/", "/", "--proc", "/proc", "--dev", "/dev"]
-        why = _fault([*options, *everything, *_tmpfs("/tmp", 1, has_sizes), "true"], descriptors)
+        why = _fault([*options, *everything, *_tmpfs("/tmp", 1, isolation), "true"], descriptors)
         if not why:
-            is_limited = has_sizes and closed != users and more == closed
-            return Isolation(options, is_limited, has_sizes, "", descriptors)
+            return isolation
     return Isolation(why=why)
 
 
@@ -133,9 +139,9 @@ def instead() -> str:
     return "isolated by Landlock alone" if landlock.version() else "not isolated"
 
 
-def _tmpfs(path: str, megabytes: int, has_sizes: bool) -> list[str]:
-    size = ["--size", str(megabytes << 20)] if has_sizes else []
-    return [*size, "--perms", "1777", "--tmpfs", path]
+def _tmpfs(path: str, megabytes: int, isolation: Isolation) -> list[str]:
+    size = ["--size", str(megabytes << 20)] if isolation.has_sizes else []
+    return [*size, *(["--perms", "1777"] if isolation.has_perms else []), "--tmpfs", path]
 
 
 def command(folder: str | Path, shown: Iterable[str | Path], hidden: str | Path) -> list[str]:
@@ -147,9 +153,8 @@ def command(folder: str | Path, shown: Iterable[str | Path], hidden: str | Path)
     if not isolation.options:
         return []
     mounts = {"/proc": ["--proc", "/proc"], "/dev": ["--dev", "/dev"]}
-    sizes_mb = {"/dev/shm": 64, "/tmp": 64, "/var/tmp": 64, "/dev/input": 1}  # one for a joystick
-    for path, size_mb in {**sizes_mb, str(hidden): 1, str(folder): SCRATCH_MB}.items():
-        mounts[path] = _tmpfs(path, size_mb, isolation.has_sizes)
+    for path, size_mb in {**SIZES_MB, str(hidden): 1, str(folder): SCRATCH_MB}.items():
+        mounts[path] = _tmpfs(path, size_mb, isolation)
     for path in SYSTEM:
         if os.path.islink(path):
             mounts[path] = ["--symlink", os.readlink(path), path]
@@ -160,10 +165,12 @@ def command(folder: str | Path, shown: Iterable[str | Path], hidden: str | Path)
     # catkin may have written down the name of a link.
     links = {path for path in given - real if not real & set(map(str, Path(path).parents))}
     mounts.update({path: ["--ro-bind", path, path] for path in real | links})
+    perms = ["--perms", "0755"] if isolation.has_perms else []  # an older one's are these
     for above in {above for path in mounts for above in Path(path).parents}:  # bwrap closes its own
-        mounts.setdefault(str(above), ["--perms", "0755", "--dir", str(above)])
+        mounts.setdefault(str(above), [*perms, "--dir", str(above)])
     outer_first = sorted(mounts, key=lambda path: len(Path(path).parts))
     words = [word for path in outer_first for word in mounts[path]]
     for path in ("/dev", str(hidden), "/"):
         words += ["--remount-ro", path]
-    return [*isolation.options, *words, "--"]
+    opened = () if isolation.has_perms else (*OPENED, *SIZES_MB, str(folder), "--")
+    return [*isolation.options, *words, "--", *opened]

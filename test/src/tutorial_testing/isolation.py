@@ -1,0 +1,22 @@
+"""Older ways to isolate, imitated on this system."""
+
+from pathlib import Path
+
+OLD_BUBBLEWRAP = """#!/bin/bash
+for word; do
+    case $word in
+    --perms | --size | --disable-userns) echo "bwrap: Unknown option $word" >&2; exit 1 ;;
+    --) break ;;
+    esac
+done
+exec /usr/bin/bwrap "$@"
+"""
+
+
+def old_bubblewrap(folder: Path) -> str:
+    """Return a folder for PATH, made in another, with a bwrap that knows what bubblewrap 0.4 does."""
+    place = folder / "bwrap_0.4"
+    place.mkdir()
+    (place / "bwrap").write_text(OLD_BUBBLEWRAP)
+    (place / "bwrap").chmod(0o755)
+    return str(place)
