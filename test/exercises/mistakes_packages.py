@@ -65,7 +65,7 @@ ROWS = [
     ("2", "rospcc in CMakeLists.txt", [put(f"{B}/CMakeLists.txt", "roscpp", "rospcc")], "C4", (f"{B}/CMakeLists.txt:4", "correct rospcc to roscpp")),
     ("2", "an empty devel/setup.bash", [write("../devel/setup.bash", "")], "C1", "rm -r build devel"),
     ("2", "built over another copy of the suite", [built("/mine/devel;/other/lower/devel")], "C1", "another copy of the suite, /other/lower/devel;"),
-    ("2", "built over ROS alone", [built("/opt/ros/one")], "C1", ("built over /opt/ros/one", "without ./tutorial shell")),
+    ("2", "built over ROS alone", [built("/usr")], "C1", ("built over /usr", "without ./tutorial shell")),
     ("2", "a whole devel, but for setup.bash", [built("/opt/ros/one", **{"setup.bash": ""})], "C1", ("not whole: setup.bash", "rm -r build devel, then catkin_make")),
     ("2", "a whole devel, but for _setup_util.py", [built("/opt/ros/one"), remove("../devel/_setup_util.py")], "C1", ("not whole: _setup_util.py", "rm -r build devel")),
     ("2", "a part of the suite in src", [copy(PUT_XML, "sim/package.xml"), put("sim/package.xml", f"<name>{B}<", "<name>fake_turtlebot_sim<")], "C1", ("where:    src/sim", "remove it from src")),

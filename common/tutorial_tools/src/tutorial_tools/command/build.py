@@ -193,7 +193,7 @@ def build_student(workspace: Path, student: Path) -> None:
     for path, why in broken_manifests(str(student / "src"))[:1]:
         say(f"{path}: {why}; until that is fixed no ROS program starts in {student}")
     made = made_over(student)
-    if f"{workspace}/lower/devel" not in made:
+    if f"{workspace}/lower/devel" not in made and not is_over_prefix(made):
         other = re.search("([^';]*)/lower/devel", made)
         over = f", over another copy of it in {other[1]}" if other else ""
         todo = f"in the shell, cd {student}; rm -r build devel; catkin_make"
@@ -204,6 +204,11 @@ def made_over(student: Path) -> str:
     """Return the file in which catkin keeps over which workspaces this one was built."""
     util = student / "devel" / "_setup_util.py"
     return util.read_text(errors="replace") if util.exists() else ""
+
+
+def is_over_prefix(made: str) -> bool:
+    """Return whether a workspace was built over a ROS in /opt/ros and no copy of this suite."""
+    return bool(PREFIX) and PREFIX in made and "/lower/devel" not in made
 
 
 def build_new(workspace: Path, student: Path) -> None:

@@ -8,7 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from tutorial_tools.command.build import PREFIX, REPOSITORY, made_over
+from tutorial_tools.command.build import PREFIX, REPOSITORY, is_over_prefix, made_over
 
 OTHERS = ("CMAKE_PREFIX_PATH", "ROS_PACKAGE_PATH")  # of another workspace, from ~/.bashrc
 LOCAL = ("", "localhost", "127.0.0.1")
@@ -22,11 +22,13 @@ def environment_of(workspace: Path, word: str, student: str) -> dict[str, str]:
     if word in ("check", "worker", "scheduler"):
         libraries = f"{lower}/lib/python3/dist-packages"
         return {**given, **own, "PYTHONPATH": libraries, "ROS_ETC_DIR": etc}
-    setup = workspace / "devel" / "setup.bash"
+    setup, beside = workspace / "devel" / "setup.bash", ""
     if student:  # the underlay's, if the student has built nothing over it
-        over = str(lower) in made_over(Path(student))
-        setup = Path(student, "devel", "setup.bash") if over else lower / "setup.bash"
-    made = _sourced(setup, given)
+        made_of, own_setup = made_over(Path(student)), Path(student, "devel", "setup.bash")
+        setup = own_setup if str(lower) in made_of else lower / "setup.bash"
+        if setup != own_setup and is_over_prefix(made_of):
+            beside = str(own_setup)
+    made = _sourced(setup, beside, given)
     # ROS lets anybody in the network drive: all stays on this machine until the user names an
     # address. Not by ROS_HOSTNAME, which would outdo the ROS_IP that a user sets afterwards.
     master = re.sub("^.*?://", "", made.get("ROS_MASTER_URI", ""))
@@ -47,7 +49,7 @@ def environment_of(workspace: Path, word: str, student: str) -> dict[str, str]:
     if word == "doctor":
         own["TUTORIAL_TERMINAL_PATH"] = given["PATH"]
     if word == "shell":  # for shellrc, after the user's .bashrc
-        own.update(TUTORIAL_SETUP=str(setup), TUTORIAL_ETC=etc, TUTORIAL_PATH=path)
+        own.update(TUTORIAL_SETUP=str(setup), TUTORIAL_BESIDE=beside, TUTORIAL_ETC=etc, TUTORIAL_PATH=path)
         own["TUTORIAL_PYTHONPATH"] = own["PYTHONPATH"]
     return {**made, **own}
 
@@ -65,9 +67,11 @@ def _given() -> dict[str, str]:
     return _parse(Path("/proc/self/environ").read_bytes())
 
 
-def _sourced(setup: Path, given: dict[str, str]) -> dict[str, str]:
+def _sourced(setup: Path, beside: str, given: dict[str, str]) -> dict[str, str]:
+    """Return the environment of a setup.bash. beside: one that adds its workspace; "" for none."""
     kept = {name: value for name, value in given.items() if name not in OTHERS}
-    command = ["bash", "-ec", '. "$0" >&2; exec /usr/bin/env -0', str(setup)]
+    script = 'beside=$1; set --; . "$0" >&2; [ -z "$beside" ] || . "$beside" --extend >&2'
+    command = ["bash", "-ec", f"{script}; exec /usr/bin/env -0", str(setup), beside]
     done = subprocess.run(command, env=kept, check=False, stdout=subprocess.PIPE)
     if done.returncode:
         sys.exit(done.returncode)

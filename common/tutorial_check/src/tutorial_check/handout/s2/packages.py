@@ -59,15 +59,19 @@ def workspace(session: Session) -> Note | str | None:
     if below is None:
         return Note("never built here (no devel/setup.bash)", hint="catkin_make in the workspace")
     own = str(devel.resolve())
-    _check_below(session, [each for each in below if os.path.realpath(each) != own])
-    return "src and devel, on top of this suite"
+    return _over(session, [each for each in below if os.path.realpath(each) != own])
 
 
-def _check_below(session: Session, below: Sequence[str]) -> None:
-    """Raise Wrong unless this suite is among the folders that a workspace was built over."""
+def _over(session: Session, below: Sequence[str]) -> Note | str:
+    """Return what is said of the folders that a workspace was built over. Raises Wrong.
+
+    One that is built over a ROS in /opt/ros is as such a ROS wants it; here it is built again.
+    """
     suite = os.path.realpath(Path(session.order.underlay).parent)
     if suite in map(os.path.realpath, below):
-        return
+        return "src and devel, on top of this suite"
+    if below and all(each.startswith("/opt/ros/") for each in below):
+        return Note(f"built over {', '.join(below)} alone; built again here, on top of this suite")
     seen = f"devel was built over {', '.join(below) or 'nothing'}"
     hint = "built in a terminal without ./tutorial shell:"
     hint += " delete build and devel, then catkin_make in it"
