@@ -14,7 +14,7 @@ exec /usr/bin/bwrap "$@"
 
 
 def old_bubblewrap(folder: Path) -> str:
-    """Return a folder for PATH, made in another, with a bwrap that knows what bubblewrap 0.4 does."""
+    """Return a folder for PATH, with a bwrap that knows what bubblewrap 0.4 does."""
     place = folder / "bwrap_0.4"
     place.mkdir()
     (place / "bwrap").write_text(OLD_BUBBLEWRAP)

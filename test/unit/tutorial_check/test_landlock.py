@@ -69,14 +69,14 @@ def test_files_of_others_stay_as_they_are_under_each_version(version, tmp_path, 
         folder.mkdir(parents=True)
         (folder / "file").write_text("text")
     attempts = {
-        "reads what is shown": lambda: (shown / "file").read_text(),
+        "reads what is shown": (shown / "file").read_text,
         "writes its own": lambda: (own / "new").write_text("x"),
-        "adds to its own": lambda: open(own / "new", "a").close(),  # noqa: SIM115
-        "empties its own": lambda: open(own / "new", "w").close(),  # noqa: SIM115
-        "uses a device": lambda: open("/dev/null", "w").close(),  # noqa: SIM115
+        "adds to its own": lambda: open(own / "new", "a").close(),
+        "empties its own": lambda: open(own / "new", "w").close(),
+        "uses a device": lambda: open("/dev/null", "w").close(),
         "renames": lambda: (own / "new").rename(own / "newer"),
         "moves": lambda: move(own),
-        "reads others'": lambda: (other / "file").read_text(),
+        "reads others'": (other / "file").read_text,
         "writes others'": lambda: (other / "file").write_text("x"),
         "truncates others'": lambda: os.truncate(other / "file", 0),
         "truncates what is shown": lambda: os.truncate(shown / "file", 0),

@@ -35,7 +35,11 @@ def student(tmp_path, monkeypatch):
     ("below", "chain", "words"),
     [
         (NOETIC, "mine suite/lower", ""),
-        ("/elsewhere/lower/devel;/opt/ros/noetic", "suite/lower", "over another copy of it in /els"),
+        (
+            "/elsewhere/lower/devel;/opt/ros/noetic",
+            "suite/lower",
+            "over another copy of it in /els",
+        ),
         ("/home/me/devel", "suite/lower", "was built without this suite: in the shell"),
     ],
 )

@@ -1,4 +1,4 @@
-"""The list of packages for a ROS in /opt/ros: what Noetic's own packages bring, and what is missing.
+"""The list of packages for a ROS in /opt/ros: what Noetic's packages bring, and what is missing.
 
 Debian has the package.xml of most of Noetic's packages; the metapackages are those of REP 150.
 """

@@ -86,7 +86,8 @@ def ruleset(shown: Iterable[str | Path], own: Iterable[str | Path]) -> int:
 def confine(descriptor: int) -> None:
     """Confine this process and its children for good, once rights are given up. Raises OSError."""
     _call(RESTRICT_SELF, descriptor, ctypes.c_uint32(0))
-    machine, open_socket, others = MACHINES[platform.machine()]
+    machine, open_socket, leading_out = MACHINES[platform.machine()]
+    others = [*leading_out]
     refused = [(RETURN, 0, 0, REFUSED)]
     # Each (code, steps forward if so, if not, value); the steps count the instructions in between.
     steps = [(LOAD, 0, 0, 4), (EQUAL, 1, 0, machine), *refused, (LOAD, 0, 0, 0)]

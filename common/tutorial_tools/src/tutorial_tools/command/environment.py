@@ -49,7 +49,9 @@ def environment_of(workspace: Path, word: str, student: str) -> dict[str, str]:
     if word == "doctor":
         own["TUTORIAL_TERMINAL_PATH"] = given["PATH"]
     if word == "shell":  # for shellrc, after the user's .bashrc
-        own.update(TUTORIAL_SETUP=str(setup), TUTORIAL_BESIDE=beside, TUTORIAL_ETC=etc, TUTORIAL_PATH=path)
+        own.update(
+            TUTORIAL_SETUP=str(setup), TUTORIAL_BESIDE=beside, TUTORIAL_ETC=etc, TUTORIAL_PATH=path
+        )
         own["TUTORIAL_PYTHONPATH"] = own["PYTHONPATH"]
     return {**made, **own}
 
