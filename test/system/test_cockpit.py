@@ -9,6 +9,7 @@ import time
 from pathlib import Path
 
 import pytest
+import rospkg
 
 from tutorial_testing import flood
 from tutorial_testing.cockpit.world import World
@@ -182,6 +183,38 @@ def test_viewers_and_connections_make_room_for_a_driver(open_world, connect):
         assert pages[-1].refusal == 503
         with page_of(open_world) as page:
             drive(open_world, page)
+
+
+def test_a_recording_of_rosbag_is_paused_by_the_page_which_then_drives(open_world):
+    bag = rospkg.RosPack().get_path("gamepad") + "/bag/joy.bag"
+    with open_world.run("rosbag", "play", "--loop", bag, "__name:=rosbag"), page_of(
+        open_world
+    ) as page:
+        page.say("watch", robots=True, look="")
+        said = page.wait_for("drives", lambda drives: "pause_playback" in drives["refusal"])
+        assert "/rosbag publishes the joystick topic" in said["refusal"]
+        page.say("call", service="/rosbag/pause_playback", values={"data": "true"})
+        page.wait_for("answer", lambda answer: "success: True" in answer["text"])
+        wait_for(lambda: not page.of("drives")[-1]["refusal"], "leave to drive")
+        drive(open_world, page)
+        page.say("stop")
+
+
+def test_a_cockpit_before_its_master_says_so_and_then_serves_its_page():
+    class Early(World):
+        def begin(self):
+            self.cockpit = self.run(node_path("cockpit", "cockpit.py"), "--port", str(self.port))
+            wait_for(lambda: "waiting for a ROS master" in self.cockpit.output, "its line")
+            self.early = get(self, "/")
+            super().begin()
+
+        def start_cockpit(self):
+            self.find_page()
+
+    with Early() as world:
+        status, text = world.early
+        assert status == 503 and "start roscore" in text
+        wait_for(lambda: get(world, "/")[0] == 200, "page")
 
 
 class Launched(World):

@@ -41,6 +41,7 @@ export class BagTab {
   #refusal = ""; // why this page may not publish now
   #scrubbed = 0; // when the slider was last moved by hand
   #position = 0; // of the recording [s], which a zoomed slider may not show
+  #records = false; // whether the server records for any page
   #tracks = {}; // name of a curve -> Track
 
   constructor(link, watch, page) {
@@ -52,9 +53,10 @@ export class BagTab {
       offer(byId("bag-name"), names.map((name) => [name]));
       if (names.length === 1 && !this.#bag) this.#ask();
     });
-    link.on("recorder", ({ name }) => {
+    link.on("recorder", ({ name, why }) => {
+      this.#records = Boolean(name);
       say(byId("bag-record"), name ? "Stop recording" : "Record all topics");
-      say(byId("bag-recorder"), name && `Recording ${name}`);
+      say(byId("bag-recorder"), name ? `Recording ${name}` : why);
     });
     link.on("bag", (bag) => this.#open(bag));
     link.on("bag_at", (at) => this.#moveTo(at));
@@ -68,7 +70,7 @@ export class BagTab {
       if (this.#bag) link.send("bag_open", { name: this.#bag.path }); // for the server this page is new
     });
     byId("bag-open").onclick = () => this.#ask();
-    byId("bag-record").onclick = () => link.send("record", { on: !byId("bag-recorder").textContent });
+    byId("bag-record").onclick = () => link.send("record", { on: !this.#records });
     byId("bag-play").onclick = () => this.#play();
     byId("bag-pause").onclick = () => link.send("bag_pause");
     byId("bag-position").oninput = () => this.#seek(byId("bag-position").valueAsNumber);

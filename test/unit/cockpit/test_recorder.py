@@ -1,5 +1,8 @@
 """Who records, how it ends, and that there is one recording."""
 
+import re
+from types import SimpleNamespace
+
 import pytest
 
 from cockpit_server.clients import LOOKS_ONLY, RefusedError
@@ -46,3 +49,43 @@ def test_a_recording_ends_whole_with_the_thread_that_started_it(one, monkeypatch
     one.on_record(page()[0], 0.0, on=True)
     [path] = wait_for(lambda: list(tmp_path.glob("page_*.bag")), "file")
     wait_for(lambda: path.read_text() == "whole\n", "its end")
+
+
+def test_without_space_nothing_is_recorded_and_what_is_recorded_ends_with_the_reason(
+    one, monkeypatch, tmp_path
+):
+    driver, sent = page(bag=True)
+    free = [recorder.LEAST_FREE - 1]
+    usage = lambda _: SimpleNamespace(free=free[0])  # noqa: E731
+    monkeypatch.setattr(recorder.shutil, "disk_usage", usage)
+    with pytest.raises(RefusedError, match="less than 1 GB is free"):
+        one.on_record(driver, 0.0, on=True)
+    free[0] += 1
+    one.on_record(driver, 0.0, on=True)
+    wait_for(lambda: list(tmp_path.glob("*.active")), "recording")
+    name = one._name
+    one.collect([], 1.0)
+    free[0] -= 1
+    one.collect([], 1.5)
+    assert one._why == ""  # it is looked at once a second
+    one.collect([], 2.0)
+    wait_for(lambda: one._name == "", "its end")
+    one.send_to(driver, 0.0)
+    assert sent[-1]["why"] == f"{name} has ended: {recorder.NO_SPACE}"
+
+
+@pytest.mark.parametrize(("code", "why"), [(0, recorder.FULL), (3, r"has failed \(3\)")])
+def test_a_recording_that_ends_by_itself_says_why(one, monkeypatch, code, why):
+    monkeypatch.setattr(recorder, "COMMAND", ("bash", "-c", f"exit {code}"))
+    one.on_record(page()[0], 0.0, on=True)
+    wait_for(lambda: one._name == "", "its end")
+    assert re.search(why, one._why)
+
+
+def test_recordings_of_one_second_have_names_of_their_own(one, monkeypatch, tmp_path):
+    monkeypatch.setattr(recorder.time, "strftime", lambda _: "page")
+    names = []
+    for end in ("", ".active", ""):
+        names.append(recorder.free_name())
+        (tmp_path / f"{names[-1]}{end}").touch()
+    assert names == ["page.bag", "page_1.bag", "page_2.bag"]

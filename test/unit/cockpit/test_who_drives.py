@@ -92,7 +92,7 @@ def test_another_joystick_frees_the_session(driven):
     driven.rival = "/player"
     driven.beat(driven.now)
     assert (driven.published, driven.driven) == ([("ada", *REST)], None)
-    assert "/player also drives this robot" in driven.anna[1][-1]["text"]
+    assert "rosnode kill /player" in driven.anna[1][-1]["text"]
 
 
 @pytest.mark.parametrize(

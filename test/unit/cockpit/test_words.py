@@ -39,6 +39,17 @@ def test_who_drives(case):
     assert (words.driver(about) == "") == said.startswith(("Nobody", "No joystick"))
 
 
+def test_a_rival_is_paused_where_it_can_be_and_else_ended():
+    """The end of rosbag ends the launch file that started it, and with it the page."""
+    services = {"/rosbag/pause_playback"}
+    assert "(tab Topics, Show: services, /rosbag/pause_playback, data: true)" in words.rival(
+        "/rosbag", services
+    )
+    assert "(Ctrl-C in its terminal, or rosnode kill /joy_node)" in words.rival(
+        "/joy_node", services
+    )
+
+
 UNHEARD = "No node subscribes to /ada/joy: nothing moves before you start joy2twist for ada."
 BY_LB = "Hold LB (a thumb, a gamepad's button, the key Shift), then move the stick (or arrow keys)."
 BY_77 = "Hold button 77 (a gamepad's button), then move the stick (or arrow keys)."

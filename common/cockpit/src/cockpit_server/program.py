@@ -10,7 +10,6 @@ import shutil
 import socket
 import subprocess
 import sys
-import time
 from typing import Any, NoReturn
 from urllib.parse import urlsplit
 
@@ -18,6 +17,7 @@ import rosgraph
 import rospy
 
 from cockpit_server.access import Access, gateways
+from cockpit_server.waiting import answer_for
 from node_kit.arguments import Parser
 from node_kit.ros_api import Answer, call, way_out
 from node_kit.start import run
@@ -85,12 +85,12 @@ def leave_to_other(port: int, lan: bool) -> NoReturn:
     sys.exit()
 
 
-def wait_for_master() -> None:
+def wait_for_master(listener: socket.socket) -> None:
     uri = rosgraph.get_master_uri()
     if call(uri, "getPid")[0] is Answer.REFUSED:
         report(f"waiting for a ROS master at {uri}: start roscore, or a launch file")
     while call(uri, "getPid")[0] is Answer.REFUSED:
-        time.sleep(LOOK_S)
+        answer_for(listener, LOOK_S)
 
 
 def main() -> int:
@@ -105,7 +105,7 @@ def main() -> int:
     sockets = listening(options.port, options.lan or published)
     here = Access(peers=peers() if published else None, origins=codespace(options.port))
     access = new_access() if options.lan else here
-    wait_for_master()
+    wait_for_master(sockets[0])
 
     def spin(_parameters: Any) -> None:
         print_address(options.port, access)

@@ -104,7 +104,7 @@ class Driving(Source):
             return LOOKS_ONLY
         rival = self._joysticks.rival(robot, now - RIVAL_S)
         if rival and not self.is_driver(client):
-            return f"{rival} publishes the joystick topic of this robot: end it first"
+            return words.rival(rival, graph.services)
         return self.session.refusal(client.number)
 
     def on_stop(self, client: Client, _now: float) -> None:
@@ -182,7 +182,7 @@ class Driving(Source):
             return
         rival = self._joysticks.rival(self.session.robot, self._sat_at)
         if rival and not self.session.topic:
-            self.session.free(f"{rival} also drives this robot: end it first")
+            self.session.free(words.rival(rival, self._graphs.graph.services))
             return
         self._beats += 1
         self.session.beat(self._beats, now)

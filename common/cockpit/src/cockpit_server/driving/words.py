@@ -1,6 +1,6 @@
 """The words for what drives a robot, why it stands, and what to do; all of them here (pure)."""
 
-from typing import Dict, NamedTuple, Optional, Tuple
+from typing import Container, Dict, NamedTuple, Optional, Tuple
 
 from cockpit_server.graph import topic_of
 from gamepad.gamepads import F710
@@ -45,6 +45,16 @@ def driver(about: About) -> str:
     if about.driver is not None:
         return about.name
     return (", ".join(about.senders) or "a joystick") if about.is_driven_by_node else ""
+
+
+def rival(node: str, services: Container[str]) -> str:
+    """Return what to do about a node that publishes the joystick topic of a robot."""
+    pause = f"{node}/pause_playback"  # of rosbag play; its end may end a launch file, with the page
+    if pause in services:
+        todo = f"pause it first (tab Topics, Show: services, {pause}, data: true)"
+    else:
+        todo = f"end it first (Ctrl-C in its terminal, or rosnode kill {node})"
+    return f"{node} publishes the joystick topic of this robot: {todo}"
 
 
 def in_a_table(about: About) -> Dict[str, str]:

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import itertools
 import os
+import shutil
 import signal
 import threading
 import time
 from contextlib import suppress
 from subprocess import DEVNULL, Popen
-from typing import ClassVar
+from typing import ClassVar, Sequence
 
 import rospy
 
@@ -16,7 +18,11 @@ from cockpit_server.clients import Client, RefusedError, Source
 from cockpit_server.schema import switch
 
 # It ends at 150 MB, as Bag opens up to 200 MB, or after an hour.
-COMMAND = ("rosbag", "record", "-q", "-a", "--size=150", "--duration=1h", "-O")
+COMMAND = ("rosbag", "record", "-q", "-a", "--size=150", "--duration=1h", "--min-space=1G", "-O")
+LEAST_FREE = 1 << 30  # bytes; with less rosbag records nothing
+NO_SPACE = "less than 1 GB is free in the cockpit's folder"
+FULL = "150 MB or an hour are recorded"
+LOOK_S = 1.0  # how often the free space is looked at
 # Linux sends rosbag this signal, too, once the thread that started it has gone, as by kill -9.
 ENDS_WITH_US = ("setpriv", "--pdeathsig", "INT")
 
@@ -28,13 +34,23 @@ class Recorder(Source):
 
     def __init__(self) -> None:
         self._name = ""  # It names the file while something is recorded.
+        self._why = ""  # why the last one has ended, if no page ended it
+        self._next_look_s = 0.0
         self._process: Popen[bytes] | None = None
         self._is_over = False  # It was stopped, maybe before there was a process.
         rospy.on_shutdown(self._stop)
 
+    def collect(self, clients: Sequence[Client], now: float) -> None:
+        if self._process and now >= self._next_look_s:
+            self._next_look_s = now + LOOK_S
+            if not has_space():
+                self._why = f"{self._name} has ended: {NO_SPACE}"
+                self._stop()
+
     def send_to(self, client: Client, now: float) -> None:
-        if client.watch.bag and client.take_if_new("recorder", self._name):
-            client.send("recorder", name=self._name)
+        state = {"name": self._name, "why": self._why}
+        if client.watch.bag and client.take_if_new("recorder", state):
+            client.send("recorder", **state)
 
     def on_record(self, client: Client, _now: float, on: bool) -> None:
         client.must_drive()
@@ -42,8 +58,10 @@ class Recorder(Source):
             self._stop()
         elif self._name:
             raise RefusedError(f"{self._name} is being recorded")
+        elif not has_space():
+            raise RefusedError(f"{NO_SPACE}, and rosbag needs more")
         else:
-            self._name, self._is_over = time.strftime("page_%Y-%m-%d-%H-%M-%S.bag"), False
+            self._name, self._why, self._is_over = free_name(), "", False
             threading.Thread(target=self._record, daemon=True).start()
 
     def _record(self) -> None:
@@ -51,7 +69,11 @@ class Recorder(Source):
         self._process = Popen(command, start_new_session=True, stdin=DEVNULL, stdout=DEVNULL)
         if self._is_over:
             self._stop()
-        if self._process.wait() and not os.path.exists(self._name):
+        code = self._process.wait()
+        if not self._is_over:
+            why = f"rosbag record has failed ({code})" if code else FULL
+            self._why = f"{self._name} has ended: {why if has_space() else NO_SPACE}"
+        if code and not os.path.exists(self._name):
             rospy.logwarn("cockpit: rosbag record cannot write %s here", self._name)
         self._process, self._name = None, ""
 
@@ -60,3 +82,14 @@ class Recorder(Source):
         if process and process.poll() is None:
             with suppress(ProcessLookupError):  # it has just ended
                 os.killpg(process.pid, signal.SIGINT)
+
+
+def has_space() -> bool:
+    return shutil.disk_usage(".").free >= LEAST_FREE
+
+
+def free_name() -> str:
+    """Return a name by the time, which no file has, also not one of the same second."""
+    base = time.strftime("page_%Y-%m-%d-%H-%M-%S")
+    names = (f"{base}{f'_{n}' if n else ''}.bag" for n in itertools.count())
+    return next(n for n in names if not os.path.exists(n) and not os.path.exists(f"{n}.active"))
