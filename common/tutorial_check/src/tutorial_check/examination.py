@@ -114,5 +114,6 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    with contextlib.suppress(KeyboardInterrupt, BrokenPipeError):
+    # The other end is closed before an order comes if there is nothing to check over.
+    with contextlib.suppress(KeyboardInterrupt, BrokenPipeError, EOFError):
         main()

@@ -35,7 +35,6 @@ OF_SUITE = ("ROS_ETC_DIR", "CMAKE_POLICY_VERSION_MINIMUM")
 SUITE = Path(__file__).resolve().parents[4]
 NUMBERS = itertools.count(os.getpid() * 100)
 
-
 Report = Callable[[Outcome, Result], None]
 
 
