@@ -160,11 +160,12 @@ class ProgramTest(RosTest):
     def test_a_mistake_and_a_missing_master_get_one_line(self):
         rospy.set_param("/wrong/joy_timeout", -1)
         for given, environment, words in (
-            (["__name:=wrong"], {}, ("~joy_timeout", "-1", "0 to 60 s", "/wrong")),
+            (["__name:=wrong"], {},
+             ("~joy_timeout", "-1", "0 to 60 s", "rosparam delete /wrong/joy_timeout")),
             (["_axis_linear:=["], {}, ("command-line",)),
             ([], {"ROS_MASTER_URI": NOWHERE}, (NOWHERE, "roscore")),
             ([], {"ROS_MASTER_URI": "nonsense"}, ("'nonsense'", "http://localhost:11311")),
-        ):
+        ):  # fmt: skip
             self.check_mistake(Program(JOY2TWIST, *given, **environment), *words)
 
     def test_without_its_master_it_drives_on_and_stops_at_the_end(self):

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import functools
+import re
 import sys
-from typing import Any, Callable
+from typing import Any, Callable, Collection
 
 import rosgraph
 import rospy
@@ -50,7 +51,7 @@ def run(
     try:
         own_name = full_name(name)
         _check_master()
-        given = _parameters(own_name)
+        given, stored = _parameters(own_name)
         take_over = checked_value(f"~{TAKE_OVER}", given.pop(TAKE_OVER, False), switch)
         parameters = load(given)
         if keeps_name and not take_over:
@@ -58,7 +59,7 @@ def run(
     except StartError as error:
         return _fail(name, error)
     except ValueError as error:
-        return _fail(name, f"{error} (~ stands for {own_name}/)")
+        return _fail(name, f"{error} (~ stands for {own_name}/){remedy(error, own_name, stored)}")
     end_on_signals()
     end_only_if_replaced()
     be_careful()
@@ -113,14 +114,30 @@ def _check_master() -> None:
         )
 
 
-def _parameters(full_name: str) -> dict[str, Any]:
-    """Return the private parameters of the master, and over them those of the command line."""
+def remedy(error: ValueError, own_name: str, stored: Collection[str]) -> str:
+    """Return how to get rid of the parameter that an error begins with, if it is a stored one.
+
+    stored: names of the private parameters that are on the master alone. Nobody who starts a node
+    sees those that an earlier launch has left there.
+    """
+    name = re.match(r"~([^\s:/\[]+)", str(error))
+    if not name or name[1] not in stored:
+        return ""
+    return f"; if an earlier launch left it on the master: rosparam delete {own_name}/{name[1]}"
+
+
+def _parameters(full_name: str) -> tuple[dict[str, Any], set[str]]:
+    """Return the private parameters of the master, and over them those of the command line.
+
+    And the names of those that are on the master alone.
+    """
     answer, given = call(rosgraph.get_master_uri(), "getParam", full_name)
     given = given if answer is Answer.WELL and isinstance(given, dict) else {}
     try:
         of_command_line = load_command_line_node_params(sys.argv)
     except rospy.ROSException as error:
         raise StartError(" ".join(str(error).split())) from None
+    stored = {str(name) for name in given} - {key.split("/")[0] for key in of_command_line}
     for key, value in of_command_line.items():
         *outer, last = key.split("/")
         place = given
@@ -129,7 +146,7 @@ def _parameters(full_name: str) -> dict[str, Any]:
                 place[part] = {}
             place = place[part]
         place[last] = value
-    return given
+    return given, stored
 
 
 def _without_parameters(arguments: list[str]) -> list[str]:
