@@ -3,6 +3,10 @@
 from pathlib import Path
 
 import pytest
+import rosbag
+from geometry_msgs.msg import Twist
+from sensor_msgs.msg import Joy
+from std_msgs.msg import String
 
 from gamepad.arguments import check
 from gamepad.bags import check_recording
@@ -61,6 +65,31 @@ def test_a_recording_that_is_damaged_is_one_line_of_the_guard(tmp_path):
     bag.write_bytes(whole[:20_000] + b"\xff" * 3000 + whole[23_000:])
     with pytest.raises(ValueError, match=r"joy\.bag: cannot be read: Invalid data[^\n]*\Z"):
         check_recording(str(bag), str(preset))
+
+
+@pytest.mark.parametrize(
+    ("topics", "why"),
+    [
+        ({"/joy": Joy}, ""),
+        ({"/cmd_vel": Twist, "/a": String},
+         "no sensor_msgs/Joy on /joy, so nothing would move; it has /a, /cmd_vel; record one with:"
+         " rosbag record /joy"),
+        ({"/joy": String, "/robot_1/joy": Joy},
+         "no sensor_msgs/Joy on /joy, so nothing would move; its joystick is on /robot_1/joy:"
+         " rosbag play {path} /robot_1/joy:=/joy"),
+        ({}, "no sensor_msgs/Joy on /joy, so nothing would move; it has nothing; record one with:"
+         " rosbag record /joy"),
+    ],
+)  # fmt: skip
+def test_a_recording_without_a_joystick_is_refused_with_what_to_do(tmp_path, topics, why):
+    path = tmp_path / "other.bag"
+    with rosbag.Bag(str(path), "w") as bag:
+        for topic, kind in topics.items():
+            bag.write(topic, kind())
+    if why:
+        assert refused("bag", str(path)) == why.format(path=path)
+    else:
+        check("bag", str(path))
 
 
 @pytest.mark.parametrize(("name", "near"), [("7", "robot_7"), ("J\u00fcrgen", "J_rgen")])

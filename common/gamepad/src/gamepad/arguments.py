@@ -19,18 +19,17 @@ from node_kit.parameters import Check
 
 
 def recording(value: str) -> None:
-    """Check for a file that rosbag can play, or none."""
+    """Check for a file from which rosbag can play a joystick, or none."""
     if value == "none":
         return
     if not value.startswith("/"):
         raise ValueError("must be a whole path, as $PWD is not set")
-    from gamepad.bags import BagError, opened  # noqa: PLC0415  rosbag takes a while
+    from gamepad.bags import BagError, check_topic  # noqa: PLC0415  rosbag takes a while
 
     try:
-        with opened(value):
-            pass
+        check_topic(value)
     except BagError as error:
-        raise ValueError(str(error).replace(f"{value}: ", "", 1)) from None
+        raise ValueError(str(error)[len(f"{value}: ") :]) from None
 
 
 def robot(value: str) -> None:

@@ -11,6 +11,7 @@ import yaml
 
 from gamepad.gamepads import F710
 
+TOPIC, JOY = "/joy", "sensor_msgs/Joy"
 KEYS = ("enable_button", "enable_turbo_button")  # either of them drives
 
 
@@ -37,6 +38,22 @@ def opened(path: str | Path) -> Iterator[rosbag.Bag]:
         raise BagError(f"{path}: not a bag that can be read: {why:.200}") from None
 
 
+def check_topic(path: str) -> None:
+    """Raise BagError if a bag has no joystick message on /joy; it says what to do."""
+    with opened(path) as bag:
+        topics = bag.get_type_and_topic_info().topics
+    kinds = {topic: one.msg_type for topic, one in topics.items() if one.message_count}
+    if kinds.get(TOPIC) == JOY:
+        return
+    joysticks = [topic for topic, kind in sorted(kinds.items()) if kind == JOY]
+    if joysticks:
+        todo = f"its joystick is on {joysticks[0]}: rosbag play {path} {joysticks[0]}:={TOPIC}"
+    else:
+        others = ", ".join(sorted(kinds)) or "nothing"
+        todo = f"it has {others}; record one with: rosbag record {TOPIC}"
+    raise BagError(f"{path}: no {JOY} on {TOPIC}, so nothing would move; {todo}")
+
+
 def check_recording(bag: str, preset: str) -> None:
     """Raise ValueError with one line if no Joy of the bag presses a dead-man button of the preset.
 
@@ -45,7 +62,7 @@ def check_recording(bag: str, preset: str) -> None:
     parameters = yaml.safe_load(Path(preset).read_text(encoding="utf-8"))
     numbers = [parameters[key] for key in KEYS if parameters.get(key, -1) >= 0]
     with opened(bag) as recorded:
-        for _, joy, _ in recorded.read_messages("/joy"):
+        for _, joy, _ in recorded.read_messages(TOPIC):
             if not numbers or any(any(joy.buttons[one : one + 1]) for one in numbers):
                 return
     buttons = " or ".join(_name(number, Path(preset).stem) for number in numbers)
