@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gamepad.driver.driver import LONGEST_LIFELESS_S, SHORTEST_SILENCE_S, Driver
+from gamepad.driver.driver import LONGEST_LIFELESS_S, SHORTEST_SILENCE_S
 from gamepad.driver.parameters import DriverParameters
 from gamepad.driver.report import SILENT_FOR, DriverReport
 from gamepad.driver.schedule import Schedule
@@ -85,17 +85,16 @@ KERNEL, FIFO = True, False
 )  # fmt: skip
 def test_a_source_that_owes_signs_of_life_is_lifeless(about, kernel_device, read, last_sign):
     assert 0.3 < LONGEST_LIFELESS_S < 0.5  # two signs of virtual_joystick; joy2twist's ~joy_timeout
-    assert not Driver(DriverParameters()).lives
     one = driver(kernel_device, autorepeat_rate=0)
     for data, now in read:
         one.read(data, now)
         one.tick(now + 0.01)
     assert not one.is_lifeless(min(1e9, last_sign + LONGEST_LIFELESS_S - 0.01)), about
-    assert one.is_lifeless(1e10) is one.lives is (last_sign < INF)
+    assert one.is_lifeless(1e10) is (last_sign < INF)
     assert not last_sign < INF or one.is_lifeless(last_sign + LONGEST_LIFELESS_S)
     assert one.due == last_sign + LONGEST_LIFELESS_S
     one.lost(2.0)
-    assert not one.is_lifeless(1e9) and not one.lives
+    assert not one.is_lifeless(1e9)
     one.opened((), kernel_device)
     assert not one.is_lifeless(1e9)
 

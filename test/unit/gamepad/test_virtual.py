@@ -10,8 +10,9 @@ from hypothesis import strategies as st
 
 from gamepad.driver.device import Finder
 from gamepad.driver.device_choice import DeviceError
+from gamepad.driver.state import GamepadState
 from gamepad.gamepads import F710, F710_D, F710_X, mode_hint
-from gamepad.js_event import SIGN_OF_LIFE_MS
+from gamepad.js_event import SIGN_OF_LIFE_MS, Decoder
 from gamepad.liveness import Trembling
 from gamepad.virtual.controls import Controls, positions
 from gamepad.virtual.pads import SIGN_OF_LIFE_S, PadError, StreamPad
@@ -102,6 +103,26 @@ def test_a_fifo_has_the_state_at_opening_then_the_changes_and_signs_of_life(tmp_
             device.read()
         device.close()
     assert not path.exists()
+
+
+@pytest.mark.parametrize("pad", F710.values(), ids=F710)
+def test_a_stick_held_through_a_fifo_trembles_for_the_joy_node_of_noetic(pad, tmp_path):
+    """By its rules: it takes no axis from what is marked as the state at opening."""
+    clock, joy, changes = [5.0], GamepadState(0.0, False, False), []
+    axes, buttons = positions(pad, Controls(left_stick=(-0.4, 1.0), held=frozenset(["LB"])))
+    with StreamPad(pad, str(tmp_path / "pad"), clock=lambda: clock[0]) as stream:
+        device = Finder(str(tmp_path / "pad"), "").open()
+        for k in range(80):  # 4 s
+            clock[0] = 5.0 + k * 0.05
+            stream.show((axes, buttons))
+            before = joy.publish()
+            for event in Decoder(late_init_is_change=False).feed(device.read()):
+                joy.apply(event)
+            changes += [k] if joy.publish() != before else []
+        device.close()
+    assert changes[0] == 0 and all(b - a <= 10 for a, b in zip(changes, [*changes[1:], 79]))
+    shown, pressed = joy.publish()
+    assert (shown[:2], pressed) == (pytest.approx(axes[:2], abs=0.01), buttons)
 
 
 def test_a_fifo_is_served_by_one_gamepad_only(tmp_path):

@@ -37,11 +37,6 @@ class Driver:
         self.heard_at = -math.inf  # when the gamepad gave bytes last
 
     @property
-    def lives(self) -> bool:
-        """Whether the source of an open gamepad gives signs of life."""
-        return self._state is not None and self._lifeless_at < math.inf
-
-    @property
     def due(self) -> float:
         """When tick() must be called next [s]; infinity if only bytes can bring something new."""
         if self._state is None:

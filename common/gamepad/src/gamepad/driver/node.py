@@ -19,7 +19,6 @@ from gamepad.driver.parameters import DriverParameters, load
 from gamepad.driver.report import DriverReport
 from gamepad.driver.state import Message
 from gamepad.gamepads import mode_hint
-from gamepad.liveness import Trembling
 from node_kit.log import Log
 from node_kit.start import run
 from node_kit.suspension import Suspensions
@@ -48,7 +47,6 @@ class JoyNode:
         self.has_ended = threading.Event()  # the last message is out
         rospy.on_shutdown(self.end)
         self.driver = Driver(parameters)
-        self.trembling = Trembling()
         self.finder = Finder(parameters.dev, parameters.dev_name)
         self.joy = rospy.Publisher("joy", Joy, queue_size=QUEUE_SIZE, tcp_nodelay=True)
         self.message = Joy()
@@ -133,7 +131,7 @@ class JoyNode:
         """Publish pairs of axes and buttons."""
         for axes, buttons in messages:
             self.message.header.stamp = rospy.Time.now()
-            self.message.axes = self.trembling.shown(axes) if self.driver.lives else axes
+            self.message.axes = axes
             self.message.buttons = buttons
             self.joy.publish(self.message)
             self.report.published += 1

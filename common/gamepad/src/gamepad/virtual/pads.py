@@ -20,7 +20,7 @@ BUS_USB = 3  # linux/input.h
 EV_KEY, EV_ABS = 1, 3  # linux/input-event-codes.h
 # How often a FIFO repeats the state at opening: so its reader knows that this program lives [s].
 SIGN_OF_LIFE_S = 0.15
-TREMBLE_S = 0.4  # how often a held stick of a kernel device trembles, for the same reason
+TREMBLE_S = 0.4  # how often a held stick trembles: so joy2twist knows it
 LOOK_S = 0.05  # how often a FIFO without a reader is looked at
 
 
@@ -110,6 +110,9 @@ class StreamPad(ContextManager["StreamPad"]):
         self._fd: int | None = None
         self._told: dict[tuple[int, int], int] = {}  # (type, number) -> value that the reader knows
         self._signed_at = -math.inf  # when the last sign of life was given
+        self._position: Position | None = None  # shown last
+        self._trembled_at = -math.inf  # when that began, or when its sticks trembled last
+        self._bent = False  # whether its sticks are one step off
         try:
             self._made = not os.path.lexists(path)
             if self._made:
@@ -131,16 +134,24 @@ class StreamPad(ContextManager["StreamPad"]):
         return self._fd is not None
 
     def show(self, position: Position | None) -> None:
-        """Move to (axes, buttons) as on /joy; None: unplugged. Raises PadError."""
+        """Move to (axes, buttons) as on /joy; None: unplugged. Raises PadError.
+
+        The same position once more: held sticks tremble, for every joy_node; one that is not ours
+        takes a sign of life for nothing.
+        """
         if position is None or (self._fd is not None and _reader_left(self._fd)):
             self._close()
         if position is None or not (self.connected or self._open()):
             return
-        changes = self._events(position).items() - self._told.items()
+        now = self._clock()
+        if position != self._position:
+            self._position, self._trembled_at, self._bent = position, now, False
+        elif self.gives_signs and now >= self._trembled_at + TREMBLE_S:
+            self._trembled_at, self._bent = now, not self._bent
+        changes = self._events(position, self._bent).items() - self._told.items()
         self._tell(dict(sorted(changes)))
-        is_due = self._clock() >= self._signed_at + SIGN_OF_LIFE_S
-        if self._told and is_due and self.gives_signs:
-            self._signed_at = self._clock()
+        if self._told and now >= self._signed_at + SIGN_OF_LIFE_S and self.gives_signs:
+            self._signed_at = now
             self._tell(dict(self._told), INIT, SIGN_OF_LIFE_MS)
 
     def watch(self, poll: select.poll) -> float:
@@ -168,13 +179,18 @@ class StreamPad(ContextManager["StreamPad"]):
         self._signed_at = self._clock()
         return self.connected
 
-    def _events(self, position: Position) -> dict[tuple[int, int], int]:
-        """Return the value of each (type, number) in a position."""
+    def _events(self, position: Position, bent: bool = False) -> dict[tuple[int, int], int]:
+        """Return the value of each (type, number) in a position; bent: held ones are one off."""
         axes, buttons = position
-        values = {(BUTTON, i): value for i, value in enumerate(buttons)}
-        for i, (axis, value) in enumerate(zip(self._gamepad.axes, axes)):
-            values[AXIS, i] = axis.js_value(axis.raw(value))
-        return values
+        rests, _ = positions(self._gamepad, Controls())
+        events = {(BUTTON, i): value for i, value in enumerate(buttons)}
+        for i, axis in enumerate(self._gamepad.axes):
+            value = axis.js_value(axis.raw(axes[i]))
+            if bent and axes[i] != rests[i]:
+                # By the least that an event can show; a kernel device has coarser steps.
+                value += (value < 0) - (value > 0)
+            events[AXIS, i] = value
+        return events
 
     def _tell(
         self, values: Mapping[tuple[int, int], int], flag: int = 0, time_ms: int | None = None
