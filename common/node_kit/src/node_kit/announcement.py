@@ -45,8 +45,9 @@ class Announcement:
     def register(self) -> None:
         """Register the services, and withdraw them should the start fail."""
         atexit.register(self.withdraw)
-        for number in (signal.SIGINT, signal.SIGTERM):  # until the node has handlers of its own
-            signal.signal(number, self._end)
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            if signal.getsignal(number) != signal.SIG_IGN:
+                signal.signal(number, self._end)  # until the node has handlers of its own
         uri = network.create_local_xmlrpc_uri(self.node_port)
         for service in self.services:
             self._tell("registerService", service, self.address, uri)

@@ -15,6 +15,8 @@ from typing import Callable, Mapping, Sequence
 
 from PIL import Image, ImageDraw
 
+from simulated_turtles.pen import covered
+
 SIZE, PIXELS_PER_M = 500, 45
 FIELD_M = (SIZE - 1) / PIXELS_PER_M  # as upstream's window
 COMMAND_S = 1.0  # a velocity lasts so long
@@ -33,6 +35,12 @@ LOG = logging.getLogger("rosout")  # rospy's own
 def pixel(place: complex) -> tuple[float, float]:
     """Return (column, row), not rounded, of a place [m]."""
     return place.real * PIXELS_PER_M, (FIELD_M - place.imag) * PIXELS_PER_M
+
+
+def near(place: complex) -> complex:
+    """Return the pixel of a place as column + row j, none farther than FARTHEST."""
+    column, row = (min(max(one, -FARTHEST), FARTHEST) for one in pixel(place))
+    return complex(column, row)
 
 
 class Turtle:
@@ -164,9 +172,5 @@ class Field:
         for turtle in self.turtles.values():
             start, turtle.drawn = turtle.drawn, turtle.place
             if turtle.is_down and start != turtle.place:
-                reach = (turtle.width - 1) / 2
-                ends = [*pixel(start), *pixel(turtle.place)]
-                ends = [round(min(max(one, -FARTHEST), FARTHEST)) for one in ends]
-                pen.line(ends, turtle.color, turtle.width)
-                for x, y in (ends[:2], ends[2:]):  # The ends are round.
-                    pen.ellipse((x - reach, y - reach, x + reach, y + reach), turtle.color)
+                points = covered(near(start), near(turtle.place), turtle.width, SIZE)
+                pen.point(points.ravel().tolist(), tuple(turtle.color))
