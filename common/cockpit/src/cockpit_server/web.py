@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import logging
+import os
 import socket
 from pathlib import Path
 from typing import Any, Awaitable
@@ -209,6 +210,11 @@ class _Server(HTTPServer):
             super().handle_stream(stream, address)
 
 
+def folder_of_charts() -> Path:
+    """Return where dygraphs is: Debian's, or what ./tutorial has fetched where there is none."""
+    return CHARTS if CHARTS.exists() else Path(os.environ.get("TUTORIAL_RESULTS", ""), "charts")
+
+
 def server(hub: Hub, access: Access) -> HTTPServer:
     """Return the HTTP server; it does not listen yet."""
     for name in ("tornado.access", "tornado.general"):
@@ -220,7 +226,7 @@ def server(hub: Hub, access: Access) -> HTTPServer:
             ("/", _Page),
             ("/ws", _Socket),
             (r"/page/([\w.-]+)", _Files, {"path": str(page)}),
-            (r"/lib/(dygraph\.min\.js|dygraph\.css)", _Files, {"path": str(CHARTS)}),
+            (r"/lib/(dygraph\.min\.js|dygraph\.css)", _Files, {"path": str(folder_of_charts())}),
         ],
         default_handler_class=_Nothing,
         access=access,

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from tutorial_tools.command import words
 from tutorial_tools.command.build import build, is_done
+from tutorial_tools.command.charts import fetch_charts
 from tutorial_tools.command.environment import environment_of, environment_of_help
 from tutorial_tools.system.apt import SetUpError, not_installed, say
 from tutorial_tools.system.packages import DONE, install, packages
@@ -31,6 +32,8 @@ def set_up(plan: words.Plan, workspace: Path, again: bool) -> None:
     for part in plan["builds"]:
         if not is_done(workspace, part):
             build(workspace, part)
+    if "workspace" in plan["builds"]:
+        fetch_charts(workspace, again)
 
 
 def main(workspace: Path, typed: list[str]) -> None:
