@@ -10,7 +10,8 @@ from xml.etree import ElementTree
 import pytest
 
 from tutorial_testing.noetic import META
-from tutorial_tools.command.build import SHARE
+from tutorial_tools.command.build import SHARE, lock_of
+from tutorial_tools.command.requirements import names_of
 from tutorial_tools.system import packages as system_packages
 
 REPOSITORY = Path(__file__).resolve().parents[3]
@@ -81,3 +82,13 @@ def test_what_a_section_has_beside_ros_it_has_for_opt_too(brought, section, monk
     beside = {word for word in system_packages.packages(section) if not ours.fullmatch(word)}
     assert {"cmake", "make", "g++"} <= beside or section != "demo"
     assert beside - of_opt - {"libgl1-mesa-dri"} == set()  # RViz of Noetic brings it
+
+
+@pytest.mark.parametrize(("minor", "has_it"), [(8, True), (10, True), (11, False)])
+def test_zstandard_comes_from_pypi_where_older_archives_lack_it(minor, has_it):
+    """Without it rosbags, and so replay_bag, is missing."""
+    names = names_of((REPOSITORY / "test/requirements.txt").read_text(), minor)
+    assert ("zstandard" in names) == has_it and names.count("rosbags") == 1
+    lock = lock_of("python").read_text()
+    (entry,) = re.findall("^zstandard==.*", lock, re.M)
+    assert entry.count("--hash=") >= 2 * 3  # wheels of two processors, for Python 3.8 to 3.10

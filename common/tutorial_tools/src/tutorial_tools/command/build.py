@@ -19,6 +19,7 @@ from pathlib import Path
 
 from node_kit.manifests import broken_manifests, manifests
 from tutorial_tools.command.errors import first_errors
+from tutorial_tools.command.requirements import names_of
 from tutorial_tools.hidden import hidden_stand_ins
 from tutorial_tools.system.apt import SetUpError, say
 from tutorial_tools.windows import MODEL, TABS, make_rqt
@@ -257,8 +258,7 @@ def install_from_pypi(workspace: Path, name: str, requirements: str, kind: str) 
     with one_at_a_time(workspace):
         if is_same(folder / "installed", wanted) or (not needed and is_same(failed, wanted)):
             return
-        asked = (REPOSITORY / requirements).read_text()
-        names = " ".join(dict.fromkeys(re.findall(r"^([a-z-]+)[=[]", asked, re.M)))
+        names = " ".join(names_of((REPOSITORY / requirements).read_text(), sys.version_info[1]))
         say(f"installing from PyPI what Debian lacks: {names}")
         shared = [] if kind == "alone" else ["--system-site-packages"]
         venv = ["/usr/bin/python3", "-m", "venv", "--clear", *shared, str(folder)]

@@ -1,4 +1,4 @@
-"""The library of the cockpit's charts, from npm's registry where the archive has no package of it."""
+"""The library of the cockpit's charts, of npm's registry where the archive lacks the package."""
 
 from __future__ import annotations
 

@@ -1,0 +1,15 @@
+"""What a file of requirements for pip asks for."""
+
+from __future__ import annotations
+
+import re
+
+
+def names_of(requirements: str, minor: int) -> list[str]:
+    """Return the names in a file of requirements that are for Python 3.minor."""
+    line = r"^([a-z-]+)[=[][^;\n]*(?:; python_version (<|>=) \"3\.(\d+)\")?"
+    return [
+        name
+        for name, sign, bound in re.findall(line, requirements, re.M)
+        if not sign or (minor < int(bound)) == (sign == "<")
+    ]
