@@ -4,7 +4,6 @@ They are those of other_programs/, a package in a student's workspace, in our ow
 """
 
 import contextlib
-import itertools
 import math
 import re
 import shlex
@@ -113,7 +112,8 @@ class Place(Robot):
 
     def way_since(self, begin):
         """Return how far [m] it has driven and turned [rad] since it had so much odometry."""
-        steps = list(itertools.pairwise(moment.pose for moment in self.odometry[begin:]))
+        poses = [moment.pose for moment in self.odometry[begin:]]
+        steps = list(zip(poses, poses[1:]))
         metres = sum(math.dist(old[:2], new[:2]) for old, new in steps)
         return metres, sum(abs(math.remainder(new[2] - old[2], math.tau)) for old, new in steps)
 

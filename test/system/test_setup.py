@@ -96,6 +96,9 @@ def test_a_clone_below_a_path_with_spaces_beside_another_python_over_a_ros_in_a_
 def test_why_nothing_can_be_installed_is_reported(call, bare_system):
     lacking = call("demo", LACKING="rviz python3-rospy")
     assert lacking[0] == 1 and "lacks python3-rospy, without which nothing drives" in lacking[1]
+    assert "take Debian 12 or 13" in lacking[1]
+    of_noetic = call("demo", LACKING="ros-noetic-ros-base", TUTORIAL_ROS="/opt/ros/noetic")
+    assert of_noetic[0] == 1 and "where /opt/ros/noetic comes from; is that still" in of_noetic[1]
     offline = call("demo", BROKEN="yes")
     assert re.search(r"Err:1 no network\n.* not installed: .*Check the network", offline[1])
     assert offline[0] == 1 and not (bare_system / "installed").read_text()

@@ -149,10 +149,12 @@ def test_nothing_of_a_container_is_open_to_other_machines(name):
 
 
 @pytest.mark.skipif(not find_spec("vermin"), reason="vermin missing: ./tutorial setup")
-def test_no_program_needs_more_than_python_3_8():
+def test_no_program_and_no_test_needs_more_than_python_3_8():
     """As far as vermin (PyPI) knows; annotations that 3.8 evaluates are found by ruff (FA102)."""
     options = ["--target=3.8-", "--violations", "--no-eval-annotations", "--no-tips", "--quiet"]
     vermin = [sys.executable, "-c", "import vermin; vermin.main()", *options]
     folders = {REPOSITORY / package.split("/")[0] for package in PACKAGES}
-    done = subprocess.run([*vermin, *folders], capture_output=True, text=True, check=False)
+    tests = [*(REPOSITORY / "test").glob("*/*.py"), *(REPOSITORY / "test").glob("unit/*/*.py")]
+    folders |= {REPOSITORY / "test/src", REPOSITORY / "test/ros"}
+    done = subprocess.run([*vermin, *folders, *tests], capture_output=True, text=True, check=False)
     assert not done.returncode, done.stdout + done.stderr

@@ -72,6 +72,14 @@ def install(wanted: list[str], workspace: Path, again: bool) -> None:
     os.remove(log)
 
 
+def _elsewhere() -> str:
+    """Return what to do where the archive lacks what is needed."""
+    ros = os.environ.get("TUTORIAL_ROS", "")
+    if ros:
+        return f"they are where {ros} comes from; is that still in /etc/apt/sources.list.d?"
+    return "take Debian 12 or 13, or docker/"
+
+
 def _install(missing: list[str], kept: Path, log: Path) -> None:
     apt.apt_get(log, apt.CAN_BE_CUT, "update")  # an unreachable mirror shows in the installation
     unreached, lacking = apt.errors(log), apt.lacking(missing)
@@ -80,7 +88,7 @@ def _install(missing: list[str], kept: Path, log: Path) -> None:
     needed = [name for name in lacking if name in packages("demo")]
     if needed and not unreached:
         why = f"{archive} {' '.join(needed)}, without which nothing drives {words}"
-        raise SetUpError(f"{why}: take Debian 12 or 13, or docker/")
+        raise SetUpError(f"{why}: {_elsewhere()}")
     if lacking and not needed:
         missing = [name for name in missing if name not in lacking]
         if unreached:  # so it is not known what the archive lacks
