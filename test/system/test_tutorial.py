@@ -7,6 +7,12 @@ import subprocess
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import LONGEST_S
 
+MANIFEST = """\
+<package format="2"><name>{}</name><version>0.0.1</version><description>d</description>
+<maintainer email="ada@u.example">Ada</maintainer><license>BSD</license>
+<buildtool_depend>catkin</buildtool_depend><depend>{}</depend></package>
+"""
+
 
 def test_completion_in_bash(tutorial, call):
     script = 'eval "$("$0" completion)"; COMP_WORDS=("$0" test ex) COMP_CWORD=2; _tutorial'
@@ -58,6 +64,55 @@ def test_a_shell_sees_the_workspace_and_touches_no_file(tutorial, suite_workspac
     ]
     assert [path.name for path in home.iterdir() if path.name != ".bash_history"] == [".bashrc"]
     assert (home / ".bashrc").read_text() == "alias mine=true\n"
+
+
+CPP = """\
+#include <ros/ros.h>
+#include <std_msgs/String.h>
+void hear(const std_msgs::String::ConstPtr& text, int id) { ROS_INFO("%d %s", id, text->data.c_str()); }
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "hear");
+  ros::NodeHandle node;
+  auto sub = node.subscribe<std_msgs::String>("chatter", 10, boost::bind(&hear, _1, 7));
+  ros::spin();
+}
+"""
+STD = "#include <functional>\nusing namespace std::placeholders;\n"  # _1 of another library
+CMAKE = """\
+cmake_minimum_required(VERSION 3.5)
+project(cpp)
+find_package(catkin REQUIRED COMPONENTS roscpp std_msgs)
+catkin_package()
+include_directories(${catkin_INCLUDE_DIRS})
+foreach(program hear included)
+  add_executable(${program} ${program}.cpp)
+  target_link_libraries(${program} ${catkin_LIBRARIES})
+endforeach()
+add_library(without_ros std.cpp plain.c)
+"""
+
+
+def test_cpp_builds_as_the_wiki_has_it(call, tmp_path):
+    """boost::bind(..., _1), beside C, C++ without ROS, and CXXFLAGS and CPLUS_INCLUDE_PATH in use."""
+    package = tmp_path / "ws/src/cpp"
+    package.mkdir(parents=True)
+    (tmp_path / "own").mkdir()
+    files = {
+        "../../../own/own.h": "#define NUMBER 7\n",
+        "package.xml": MANIFEST.format("cpp", "roscpp</depend><depend>std_msgs"),
+        "CMakeLists.txt": CMAKE,
+        "hear.cpp": CPP.replace("7)", "NUMBER)").replace("#include", "#include <own.h>\n#include", 1),
+        "included.cpp": f"#include <boost/bind.hpp>\n{CPP}",
+        "std.cpp": f"{STD}int add(int a, int b) {{ return a + b; }}\nauto one = std::bind(add, _1, 1);\n",
+        "plain.c": "int new = sizeof 'a' == sizeof(int) ? 1 : -1;\n",
+    }
+    for name, text in files.items():
+        (package / name).write_text(text)
+    workspace = str(tmp_path / "ws")
+    own = {"CXXFLAGS": "-Werror -Wpedantic", "CPLUS_INCLUDE_PATH": str(tmp_path / "own")}
+    command = ("run", "--in", workspace, "catkin_make", "-C", workspace)
+    code, output = call(*command, deadline_s=LONGEST_S, **own)
+    assert code == 0 and "does not build" not in output, output
 
 
 def test_of_two_calls_at_once_one_builds_and_both_go_on(tutorial, tmp_path):
