@@ -2,6 +2,7 @@
 
 from edits import *
 
+CMAKE = f"{B}/CMakeLists.txt"
 PUT_XML, PUT_JOY_XML = f"{B}/package.xml", f"{J}/package.xml"
 
 
@@ -17,6 +18,29 @@ def manifest(format_, depends):
 """
 
 
+def cpp(text, cmake="", link="target_link_libraries(use ${catkin_LIBRARIES})"):
+    """A program in C++, use, and what CMakeLists.txt says of it."""
+    add = f"catkin_package()\nadd_executable(use src/use.cpp)\n{link}\n{cmake}"
+    return [write(f"{B}/src/use.cpp", text), put(CMAKE, "catkin_package()", add)]
+
+
+SPINS = '#include <ros/ros.h>\nint main(int n, char** words) {\n  ros::init(n, words, "use");\n  ros::spin();\n}\n'
+MAKES = [
+    write(f"{B}/msg/Num.msg", "int64 num\n"),
+    put(
+        CMAKE,
+        "roscpp)",
+        "roscpp message_generation)\nadd_message_files(FILES Num.msg)\ngenerate_messages(DEPENDENCIES std_msgs)",
+    ),
+]
+USES = f'#include "{B}/Num.h"\nint main() {{ return {B}::Num().num; }}\n'
+ROSEUS = [
+    write("arm/package.xml", manifest("format='2'", "").replace(B, "arm")),
+    write(
+        "arm/CMakeLists.txt",
+        "cmake_minimum_required(VERSION 3.5)\nproject(arm)\nfind_package(catkin REQUIRED COMPONENTS roseus)\ncatkin_package()\n",
+    ),
+]
 FORMAT_1 = "".join(
     f"<build_depend>{each}</build_depend><run_depend>{each}</run_depend>"
     for each in ("rospy", "std_msgs")
@@ -63,6 +87,14 @@ ROWS = [
     ("2", "the place of a dependency", [lines(PUT_XML, 11, 14)], "C3", (f"{B}/package.xml:11", "add <depend>roscpp")),
     ("2", "a package that Debian has, not installed", [put(f"{B}/CMakeLists.txt", "roscpp", "roscpp stereo_image_proc")], "C4", (f"{B}/CMakeLists.txt:4", "apt install libstereo-image-proc-dev")),
     ("2", "rospcc in CMakeLists.txt", [put(f"{B}/CMakeLists.txt", "roscpp", "rospcc")], "C4", (f"{B}/CMakeLists.txt:4", "correct rospcc to roscpp")),
+    ("2", "a real package that Debian lacks", [put(CMAKE, "roscpp", "roscpp control_msgs")], "C4", (f"{CMAKE}:4", "catkin cannot find control_msgs", "Debian lacks control_msgs; its sources, cloned into src")),
+    ("2", "a header that is made too late", [*MAKES, *cpp(USES)], "C4", (f"{B}/src/use.cpp:1", f"seen:     {B}/Num.h: No such file", "hint:     use is compiled before its header is made of Num.msg", "add_dependencies(use ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})")),
+    ("2", "a header of which nothing is made", [MAKES[0], *cpp(USES)], "C4", (f"{B}/src/use.cpp:1", "no header is made of Num.msg: CMakeLists.txt lacks add_message_files and generate_messages")),
+    ("2", "a dependency target that there is not", cpp(SPINS, f"add_dependencies(use {B}_gencpp)"), "C4", (f"{CMAKE}:9", f"nothing makes {B}_gencpp: add_dependencies(use ${{${{PROJECT_NAME}}_EXPORTED")),
+    ("2", "no libraries linked", cpp(SPINS, link=""), "C4", (f"{CMAKE}:7", "use: undefined reference to `ros::init", "write target_link_libraries(use ${catkin_LIBRARIES})")),
+    ("2", "a .cpp file that is not named", cpp("int other();\nint main() { return other(); }\n"), "C4", (f"{CMAKE}:7", "use: undefined reference to `other()'", "the .cpp file that has it belongs into add_executable")),
+    ("2", "a folder include that is not named", [*cpp(f"#include <{B}/own.h>\nint main() {{}}\n"), write(f"{B}/include/{B}/own.h", "")], "C4", (f"{B}/src/use.cpp:1", "include_directories(include ${catkin_INCLUDE_DIRS})")),
+    ("2", "an error of one's own, and one of another package", [*cpp("int main() { return zero; }\n"), *ROSEUS], "C4", (f"where:    {B}/src/use.cpp:1", "was not declared in this scope; another package fails, too: catkin cannot find roseus (arm/CMakeLists.txt:3)", "hint:     zero is not known there")),
     ("2", "an empty devel/setup.bash", [write("../devel/setup.bash", "")], "C1", "rm -r build devel"),
     ("2", "built over another copy of the suite", [built("/mine/devel;/other/lower/devel")], "C1", "another copy of the suite, /other/lower/devel;"),
     ("2", "built over ROS alone", [built("/usr")], "C1", ("built over /usr", "without ./tutorial shell")),
@@ -132,6 +164,7 @@ ROWS = [
     ("4.3", "broken package.xml of the other package", [put(PUT_XML, "</description>", "</describtion>")], "C14", ("beginner_tutorials/package.xml:5", "no node of the workspace starts")),
     ("4.3", "broken package.xml in a hidden folder", [write(".old/package.xml", "<package>")], "C14", (".old/package.xml:1", "no node of the workspace starts")),
     ("5", "broken package.xml beside the launch files", [put(PUT_XML, "</description>", "</describtion>")], "C21", ("beginner_tutorials/package.xml:5", "no node of the workspace starts")),
+    ("4.3", "a dependency that there is not, beside another package's", [put(f"{J}/CMakeLists.txt", "geometry_msgs", "geometry_msgs joystick"), *ROSEUS], "C12", (f"{J}/CMakeLists.txt:4", "joystick")),
     ("4.3", "a dependency that there is not", [put(f"{J}/CMakeLists.txt", "geometry_msgs", "geometry_msgs joystick")], "C12", (f"{J}/CMakeLists.txt:4", "joystick")),
     ("4.3", "roscpp for rospy", [put(PUT_JOY_XML, "rospy", "roscpp")], "C12", ("seen:     no rospy, but roscpp\n", "asks for Python, not for C++: add <depend>rospy</depend>")),
     ("4.3", "joy2twist in C++", [move(JOY2TWIST, f"{J}/src/joy2twist.cpp")], "C13", ("src/joy2twist.cpp", "in C++", "asks for Python", "write scripts/joy2twist.py")),

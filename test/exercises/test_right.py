@@ -50,6 +50,7 @@ NOTES = [
     ("a recording of another topic", [remove(f"{J}/bag/joy.bag"), chatter(f"{B}/chatter.bag")], ["4.2"], {"C11": (f"{B}/chatter.bag", "no recording of /joy; topics: /chatter")}),
     ("a devel folder from another home, in parts", [built("/nowhere", home="/home/ada/ws"), remove("../devel/_setup_util.py")], ["2"], {"C1": ("made elsewhere (/home/ada/ws/devel)",)}),
     ("built over a ROS in /opt/ros", [built("/opt/ros/noetic")], ["2"], {"C1": ("built over /opt/ros/noetic alone",)}),
+    ("a devel folder from which git has left out setup.*", [built("/home/ada/ws/devel;/opt/ros/noetic"), remove("../devel/setup.sh"), remove("../devel/setup.bash")], ["2"], {"C1": ("has no setup.bash; built again here", "rm -r build devel"), "C4": ()}),
     (*variants.REPORTS, {"C29": (), "C33": ()}),
 ]  # fmt: skip
 

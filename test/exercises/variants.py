@@ -30,6 +30,14 @@ REPORTS = c(
 )
 
 
+# boost::bind(..., _1), catkin_add_gtest and catkin_add_gmock.
+CPP = [
+    write(f"{B}/src/hear.cpp", '#include <ros/ros.h>\n#include <std_msgs/String.h>\nvoid hear(const std_msgs::String::ConstPtr& text, int id) {}\nint main(int n, char** words) {\n  ros::init(n, words, "hear");\n  ros::NodeHandle node;\n  auto sub = node.subscribe<std_msgs::String>("chatter", 1, boost::bind(&hear, _1, 7));\n  ros::spin();\n}\n'),
+    write(f"{B}/test/one.cpp", "#include <gtest/gtest.h>\nTEST(One, IsOne) { EXPECT_EQ(1, 1); }\n"),
+    put(f"{B}/CMakeLists.txt", "catkin_package()", "catkin_package()\nadd_executable(hear src/hear.cpp)\ntarget_link_libraries(hear ${catkin_LIBRARIES})\nif(CATKIN_ENABLE_TESTING)\n  catkin_add_gtest(one_test test/one.cpp)\n  target_link_libraries(one_test ${catkin_LIBRARIES})\n  catkin_add_gmock(two_test test/one.cpp)\n  target_link_libraries(two_test ${catkin_LIBRARIES})\nendif()"),
+]  # fmt: skip
+
+
 def part(name):
     """A package of a name of the suite's, in which its programs are missing."""
     return write(f"{name}/package.xml", f"<package><name>{name}</name></package>", 0o644)
@@ -113,6 +121,7 @@ ROWS = [
     ("the class in joy2twist.py", [move(CLASS, JOY2TWIST)], ["4.3", "6.2"]),
     ("two nodes of one class name, a helper class", [put(CLASS, "class NewJoy2Twist", "class Config():\n    speed = 1.0\n\n\nclass NewJoy2Twist")], ["6.2"]),
     ("a part of the suite in src, which hides nothing from the checker", [part("fake_turtlebot_sim"), part("gamepad")], ["4.4", "4.5"]),
+    ("C++ as the wiki has it, with tests", CPP, ["2"]),
     *RIGHT,
     *RIGHT_IN_WORLD,
 ]  # fmt: skip

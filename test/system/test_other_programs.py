@@ -202,6 +202,7 @@ def test_what_debian_lacks_and_what_takes_its_place(places):
     assert not missing & here and packages("here already") <= here
     for name in missing:
         assert causes.advice(name, "") == f"Debian lacks {name}; {lines()[name][2].strip()}"
+    missing |= set(causes.TABLES["REAL"].split())
     forms = ("{}", "ros-{}", "python3-{}", "lib{}-dev")
     assert not shown(*(f.format(name.replace("_", "-")) for name in missing for f in forms))
 

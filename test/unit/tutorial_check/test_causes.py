@@ -6,7 +6,8 @@ import sys
 
 import pytest
 
-from tutorial_check.source.causes import explain
+from tutorial_check.source.causes import TABLES, advice, explain, explained, is_lacking
+from tutorial_check.source.launch_xml import package_hint
 from tutorial_check.source.python_facts import PythonFacts
 from tutorial_check.source.tracebacks import first_traceback
 
@@ -124,3 +125,41 @@ def test_an_error_at_the_end_of_rospy_is_no_mistake(no_mistake):
     assert first_traceback(no_mistake, "/tmp/ws/joy2twist") is None
     for both in (no_mistake + OUTPUT, OUTPUT + no_mistake):
         assert first_traceback(both, "/tmp/ws/joy2twist").error.startswith("TypeError: 'tuple' ob")
+
+
+@pytest.mark.parametrize(
+    ("words", "hint"),
+    [
+        ('Cannot specify link libraries for target "use" which is not built by this project.',
+         "add_executable(use ...) or add_library(use ...) comes before"),
+        ('Cannot add target-level dependencies to non-existent target "use".', "comes before"),
+        ('cannot create target "use" because another target with the same name', "name of its own"),
+        ("DEPENDS on the catkin package 'tf' which must", "<depend>tf</depend>"),
+        ("generate_messages() must be called before catkin_package()", "below generate"),
+        ("Messages depends on unknown pkg: tf (Missing", "name tf in find_package"),
+        ("undefined reference to `main'", "no int main(...)"),
+        ("use without libraries: undefined reference to `f(std::string)'", "the .cpp file"),
+        ("undefined reference to `tf::T::T()'", "its package into find_package"),
+        ("cannot find -lown: No such file or directory", "add_library(own ...)"),
+        ("multiple definition of `main'", "its own add_executable"),
+        ("multiple definition of `f()'", "inline"),
+        ("'String' does not name a type", "String is not known"),
+        ("\u2018x\u2019 is not a member of \u2018ros\u2019", "x is not known"),
+        ("expected ';' before 'ros'", "a ; is missing"),
+        ("expected '}' at end of input", "never closed"),
+        ("ros.h: No such file or directory", "the spelling of ros.h"),
+    ],
+)  # fmt: skip
+def test_an_error_of_catkin_make_has_a_cause(words, hint):
+    assert hint in "".join(explained("catkin_make", words))
+
+
+def test_a_real_package_that_debian_lacks_is_not_called_misspelt():
+    """Even one with a name like that of a package which is here; a misspelt one is."""
+    assert is_lacking("turtlebot3_bringup") and not is_lacking("turtlebot_brinup")
+    assert package_hint("turtlebot3_bringup").startswith("Debian lacks turtlebot3_bringup; that is")
+    assert "is turtlebot_bringup meant?" in package_hint("turtlebot_brinup")
+    names = TABLES["REAL"].split()
+    assert names == sorted(set(names))
+    for name in names:
+        assert advice(name, "").startswith(f"Debian lacks {name}; ")

@@ -16,6 +16,7 @@ FILE = Path(__file__).with_suffix(".txt")
 TABLES: dict[str, str] = yaml.safe_load(FILE.with_name("debian_packages.yaml").read_text())
 MODULES, DEV_PACKAGES = TABLES["MODULES"], TABLES["DEV_PACKAGES"]
 OTHER_MODULES, OTHER_PACKAGES = TABLES["OTHER_MODULES"], TABLES["OTHER_PACKAGES"]
+LACKING = {name for row in TABLES["LACKING"].splitlines() for name in row.partition(":")[0].split()}
 HOMES = dict(row.split(": ") for row in TABLES["HOMES"].splitlines())
 UNDEFINED = r"name '(\w+)' is not defined"
 NO_VECTOR = r"'(?:float|int)' object has no attribute '[xyz]'"  # where one should be
@@ -136,8 +137,15 @@ def packages_of_ros(name: str) -> str:
     return _found(table, name) or package_of_module(name)
 
 
+def is_lacking(name: str) -> bool:
+    """Return whether this is the name of a ROS package that Debian lacks, and not misspelt."""
+    return name in LACKING or name in TABLES["REAL"].split()
+
+
 def advice(name: str, packages: str) -> str:
     """Return what to do about what is not installed, and is in these Debian packages; or ""."""
     other = _found(TABLES["LACKING"], name)
+    if not other and is_lacking(name):
+        other = "its sources, cloned into src, may build"
     lacks = f"Debian lacks {name}; {other}" if other else ""
     return f"Debian has it: sudo apt install {packages}" if packages else lacks

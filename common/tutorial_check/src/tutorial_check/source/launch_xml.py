@@ -9,7 +9,7 @@ from typing import Callable, Iterator, Sequence
 from xml.parsers import expat
 
 from tutorial_check.model import Wrong
-from tutorial_check.source.causes import advice, explained, meant, packages_of_ros
+from tutorial_check.source.causes import advice, explained, is_lacking, meant, packages_of_ros
 from tutorial_check.source.student_files import text_of_file
 
 CURLY = re.compile("[“”‘’]")
@@ -162,7 +162,8 @@ def attribute(name: str, value: str) -> tuple[str, ...]:
 
 def package_hint(name: str) -> str:
     """Return what to do about a ROS package that is not there."""
-    hint = meant(name, PACKAGES.split(), 0.8, f"there is no package {name}; is {{}} meant?")
+    words = f"there is no package {name}; is {{}} meant?"
+    hint = "" if is_lacking(name) else meant(name, PACKAGES.split(), 0.8, words)
     spelling = f"there is no package {name}: look at the spelling in $(find {name}) or pkg="
     return hint or advice(name, packages_of_ros(name)) or spelling
 

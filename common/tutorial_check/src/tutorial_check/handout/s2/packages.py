@@ -9,26 +9,20 @@ from pathlib import Path
 from typing import Sequence
 
 from tutorial_check.course import check
+from tutorial_check.handout.s2.catkin_errors import build_error, missing_in, not_found
+from tutorial_check.handout.s2.wanted import WANTED
 from tutorial_check.model import Note, Wrong
 from tutorial_check.record.build import built
 from tutorial_check.record.builder import Built
+from tutorial_check.record.own_build import own_built
 from tutorial_check.record.session import Session
-from tutorial_check.source.causes import advice, explained, meant, packages_of_ros
+from tutorial_check.source.causes import is_lacking, packages_of_ros
 from tutorial_check.source.launch_xml import place_of, read
 from tutorial_check.source.manifests import is_stand_in, must_be_one, unreadable
 from tutorial_check.source.workspace import Package, packages_beside, underlays
 
-WANTED = {
-    "beginner_tutorials": ("std_msgs", "rospy", "roscpp"),
-    "joy2twist": ("rospy", "std_msgs", "sensor_msgs", "geometry_msgs"),
-}
 SUITE = ("node_kit", "fake_turtlebot_sim")  # packages of the underlay
 AGAIN = "in the workspace: rm -r build devel, then catkin_make"
-# What genmsg says of a message or service: (file, type) or (file, what it read there).
-DEFINITION = re.compile(
-    r"messages which\s+'([^']+)'\s+depends.+?message\s+\[(\S+)\]"
-    r"|InvalidMsgSpec: (/\S+): (?:Invalid declaration: ([^\n]+)|(\S+) is not a legal)", re.DOTALL
-)  # fmt: skip
 
 
 @check("C1", "the workspace", "2.1", look="ls src devel", timeless=True, eager=True)
@@ -58,6 +52,8 @@ def workspace(session: Session) -> Note | str | None:
         raise Wrong("build and devel beside src", "they are within src", hint=hint)
     if below is None:
         return Note("never built here (no devel/setup.bash)", hint="catkin_make in the workspace")
+    if not any(devel.glob("setup.*")):  # git may leave these out
+        return Note("its devel folder has no setup.bash; built again here", hint=AGAIN)
     own = str(devel.resolve())
     return _over(session, [each for each in below if os.path.realpath(each) != own])
 
@@ -156,7 +152,8 @@ def _dependencies(session: Session, name: str) -> Package:
     missing = [each for each in wanted if each not in package.depends]
     others = sorted(package.depends - set(wanted))
     # What is a package is not misspelt.
-    unknown = [o for o in others if not (packages_of_ros(o) or _is_known(session, o))]
+    others_known = (packages_of_ros, is_lacking, lambda name: _is_known(session, name))
+    unknown = [name for name in others if not any(knows(name) for knows in others_known)]
     if not missing:  # one kind of dependency may name it rightly
         meant = (difflib.get_close_matches(each, wanted, 1, 0.8) for each in unknown)
         missing = next(filter(None, meant), [])
@@ -198,8 +195,8 @@ def joy2twist(session: Session) -> Note | str | None:
     package = _dependencies(session, "joy2twist")
     found = re.search(r"find_package\s*\(\s*catkin\b[^)]*\bCOMPONENTS\b([^)]*)\)", _cmake(package))
     for name in found[1].split() if found else ():
-        if not _is_known(session, name) and name in _missing_in(session.recording(built).output):
-            raise Wrong("packages that catkin can find", *_not_found(session, name))
+        if not _is_known(session, name) and name in missing_in(_printed(session)):
+            raise Wrong("packages that catkin can find", *not_found(session, name))
     return f"src/{package.inside}"
 
 
@@ -232,7 +229,7 @@ def build(session: Session) -> Note | None:
         raise Wrong("catkin_make goes through beginner_tutorials", seen)
     if not made.unbuilt:
         return None
-    wrong = _build_error(session, made.unbuilt)
+    wrong = build_error(session, made.unbuilt)
     seen = f"it builds what the exercises need; another package fails: {wrong.seen}"
     hint = f"{wrong.hint}; or put an empty file CATKIN_IGNORE into that package"
     return Note(seen, wrong.where, hint)
@@ -247,50 +244,17 @@ def must_build(session: Session) -> Built:
         hint = "catkin_make in your workspace"
         raise Wrong("catkin_make ends", "it runs for more than two minutes", hint=hint)
     if made.code != 0:
-        raise _build_error(session, made.output)
+        wrong, own = build_error(session, made.output), build_error(session, _printed(session))
+        if (own.seen, own.where) != (wrong.seen, wrong.where):
+            place = f" ({wrong.where})" if wrong.where else ""
+            own.seen += f"; another package fails, too: {wrong.seen}{place}"
+        raise own
     return made
 
 
-def _build_error(session: Session, output: str) -> Wrong:
-    output = re.sub(r"\x1b\[[0-9;]*m", "", output)
-    lines = [line.strip() for line in output.splitlines()]
-    bad = r"Error at|^E: |mismatched tag|error:|Could not find|Multiple packages"
-    words = next((line for line in lines if re.search(bad, line)), lines[-1] if lines else "")
-    missing = _missing_in(output)
-    error = re.search(r"^CMake Error(?: at [^\n]*)?:\s(.*?)(?:\n\n\n|\Z)", output, re.M | re.S)
-    message = " ".join(error[1].split("Call Stack")[0].split()) if error else ""
-    # The error itself is often in a file of catkin's; the call stack names the student's line.
-    own = re.search(r"(?<!\S)[^/\s]\S*/CMakeLists\.txt:\d+", error[0] if error else "")
-    where = own[0] if own else ""
-    if words.startswith("CMake Error") and message:
-        words = f"CMake: {message}"
-    hint = "".join(explained("cmake", message))
-    hint = hint or "read the first error of catkin_make: it names file and line"
-    if missing:
-        words, place, hint = _not_found(session, missing[0])
-        where = place or where
-    definition = DEFINITION.search(output)
-    if definition:  # a type that is not there, or what is no field
-        path = Path(definition[1] or definition[3])
-        word = definition[2] or definition[4] or definition[5]
-        words = f"{path.name}: {word} is no field of a known type"
-        where = place_of(str(path.relative_to(session.source)), session.read(path), word)
-        hint = "a field is TYPE NAME, as int64 num; another package's type has that before it"
-    return Wrong("catkin_make without an error", words[:300], where, hint)
-
-
-def _missing_in(output: str) -> list[str]:
-    # CMake breaks long lines, and indents them.
-    return re.findall(r'[Cc]ould not find (?:[^"\n]|\n  (?=\S))*"([^"]+)"', output)
-
-
-def _not_found(session: Session, name: str) -> tuple[str, str, str]:
-    """Return (seen, where, hint) for a package of a CMakeLists.txt that catkin does not find."""
-    cmakes = [(f"{each.inside}/CMakeLists.txt", each.cmake or "") for each in session.packages]
-    places = ((place_of(file, text, name), text) for file, text in cmakes if name in text)
-    place, text = next(places, ("", ""))
-    absent = {each for names in WANTED.values() for each in names if each not in text}
-    other = meant(name, absent, 0.65, f"correct {name} to {{}} in CMakeLists.txt")
-    hint = (other if "," not in name else "") or advice(name, packages_of_ros(name))
-    hint = hint or f"is {name} spelt right in find_package of CMakeLists.txt, and without a comma?"
-    return f"catkin cannot find {name}", place, hint
+def _printed(session: Session) -> str:
+    """Return what catkin_make prints of the packages of the exercises, whatever others do."""
+    made = session.recording(built)
+    if not made.code or len(session.needed) == len(session.packages):
+        return made.output
+    return session.recording(own_built).output
