@@ -21,12 +21,14 @@ DEFINITION = re.compile(
     r"messages which\s+'([^']+)'\s+depends.+?message\s+\[(\S+)\]"
     r"|InvalidMsgSpec: (/\S+): (?:Invalid declaration: ([^\n]+)|(\S+) is not a legal)", re.DOTALL
 )  # fmt: skip
-COMPILER = re.compile(r"^(/[^\s:]+):(\d+):(?:\d+:)? (?:fatal )?error: ([^\n]*)", re.M)
+# With bounds, as a search takes the square of what has none.
+COMPILER = re.compile(r"^(/[^\s:]+):(\d+):(?:\d+:)? (?:fatal )?error: ([^\n]{1,300})", re.M)
 LINKER = re.compile(
-    r"undefined reference to [^\n]*|cannot find -l[^\s:]+|multiple definition of [^;\n]*"
+    r"undefined reference to [^\n]{1,260}|cannot find -l[^\s:]{1,99}"
+    r"|multiple definition of [^;\n]{1,260}"
 )
-TARGET = re.compile(r"\*\*\* \[(\S+?)/CMakeFiles/(\S+?)\.dir/")  # of make: package, target
-SOURCE = re.compile(r"(/[^\s:]+):(\d+)[:,]")
+TARGET = re.compile(r"\*\*\* \[(\S{1,200}?)/CMakeFiles/(\S{1,200}?)\.dir/")  # package, target
+SOURCE = re.compile(r"(?<!\S)(/[^\s:]+):(\d+)[:,]")
 HEADER = re.compile(r"([\w.+-]+)/(\S+)\.h(?:pp)?: No such file")
 # By its folder: what CMakeLists.txt has for a file of which a header is made.
 MAKERS = {
@@ -107,7 +109,7 @@ def _of_compiler(session: Session, output: str) -> Wrong | None:
     path, line = places[0].group(1, 2) if places else error.group(1, 2)
     where = f"{Path(path).relative_to(session.source)}:{line}" if places else f"{path}:{line}"
     hint = _of_header(session, error[3], _target(session, output)[1]) or _hint(error[3])
-    return Wrong(EXPECTED, error[3][:300], where, hint)
+    return Wrong(EXPECTED, error[3], where, hint)
 
 
 def _of_header(session: Session, message: str, target: str) -> str:
@@ -164,7 +166,7 @@ def _other(output: str) -> Wrong:
     message = " ".join(error[1].split("Call Stack")[0].split()) if error else ""
     if words.startswith("CMake Error") and message:
         words = f"CMake: {message}"
-    return Wrong(EXPECTED, words[:300], _own_line(output), _hint(message))
+    return Wrong(EXPECTED, words[:300], _own_line(output), _hint(message[:1000]))
 
 
 def _own_line(output: str) -> str:
