@@ -59,6 +59,17 @@ def test_arguments_of_public_launch_files(file, tmp_path, monkeypatch):
         assert (places["initial_x"], places["initial_y"], places["initial_yaw"]) == (1.5, 1, 1)
 
 
+def test_rbx1s_robot_has_the_names_of_the_original(monkeypatch):
+    """Its parameters are set after those of an earlier launch are cleared."""
+    given = loaded(monkeypatch, "rbx1_bringup/fake_turtlebot.launch")
+    assert {node.name for node in given.nodes} == {"arbotix", "robot_state_publisher"}
+    values = {key: one.value for key, one in given.params.items()}
+    assert values["/use_sim_time"] is False
+    joints = values["/arbotix/left_wheel_joint"], values["/arbotix/right_wheel_joint"]
+    assert joints == ("base_l_wheel_joint", "base_r_wheel_joint")
+    assert "/arbotix/" in given.clear_params
+
+
 def loaded(monkeypatch, file, *arguments):
     """Return what roslaunch makes of a launch file of joy2twist, or of PACKAGE/FILE."""
     *package, name = file.split("/")

@@ -122,6 +122,9 @@ class Parameters:
         10.0, number(0.1, 1000.0, "Hz, or 0: no scan", off=0.0), "of the laser scanner in a world"
     )
     scan_frame: str = parameter("camera_depth_frame", _FRAME)
+    publish_scan_tf: bool = parameter(
+        True, switch, "false where the robot's model has the scanner's frame"
+    )
     scan_x: float = parameter(-0.087, number(-10.0, 10.0, "m"), "of the scanner, ahead of the base")
     scan_y: float = parameter(0.0125, number(-10.0, 10.0, "m"), "to the left")
     scan_angle: float = parameter(58 * pi / 180, number(0.001, tau, "rad"), "58 deg", "1.0123")

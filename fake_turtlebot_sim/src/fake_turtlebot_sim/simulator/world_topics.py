@@ -52,8 +52,9 @@ class WorldTopics:
         """Return where static frames are: (parent, child, place [m] in the parent)."""
         p = self._parameters
         place = p.scan_x, p.scan_y, SCAN_Z
-        found = [(one.base_frame, one.scan_frame, place) for one in self._sensors]
-        return found + ([(p.world_frame, p.map_frame, ORIGIN)] if p.robots else [])
+        laid = self._sensors if p.publish_scan_tf else []
+        scanners = [(sensors.base_frame, sensors.scan_frame, place) for sensors in laid]
+        return scanners + ([(p.world_frame, p.map_frame, ORIGIN)] if p.robots else [])
 
     def before_move(self) -> None:
         """Let the robots meet, if they may."""
