@@ -15,7 +15,12 @@ from tutorial_testing.processes import REPOSITORY
 from tutorial_tools.demo.program import NODES, RVIZ_NODE
 
 FOLDERS = ("*", "common/*", "common/stand_ins/*")
-FILES = sorted(file for folder in FOLDERS for file in REPOSITORY.glob(f"{folder}/launch/*.launch"))
+FILES = sorted(
+    file
+    for folder in FOLDERS
+    for pattern in ("*.launch", "**/*.launch.xml")
+    for file in REPOSITORY.glob(f"{folder}/launch/{pattern}")
+)
 CAMERA = """camera publish_tf 3d_sensor depth_registration num_worker_threads scan_topic
     rgb_processing ir_processing scan_processing depth_processing depth_registered_processing
     disparity_processing disparity_registered_processing"""
@@ -26,6 +31,9 @@ ARGUMENTS = {
         f"base battery stacks 3d_sensor simulation serialport robot_name robot_type {PLACE}"
     ),
     "turtlebot_bringup/3dsensor.launch": CAMERA,
+    "turtlebot_bringup/includes/mobile_base.launch.xml": f"base serialport {PLACE}",
+    "turtlebot_bringup/includes/kobuki/mobile_base.launch.xml": "serialport",
+    "turtlebot_bringup/includes/robot.launch.xml": "base stacks 3d_sensor",
     "kobuki_node/minimal.launch": f"kobuki_publish_tf {PLACE}",
     "rbx1_bringup/fake_turtlebot.launch": f"urdf_file {PLACE}",
     "fake_turtlebot_sim/fake_turtlebot.launch": PLACE,
@@ -48,7 +56,7 @@ def test_arguments_of_public_launch_files(file, tmp_path, monkeypatch):
     values = {"world": "room", "x": "1.5", "scan_topic": "laser", "kobuki_publish_tf": "false"}
     names = ARGUMENTS[file].split()
     given = "".join(f'<arg name="{name}" value="{values.get(name, 1)}"/>' for name in names)
-    package, name = file.split("/")
+    package, name = file.split("/", 1)
     outer = tmp_path / "outer.launch"
     include = f'<include file="$(find {package})/launch/{name}">{given}</include>'
     outer.write_text(f'<launch><group ns="tb1">{include}</group></launch>')
@@ -57,6 +65,30 @@ def test_arguments_of_public_launch_files(file, tmp_path, monkeypatch):
     places = {key.split("/")[-1]: one.value for key, one in config.params.items()}
     if "x" in names:
         assert (places["initial_x"], places["initial_y"], places["initial_yaw"]) == (1.5, 1, 1)
+
+
+def test_a_copy_of_upstreams_own_launch_files_finds_what_these_include(tmp_path, monkeypatch):
+    """turtlebot_bringup's minimal.launch and turtlebot_teleop's logitech.launch."""
+    monkeypatch.setattr("sys.argv", ["roslaunch"])
+    included = {
+        "turtlebot_bringup/launch/includes/robot": ("base", "stacks", "3d_sensor"),
+        "turtlebot_bringup/launch/includes/mobile_base": ("base", "serialport"),
+        "turtlebot_bringup/launch/includes/netbook": ("battery",),
+        "turtlebot_teleop/launch/includes/velocity_smoother": (),
+    }
+    lines = []
+    for file, names in included.items():
+        given = "".join(f'<arg name="{name}" value="kobuki"/>' for name in names)
+        path = "$(find {})/{}.launch.xml".format(*file.split("/", 1))
+        lines.append(f'<include file="{path}">{given}</include>')
+    copy = tmp_path / "minimal.launch"
+    copy.write_text(f"<launch>{''.join(lines)}</launch>")
+    config = roslaunch.config.load_config_default([str(copy)], None, verbose=False)
+    names = ["cmd_vel_mux", "mobile_base", "robot_state_publisher", "teleop_velocity_smoother"]
+    assert sorted(node.name for node in config.nodes) == names
+    assert config.params["/robot/type"].value == "turtlebot"
+    smoother = next(node for node in config.nodes if node.name == names[-1])
+    assert smoother.args == "teleop_velocity_smoother/raw_cmd_vel cmd_vel_mux/input/teleop"
 
 
 def test_rbx1s_robot_has_the_names_of_the_original(monkeypatch):

@@ -1,0 +1,1 @@
+"""What programs after ROS by Example import."""
