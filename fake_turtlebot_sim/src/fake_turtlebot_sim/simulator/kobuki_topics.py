@@ -88,7 +88,8 @@ class KobukiTopics:
         """Return what subscribers are to get; call once a period, while the motion is held."""
         sensors = [(topic, make) for topic, make in self._sensors if topic.listeners]
         made = [(topic, message) for topic, make in sensors for message in make(stamp)]
-        self._rate_before = self._robot.state().w
+        if made:
+            self._rate_before = self._robot.state().w
         self._sent.clear()
         return made
 

@@ -1,0 +1,1 @@
+"""Makes one gamepad look like another: the node joy_remap of the package joy."""

@@ -1,0 +1,1 @@
+../../../gamepad/scripts/joy_remap.py
