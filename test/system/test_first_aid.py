@@ -135,7 +135,7 @@ Could not process inbound connection: topic types do not match
     master; listen='rospy.Subscriber("chatter", std_msgs.msg.Int32, print); rospy.spin()'
     /usr/bin/python3 -c "import rospy, std_msgs.msg; rospy.init_node('a'); $listen" &
     until_it_says inbound rosrun beginner_tutorials talker.py; doctor
-  > /chatter
+  > std_msgs/Int32 is wanted by /a
 Cannot load message class for
     master; send='rospy.Publisher("num", Num, queue_size=1); rospy.spin()'
     make="Num = type('Num', (std_msgs.msg.String,), {'_type': 'mine/Num'})"

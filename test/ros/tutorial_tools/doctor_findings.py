@@ -2,6 +2,7 @@
 
 import rospy
 from geometry_msgs.msg import TransformStamped, Twist
+from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
 from tutorial_testing.nodes import node_path
@@ -46,13 +47,17 @@ class FindingsTest(RosTest):
             seen = f"ROS_IP={NOBODYS} is no address of this machine"
             self.assertEqual(len(self.wrong(seen, ROS_IP=NOBODYS)), 1)
             self.publisher("/cmd_vel", Twist)
+            old = type("String", (String,), {"_md5sum": "0" * 32})
+            self.publisher("/old", old)
+            self.hear("/old", String, print)
             other = TransformStamped(child_frame_id="base_footprint")
             other.header.frame_id = "odom"
             self.publisher("/tf", TFMessage, latch=True).publish([other])
             rivals = "/cmd_vel is sent by /doctor_findings, /myjoystick2twist at once"
             too = "/doctor_findings, /fake_turtlebot send base_footprint at once"
+            definition = "/doctor_findings has another definition of std_msgs/String (md5 00000000)"
             past, name = "doctor_findings sends stamps of the past", "cannot be looked up"
-            self.wrong(rivals, too, past, name, ROS_HOSTNAME="nobody.invalid")
+            self.wrong(rivals, too, past, name, definition, ROS_HOSTNAME="nobody.invalid")
             rospy.set_param("/use_sim_time", True)
             self.addCleanup(rospy.delete_param, "/use_sim_time")
             self.wrong("no /clock arrives")

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from node_kit.ros_api import Answer
-from tutorial_tools.doctor import judgement, transforms, way
+from tutorial_tools.doctor import ends, judgement, links, transforms, way
 from tutorial_tools.doctor.facts import Facts, Joystick, Mux, MuxInput, Node, Offset, Transform
 from tutorial_tools.doctor.judgement import judge
 
@@ -33,9 +33,9 @@ WELL = Facts(
     way_out="10.0.0.2",
     joysticks=[Joystick("/dev/input/js0")],
     nodes={
-        "/joy_node": node("10.0.0.2"),
-        "/joy2twist": node("10.0.0.2", links=[("/joy", True), (TELEOP, False)]),
-        "/cmd_vel_mux": node("robot", here=False, links=[(TELEOP, True)]),
+        "/joy_node": node("10.0.0.2", links=[("/joy", "/joy2twist")]),
+        "/joy2twist": node("10.0.0.2", links=[(TELEOP, "/cmd_vel_mux")]),
+        "/cmd_vel_mux": node("robot", here=False),
     },
     publishers={"/joy": ["/joy_node"], TELEOP: ["/joy2twist"]},
     subscribers={"/joy": ["/joy2twist"], TELEOP: ["/cmd_vel_mux"]},
@@ -114,7 +114,7 @@ WRONG = {  # words of the one line that is wrong, in their order: facts
         nodes(cmd_vel_mux=node("robot", Answer.REFUSED, False)),
     "from its own machine only ... export ROS_IP": nodes(cmd_vel_mux=node("localhost")),
     "3.2 s behind us ... chrony": well(clocks={"robot": Offset(-3.21, "/odom")}),
-    "neither a joystick nor joy2twist: roslaunch joy2twist launch_joy_node.launch": Facts(),
+    "no node runs at this master: roslaunch joy2twist launch_joy_node.launch": Facts(),
     "roslaunch joy2twist student.launch name:=robot_1 ... joystick:=browser": CLASSROOM,
     "rosrun joy2twist joy2twist.py __ns:=/robot_2":
         replace(CLASSROOM, publishers={"/robot_2/joy": ["/pad"]}, types=JOY_OF_CLASS),
@@ -127,8 +127,8 @@ WRONG = {  # words of the one line that is wrong, in their order: facts
         well(subscribers={"/joy": ["/joy2twist"], "/left": ["/robot"]}, muxes={}),
     f"start the robot, or drive the one at {' or '.join(ROBOTS[:5])} and 25 more":
         well(subscribers={**LISTENING, **CLASSROOM.subscribers}, types={**WELL.types, **CLASS}),
-    f"{TELEOP}:  ... know of each other, but are not connected":
-        nodes(joy2twist=node("10.0.0.2", links=[("/joy", True)])),
+    f"{TELEOP}: /joy2twist and /cmd_vel_mux know of each other, but are not connected ... firewall":
+        nodes(joy2twist=node("10.0.0.2")),
     "/rosbag at http://10.0.0.2:1234/ is registered, but has died":
         well(publishers=JOY_OF_TWO, nodes=DEAD_BAG),
     f'lets "safety" through, and not {TELEOP}: end what sends to that': mux("safety"),
@@ -218,7 +218,7 @@ def test_no_way_leads_through_a_dead_node():
 
 def test_the_readme_lists_what_is_looked_at():
     package = Path(judgement.__file__).resolve().parents[3]
-    modules = (judgement, way, transforms)
+    modules = (judgement, way, transforms, links, ends)
     source = "".join(Path(module.__file__).read_text() for module in modules)
     looked_at = set(re.findall(r'\b(?:ok|wrong|unknown)\("(\w+)"', source))
     section = (package / "README.md").read_text().split("## When nothing moves")[1].split("##")[0]

@@ -8,6 +8,8 @@ import io
 import os
 import stat
 import struct
+import time
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, List, Tuple
 
@@ -20,11 +22,13 @@ from std_msgs.msg import String
 from gamepad.driver.container import in_container
 from gamepad.driver.report import SILENT_FOR
 from node_kit.manifests import broken_manifests
+from node_kit.message_types import message_class
 from node_kit.ros_api import TIMEOUT_S, Answer, way_out
 from tutorial_tools.command.build import REPOSITORY, SHARE
-from tutorial_tools.doctor import network, transforms
+from tutorial_tools.doctor import network, processes, transforms
 from tutorial_tools.doctor.environment import environment
 from tutorial_tools.doctor.facts import JOY, Facts, Joystick, Mux, MuxInput, Node, Offset
+from tutorial_tools.doctor.links import cuts
 from tutorial_tools.doctor.network import addresses, call, is_here
 from tutorial_tools.hidden import hidden_stand_ins
 
@@ -36,6 +40,7 @@ STAMPED = (
 STAMPED_TOPICS = 6  # per host
 STAMPED_MESSAGES = 20  # per topic; the fastest one counts
 BRIDGE = "/ros2_bridge"  # the node of ros2_bridge
+CONNECT_S = 2.0  # which nodes take that have just started
 LISTEN_S = 2.5  # /diagnostics comes once a second
 Messages = List[Tuple[float, bytes]]  # (arrival [s], bytes)
 
@@ -57,11 +62,15 @@ def collect() -> Facts:
     if not facts["master_here"]:
         facts["way_out"] = way_out(found[0])
     facts["master"], _ = call(uri, "getPid")
+    if facts["master"] not in (Answer.WELL, Answer.REFUSED):
+        return Facts(**facts)  # each question to it would take its time
+    nodes = processes.running()
     if facts["master"] is Answer.WELL:
         if facts["own_is_here"]:
             facts["called_back"] = network.is_called_back(uri, facts["own_name"])
         facts.update(graph(uri, facts["joysticks"]))
-    return Facts(**facts)
+    known = {node.uri for node in facts.get("nodes", {}).values()}
+    return Facts(**facts, strays=processes.strays(nodes, uri, known))
 
 
 def this_machine() -> dict[str, Any]:
@@ -115,12 +124,31 @@ def graph(uri: str, joysticks: list[Joystick]) -> dict[str, Any]:
         "types": dict(call(uri, "getTopicTypes")[1] or []),
         "nodes": {**{name: node for name, node in seen.items() if node}, **late},
     }
+    facts.update(settled(uri, Facts(**facts)))
     known = Facts(**facts)
     devices = [parameter(uri, f"{node}/dev") for node in drivers(known) if known.nodes[node].here]
     there = {joystick.path for joystick in joysticks}
     paths = {device for device in devices if isinstance(device, str)}
     joysticks += [joystick(path) for path in sorted(paths - there)]
     return {**facts, "use_sim_time": parameter(uri, "/use_sim_time") is True, **heard(uri, known)}
+
+
+def settled(uri: str, facts: Facts) -> dict[str, Any]:
+    """Return the nodes, once those that have just started are connected, and the definitions."""
+    end = time.monotonic() + CONNECT_S
+    while cuts(facts) and time.monotonic() < end:
+        time.sleep(0.2)  # between two questions
+        names = {name for cut in cuts(facts) for name in (cut.sender, cut.receiver)}
+        seen = network.at_once(lambda name: look_at(uri, name), names, 2 * TIMEOUT_S + 1)
+        rest = {name: node for name, node in facts.nodes.items() if name not in names}
+        now = {name: node for name, node in seen.items() if node}  # the others have left
+        facts = replace(facts, nodes={**rest, **now})
+    definitions = {}
+    for topic, sender, _ in cuts(facts):
+        about = network.header(facts.nodes[sender].uri, topic)
+        own = getattr(message_class(about.get("type", "")), "_md5sum", "")
+        definitions[topic, sender] = (about.get("md5sum", ""), own)
+    return {"nodes": facts.nodes, "definitions": definitions}
 
 
 def drivers(facts: Facts) -> set[str]:
@@ -142,8 +170,11 @@ def look_at(uri: str, name: str) -> Node | None:
     if not found:
         return Node(node_uri, host, Answer.UNKNOWN_NAME, None)
     answer, links = call(node_uri, "getBusInfo")  # id, peer, direction, transport, topic
-    ends = [(link[4], link[2] == "i") for link in links or []]
-    return Node(node_uri, host, answer, all(map(is_here, found)), ends)
+    # Of the sender: rospy lists what it receives before it is connected.
+    ends = [(link[4], link[1]) for link in links or [] if link[2] != "i"]
+    columns = ("getPublications", "getSubscriptions") if answer is Answer.WELL else ()
+    sends, takes = [dict(call(node_uri, column)[1] or []) for column in columns] or ({}, {})
+    return Node(node_uri, host, answer, all(map(is_here, found)), ends, sends, takes)
 
 
 def parameter(uri: str, name: str) -> Any:

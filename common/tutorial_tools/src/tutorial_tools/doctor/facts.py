@@ -58,8 +58,18 @@ class Node(NamedTuple):
     host: str
     answer: Answer
     here: bool | None = True  # whether it runs on this machine; None: its name is not found
-    # Of every connection that it has: topic, and whether messages come in.
-    links: list[tuple[str, bool]] = []  # noqa: RUF012 (never changed)
+    # Of every connection on which it sends: topic, and the name of the node that receives.
+    links: list[tuple[str, str]] = []  # noqa: RUF012 (never changed)
+    sends: dict[str, str] = {}  # noqa: RUF012  by topic: the type, as the node itself has it
+    takes: dict[str, str] = {}  # noqa: RUF012
+
+
+class Stray(NamedTuple):
+    """A node that runs on this machine and is not registered with the master."""
+
+    name: str
+    pid: int
+    master_uri: str = ""  # the one that it uses, if that is another one
 
 
 class Offset(NamedTuple):
@@ -128,6 +138,10 @@ class Facts:
     publishers: dict[str, list[str]] = field(default_factory=dict)
     subscribers: dict[str, list[str]] = field(default_factory=dict)
     types: dict[str, str] = field(default_factory=dict)
+    strays: list[Stray] = field(default_factory=list)
+    # Of senders that are not connected to a receiver of their type: (node, topic): md5 of the
+    # definition with which the node was built, and of that which this terminal has ("": none).
+    definitions: dict[tuple[str, str], tuple[str, str]] = field(default_factory=dict)
     use_sim_time: bool = False
     clock_ticks: bool = False
     clocks: dict[str, Offset | None] = field(default_factory=dict)  # by host
@@ -137,25 +151,58 @@ class Facts:
     bridge: list[tuple[bool, str]] = field(default_factory=list)  # to ROS 2: well, text
     silent_s: dict[str, float] = field(default_factory=dict)  # since a joy_node's gamepad moved
 
+    def used(self) -> list[str]:
+        """Return the topics that have a sender or a receiver."""
+        columns = (self.publishers, self.subscribers)
+        return sorted({name for part in columns for name in part if part[name]}, key=natural)
+
+    def kinds(self, topic: str, inwards: bool) -> dict[str, str]:
+        """Return {node: type} of the receivers of a topic, or of its senders."""
+        found = {}
+        for name in (self.subscribers if inwards else self.publishers).get(topic, []):
+            node = self.nodes.get(name)
+            own = (node.takes if inwards else node.sends) if node else {}
+            # The master has one type for each topic: that of the last sender.
+            found[name] = own.get(topic) or self.types.get(topic, "")
+        return found
+
+    def users(self, topic: str, kind: str, inwards: bool) -> list[str]:
+        """Return the receivers of a topic that want a type, or its senders."""
+        return sorted(name for name, own in self.kinds(topic, inwards).items() if own == kind)
+
     def topics(self, kind: str) -> list[str]:
         """Return the topics of a type that are in use; the master forgets no type."""
-        used = {
-            topic for part in (self.publishers, self.subscribers) for topic in part if part[topic]
-        }
-        return sorted((topic for topic in used if self.types.get(topic) == kind), key=natural)
+        ends = (True, False)
+        return [t for t in self.used() if any(self.users(t, kind, inwards) for inwards in ends)]
+
+    def dead(self) -> set[str]:
+        """Return the nodes that have died; the master does not miss them."""
+        return {name for name, node in self.nodes.items() if node.answer in DEAD}
 
     def senders(self, topic: str) -> list[str]:
-        """Return the publishers of a topic that live; the master does not miss the dead."""
-        dead = {name for name, node in self.nodes.items() if node.answer in DEAD}
-        return sorted(set(self.publishers.get(topic, [])) - dead)
+        """Return the publishers of a topic that live."""
+        return sorted(set(self.publishers.get(topic, [])) - self.dead())
+
+    def receivers(self, topic: str) -> list[str]:
+        """Return the subscribers of a topic that live."""
+        return sorted(set(self.subscribers.get(topic, [])) - self.dead())
 
     def converters(self) -> dict[str, tuple[list[str], list[str]]]:
         """Return {node that turns a joystick into velocities: (its joys, its velocities)}."""
         found: dict[str, tuple[list[str], list[str]]] = {}
         for joy in self.topics(JOY):
-            for node in self.subscribers.get(joy, []):
-                sends = [t for t in self.topics(TWIST) if node in self.publishers.get(t, [])]
+            for node in self.users(joy, JOY, inwards=True):
+                sends = [t for t in self.topics(TWIST) if node in self.users(t, TWIST, False)]
                 if sends:
                     inputs, _ = found.setdefault(node, ([], sends))
                     inputs.append(joy)
         return found
+
+    def driven(self) -> list[str]:
+        """Return the topics on which velocities go from a sender to a receiver."""
+        every = self.topics(TWIST)
+        return [t for t in every if self.users(t, TWIST, True) and self.living(t, TWIST)]
+
+    def living(self, topic: str, kind: str) -> list[str]:
+        """Return the senders of a topic that live and send a type."""
+        return sorted({*self.users(topic, kind, inwards=False)} - self.dead())

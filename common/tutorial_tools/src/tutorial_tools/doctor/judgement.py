@@ -7,9 +7,21 @@ from collections.abc import Iterator
 
 from gamepad.driver.device_choice import explain
 from node_kit.ros_api import Answer
-from tutorial_tools.doctor.facts import DEAD, JOY, Facts, Finding, ok, some, unknown, wrong
+from tutorial_tools.doctor.ends import ends, is_empty
+from tutorial_tools.doctor.facts import (
+    DEAD,
+    JOY,
+    Facts,
+    Finding,
+    Stray,
+    ok,
+    some,
+    unknown,
+    wrong,
+)
+from tutorial_tools.doctor.links import types, unconnected
 from tutorial_tools.doctor.transforms import transforms
-from tutorial_tools.doctor.way import muxes, rivals, states, topics
+from tutorial_tools.doctor.way import muxes, needs_driver, rivals, states, topics
 
 # Clocks may differ by this much [s]: a tenth of a second of old transforms, or of a joystick
 # message that is refused for its age, goes unnoticed.
@@ -20,9 +32,11 @@ RESTART = "and restart its nodes"
 def judge(facts: Facts) -> list[Finding]:
     """Return all findings, in the order in which one would look for a cause."""
     findings = [*environment(facts), *overlay(facts), *master(facts), *address(facts)]
+    findings += strays(facts)
     if facts.master is Answer.WELL:
-        for check in (nodes, clocks, topics, muxes, rivals, states, transforms):
+        for check in (nodes, clocks, types, topics, unconnected, ends, muxes, rivals, states):
             findings += check(facts)
+        findings += transforms(facts)
     return [*findings, *joysticks(facts)]
 
 
@@ -127,8 +141,27 @@ def nodes(facts: Facts) -> Iterator[Finding]:
         elif node.answer is not Answer.WELL:
             todo = f"it hangs, or a network is down: try ping {node.host}; look at its firewall"
             yield wrong("nodes", f"{at} {node.answer.value}", todo)
-    if not bad:
+    if not bad and not lost_nodes(facts):
         yield ok("nodes", f"all {len(facts.nodes)} answer")
+
+
+def strays(facts: Facts) -> Iterator[Finding]:
+    """Judge whether the nodes that run on this machine are registered with this master."""
+    lost = some(f"{stray.name} (process {stray.pid})" for stray in lost_nodes(facts))
+    if lost:
+        gone = "unknown to the master, which was restarted meanwhile"
+        if facts.master is not Answer.WELL:
+            gone = "of a master that has exited"
+        yield wrong("nodes", f"running here, but {gone}: {lost}", "restart them, after roscore")
+    for uri in sorted({stray.master_uri for stray in facts.strays if stray.master_uri}):
+        names = some(stray.name for stray in facts.strays if stray.master_uri == uri)
+        todo = f"to join them: export ROS_MASTER_URI={uri} here, or restart them with this one"
+        yield unknown("nodes", f"running here, with the master {uri}: {names}", todo)
+
+
+def lost_nodes(facts: Facts) -> list[Stray]:
+    """Return the nodes of this master that it does not know."""
+    return [stray for stray in facts.strays if not stray.master_uri]
 
 
 def clocks(facts: Facts) -> Iterator[Finding]:
@@ -156,7 +189,8 @@ def clocks(facts: Facts) -> Iterator[Finding]:
 
 def joysticks(facts: Facts) -> Iterator[Finding]:
     """Judge whether the gamepads of this machine can be read."""
-    senders = {name for joy in facts.topics(JOY) for name in facts.senders(joy)}
+    joys = facts.topics(JOY)
+    senders = {name for joy in joys for name in facts.living(joy, JOY)}
     for path, error in facts.joysticks:
         if error is None:
             yield ok("joystick", f"{path} can be read")
@@ -166,6 +200,6 @@ def joysticks(facts: Facts) -> Iterator[Finding]:
     if not facts.joysticks and senders:
         seen = f"none at /dev/input/js*; joystick messages come from {some(senders)}"
         yield ok("joystick", seen)
-    elif not facts.joysticks:
+    elif not facts.joysticks and (joys or needs_driver(facts) or is_empty(facts)):
         seen = explain("/dev/input/js0", errno.ENOENT, facts.container, facts.wsl)
         yield unknown("joystick", seen.rstrip("."))

@@ -15,6 +15,7 @@ from typing import Any, TypeVar
 from xmlrpc.server import SimpleXMLRPCServer
 
 import rosgraph.network
+from rosgraph.network import ROSHandshakeException
 
 from node_kit import ros_api
 from node_kit.ros_api import TIMEOUT_S, family
@@ -101,20 +102,38 @@ def listen(node_uri: str, topic: str, seconds: float, most: int = 1) -> list[tup
     Ends after `most` messages or after some seconds; there may be none.
     """
     heard: list[tuple[float, bytes]] = []
+    _receive(node_uri, topic, seconds, most, heard)
+    return heard
+
+
+def header(node_uri: str, topic: str) -> dict[str, str]:
+    """Return the header with which a node begins to send a topic: callerid, type, md5sum ..."""
+    begin = _receive(node_uri, topic, TIMEOUT_S, 0, [])
+    with suppress(ROSHandshakeException, ValueError, struct.error):
+        return dict(rosgraph.network.decode_ros_handshake_header(begin))
+    return {}
+
+
+def _receive(
+    node_uri: str, topic: str, seconds: float, most: int, heard: list[tuple[float, bytes]]
+) -> bytes:
+    """Keep up to `most` messages; return what the node sends before the first one."""
     end = time.monotonic() + seconds
     # A name for each connection: a node drops an older one of the same name.
     name = f"{CALLER}_{next(_number)}"
     fields = {"callerid": name, "topic": topic, "md5sum": "*", "type": "*"}
+    begin = b""
     with suppress(OSError, ValueError, TypeError, struct.error):  # late, or the node has gone
         _, (_, host, port) = call(node_uri, "requestTopic", topic, [["TCPROS"]])
         with socket.create_connection((host, port), TIMEOUT_S) as connection:
             connection.sendall(rosgraph.network.encode_ros_handshake_header(fields))
             stream = connection.makefile("rb")
-            _block(connection, stream, end)  # the node's own header
+            own = _block(connection, stream, end)
+            begin = struct.pack("<I", len(own)) + own
             while len(heard) < most:
                 data = _block(connection, stream, end)
                 heard.append((time.time(), data))
-    return heard
+    return begin
 
 
 def _block(connection: socket.socket, stream: Any, end: float) -> bytes:

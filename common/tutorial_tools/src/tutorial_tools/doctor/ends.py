@@ -1,0 +1,126 @@
+"""Judge the topics that have senders alone, or receivers alone (pure).
+
+Most are as they should be: a robot reports more than is watched, and takes more commands than are
+sent. What may be a mistake is one line for senders and one for receivers.
+"""
+
+from __future__ import annotations
+
+import difflib
+import re
+from collections.abc import Iterator
+
+from tutorial_tools.doctor.facts import JOY, TWIST, Facts, Finding, some, unknown, wrong
+
+# Nodes whose topics are their user's choice: they draw, record, play or carry what is there.
+TOOLS = re.compile(
+    r".*/(rosout|rviz\w*|rqt\w*|\w*cockpit\w*|rosbridge\w*|rosapi\w*|foxglove_bridge|ros2_bridge"
+    r"|rosbag\w*|record_\d+|play_\d+)"
+)
+PLAYERS = re.compile(r".*/(rosbag\w*|play_\d+)")
+# Types that report: nobody needs to listen.
+REPORTS = re.compile(
+    r"(rosgraph_msgs|diagnostic_msgs|tf2?_msgs|nav_msgs|map_msgs|sensor_msgs|stereo_msgs|turtlesim"
+    r"|visualization_msgs|kobuki_msgs|arbotix_msgs|dynamic_reconfigure|bond|smart_battery_msgs)/.*"
+    r"|actionlib_msgs/GoalStatusArray|.*Action(Result|Feedback)"
+)
+REPORTING = re.compile(r".*/(active|debug/.*)")  # of a multiplexer, of a driver
+# Topics and types that wait: nobody needs to send.
+WAITS = re.compile(
+    r".*/(commands/.*|input/.*|initialpose|goal|cancel|clicked_point|reset\w*|enable|disable"
+    r"|press)"
+)
+WAITING = re.compile(r"actionlib_msgs/GoalID|.*ActionGoal|(rosgraph_msgs|tf2?_msgs|bond)/.*")
+ALIKE = 0.8  # how much of two names is equal, if one is taken for a misspelt other one
+
+
+def ends(facts: Facts) -> Iterator[Finding]:
+    """Judge the topics that lack one end."""
+    sent, wanted = _open(facts, inwards=False), _open(facts, inwards=True)
+    theirs = {topic for _, sends in facts.converters().values() for topic in sends}
+    for topic, other in pairs(facts):
+        nodes = some(sent[topic]), some(wanted[other])
+        seen = f"nobody listens to {topic} of {nodes[0]}, and nobody sends {other} of the same type"
+        todo = f"start {nodes[0]} with {topic}:={other}, or correct the name in its program"
+        yield wrong("topics", f"{seen}, which {nodes[1]} wants", todo)
+        del sent[topic]
+        wanted.pop(other, None)
+    quiet = {*theirs, *(() if facts.driven() else facts.topics(JOY))}  # what way.py says
+    loud = {t: nodes for t, nodes in sent.items() if t not in quiet and not _reports(facts, t)}
+    missed = {t: nodes for t, nodes in wanted.items() if not _waits(facts, t)}
+    if loud:
+        todo = "start what needs it; rostopic list -v compares the names"
+        yield unknown("topics", f"nobody listens to {some(_of(loud))}", todo)
+    if missed:
+        todo = "start what sends it; rostopic list -v compares the names"
+        yield unknown("topics", f"nobody sends what is wanted: {some(_of(missed))}", todo)
+
+
+def pairs(facts: Facts) -> list[tuple[str, str]]:
+    """Return [(topic without receivers, topic without senders)] that probably mean each other."""
+    sent, wanted = _open(facts, inwards=False), _open(facts, inwards=True)
+    theirs = {topic for _, sends in facts.converters().values() for topic in sends}
+    found = []
+    for topic in sorted(sent):
+        kind = _kind(facts, topic)
+        others = [other for other in sorted(wanted) if not {*wanted[other]} & {*sent[topic]}]
+        same = [other for other in others if kind and _kind(facts, other) == kind]
+        # The other inputs of a multiplexer are not for people.
+        same = [other for other in same if other.endswith("/input/teleop")] or same
+        near = max(same, key=lambda other: _likeness(topic, other), default="")
+        alike = near and (kind == TWIST or _likeness(topic, near) >= ALIKE)
+        if alike and topic not in theirs and kind != JOY:
+            found.append((topic, near))
+    return found
+
+
+def plays_a_bag(facts: Facts) -> list[str]:
+    """Return the nodes that play a recording."""
+    names = {name for users in facts.publishers.values() for name in users}
+    return sorted(name for name in names - facts.dead() if PLAYERS.fullmatch(name))
+
+
+def is_empty(facts: Facts) -> bool:
+    """Return whether no node does anything."""
+    return all(map(is_tool, facts.nodes)) and not plays_a_bag(facts)
+
+
+def is_tool(name: str) -> bool:
+    """Return whether a node has no part in what the others do."""
+    return bool(TOOLS.fullmatch(name))
+
+
+def _open(facts: Facts, inwards: bool) -> dict[str, list[str]]:
+    """Return {topic without another end: its nodes that are no tools}."""
+    near, far = facts.receivers, facts.senders
+    if not inwards:
+        near, far = far, near
+    nodes = {t: [n for n in near(t) if not is_tool(n)] for t in facts.used() if not far(t)}
+    return {topic: names for topic, names in nodes.items() if names}
+
+
+def _kind(facts: Facts, topic: str) -> str:
+    kinds = {**facts.kinds(topic, True), **facts.kinds(topic, False)}
+    return next(iter(sorted(set(kinds.values()))), "")
+
+
+def _reports(facts: Facts, topic: str) -> bool:
+    kind = _kind(facts, topic)
+    return bool(REPORTING.fullmatch(topic) or (kind != JOY and REPORTS.fullmatch(kind)))
+
+
+def _waits(facts: Facts, topic: str) -> bool:
+    kind = _kind(facts, topic)
+    said = kind in (JOY, TWIST)  # by way.py
+    return said or bool(WAITS.fullmatch(topic) or WAITING.fullmatch(kind))
+
+
+def _likeness(one: str, other: str) -> float:
+    """Return 0 to 1; 1 for names that differ in their namespace alone."""
+    if one.rsplit("/", 1)[1] == other.rsplit("/", 1)[1]:
+        return 1.0
+    return difflib.SequenceMatcher(None, one, other).ratio()
+
+
+def _of(topics: dict[str, list[str]]) -> list[str]:
+    return [f"{topic} ({some(nodes)})" for topic, nodes in topics.items()]

@@ -1,0 +1,58 @@
+"""The doctor beside real nodes that no joystick drives, and whose master is restarted."""
+
+import contextlib
+
+import pytest
+
+from node_kit.ros_api import known_nodes
+from tutorial_testing.nodes import node_path
+from tutorial_testing.processes import Program
+from tutorial_testing.waiting import wait_for
+
+ROBOT = ("/fake_turtlebot", "/robot_state_publisher")  # in Python, and in C++
+
+
+@pytest.fixture
+def start():
+    """A function that starts a program, which ends with the test."""
+    with contextlib.ExitStack() as stack:
+        yield lambda *command: stack.enter_context(Program(*command))
+
+
+@pytest.fixture
+def roscore(start, master_uri):
+    """A function that starts a master, and returns it when it answers."""
+
+    def run():
+        program = start("roscore", "-p", master_uri.rsplit(":", 1)[1])
+        wait_for(lambda: "/rosout" in known_nodes(master_uri), "master")
+        return program
+
+    return run
+
+
+def doctor(start):
+    """Return the lines that are wrong."""
+    program = start(node_path("tutorial_tools", "doctor.py"))
+    program.wait()
+    assert "Traceback" not in program.output
+    return [line for line in program.output.splitlines() if line.startswith("wrong")]
+
+
+def test_a_string_for_velocities_and_nodes_of_a_master_that_was_restarted(
+    start, roscore, master_uri
+):
+    core = roscore()
+    start("roslaunch", "fake_turtlebot_sim", "fake_turtlebot.launch")
+    start("rostopic", "pub", "-r", "5", "/cmd_vel", "std_msgs/String", "forward")
+    wait_for(lambda: len(known_nodes(master_uri)) == 4, "robot and sender")
+    (line,) = doctor(start)
+    assert "/cmd_vel: std_msgs/String comes from /rostopic_" in line
+    assert "geometry_msgs/Twist is wanted by /fake_turtlebot" in line
+    core.kill()
+    wait_for(lambda: not known_nodes(master_uri), "end of the master")
+    assert "of a master that has exited" in "".join(doctor(start))
+    roscore()
+    (line,) = doctor(start)
+    assert "unknown to the master, which was restarted meanwhile" in line
+    assert all(f"{name} (process " in line for name in ROBOT)
