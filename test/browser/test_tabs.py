@@ -168,3 +168,54 @@ def test_log_shows_what_nodes_log_by_level_and_filter_and_sets_a_logger(world, p
     page.wait_for_text("#log-logger", "rosout")
     page.one("#log-logs").send_keys("WARN")
     wait_for(lambda: '"WARN"' in ros("rosservice", "call", "/observer/get_loggers"), "level")
+
+
+# How often the page asked for a frame in a while, and how large what has a curve's colour is in the
+# chart: [frames, width, height].
+DRAWN = """const [ms, colour, done] = arguments, ask = window.requestAnimationFrame;
+let frames = 0;
+window.requestAnimationFrame = (draw) => (frames++, ask.call(window, draw));
+setTimeout(() => {
+  window.requestAnimationFrame = ask;
+  const layers = [...document.querySelectorAll("#plot-chart canvas")], [{width, height}] = layers;
+  const pen = new OffscreenCanvas(width, height).getContext("2d", {willReadFrequently: true});
+  for (const layer of layers) pen.drawImage(layer, 0, 0);
+  const {data} = pen.getImageData(0, 0, width, height), xs = [], ys = [];
+  for (let i = 0; i < data.length; i += 4) {
+    if (data[i + 3] < 200 || colour.some((part, at) => Math.abs(part - data[i + at]) > 30)) continue;
+    xs.push((i / 4) % width);
+    ys.push(Math.floor(i / 4 / width));
+  }
+  const length = (all) => all.reduce((a, b) => Math.max(a, b), 0) - all.reduce((a, b) => Math.min(a, b), 1e9);
+  done([frames, length(xs), length(ys)]);
+}, ms);"""
+FIRST, SECOND = [0x2B, 0x83, 0xD6], [0xD9, 0x70, 0x0A]
+FRAMES_S = 25  # Ten drawings a second, some in two steps.
+
+
+def test_plot_of_a_turning_robot_is_a_circle_and_asks_for_few_frames(world, page):
+    other = POSITION[:-1] + "y"
+    page.driver.get(f"{world.address}#plot?f={POSITION}&f={other}&last=30&x={POSITION}")
+    page.wait_for_text("#plot-chart .dygraph-xlabel", POSITION)
+    turn = "{linear: {x: 0.5}, angular: {z: 1.5}}"
+    with world.run("rostopic", "pub", "-r", "10", "/cmd_vel", "geometry_msgs/Twist", turn):
+        wait_for(lambda: world.now.yaw < -1, "half of the circle")
+        wait_for(lambda: world.now.yaw > 1, "all of it")
+        frames, width, height = page.driver.execute_async_script(DRAWN, 4000, SECOND)
+    assert 5 < frames < 4 * FRAMES_S
+    assert width > 100 and abs(width / height - 1) < 0.05, (width, height)
+    page.mouse("mouseMoved", "#plot-chart")
+    page.wait_for_text("#plot-at", f"of {POSITION}")
+    assert "NaN" not in page.text("#plot-values")
+    world.wait_for_rest()
+
+
+def test_plot_of_an_array_beside_a_number_has_both_and_asks_for_few_frames(world, page):
+    wheels = "/joint_states/position"
+    page.driver.get(f"{world.address}#plot?f={POSITION}&f={wheels}")
+    wait_for(lambda: axis(page)[-1] == 1, "index of the last entry")
+    frames, width, _ = page.driver.execute_async_script(DRAWN, 3000, FIRST)
+    assert width > 300, "the number is a level line from the first to the last index"
+    assert frames < 3 * FRAMES_S
+    page.click("Pause")
+    assert page.driver.execute_async_script(DRAWN, 1000, FIRST)[0] < FRAMES_S

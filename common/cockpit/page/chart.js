@@ -19,11 +19,22 @@ function style(i) {
   return { colour: COLOURS[i % COLOURS.length], pattern, border };
 }
 
-/** From the least to the largest of what rows begin with, and a little more. */
-function around(rows) {
-  const [least, most] = rows.reduce(([low, high], [x]) => [Math.min(low, x), Math.max(high, x)], [Infinity, -Infinity]);
+/** From the least to the largest of numbers, which may be null, and a little more. */
+function around(values) {
+  let [least, most] = [Infinity, -Infinity];
+  for (const value of values) {
+    if (value === null) continue;
+    if (value < least) least = value;
+    if (value > most) most = value;
+  }
+  if (least > most) return [0, 1];
   const edge = (most - least) * 0.05 || 1;
   return [least - edge, most + edge];
+}
+
+/** The range with the same middle whose length is `length`. */
+function centred([from, to], length) {
+  return [(from + to - length) / 2, (from + to + length) / 2];
 }
 
 const page = /** @type {any} */ (globalThis); // which has Dygraph then
@@ -96,9 +107,16 @@ export class Chart {
     this.#graph.updateOptions({ dateWindow: [from, to].map((t) => at + (t - at) * factor + aside) });
   }
 
+  /** Where both axes have one unit: ranges of it in which a circle is a circle, around what is seen. */
+  #equal(across, up) {
+    const { w, h } = this.#graph?.getArea() ?? { w: this.root.clientWidth, h: this.root.clientHeight };
+    const perPixel = Math.max((across[1] - across[0]) / w, (up[1] - up[0]) / h);
+    return { dateWindow: centred(across, perPixel * w), valueRange: centred(up, perPixel * h) };
+  }
+
   /**
    * tracks: {label: Track}; window: [from, to] [s] to be shown unless a person has zoomed.
-   * other: {label, rows} of another axis across than time, or null.
+   * other: {label, rows, isEqual} of another axis across than time, or null; isEqual: both have one unit.
    */
   show(tracks, window, other = null) {
     this.#wanted = [tracks, window, other];
@@ -112,9 +130,10 @@ export class Chart {
     const columns = Math.min(this.root.clientWidth, MOST_POINTS / 2 / Math.max(1, labels.length - 1));
     const rows = other?.rows ?? rowsOf(Object.values(tracks), from, to, columns);
     const isSame = rows.length && JSON.stringify(labels) === JSON.stringify(this.#labels);
-    if (other) window = around(rows);
-    const range = this.isZoomed ? {} : { dateWindow: window };
-    if (range.dateWindow) this.#window = [...window];
+    if (other) window = around(rows.map(([x]) => x));
+    let range = this.isZoomed ? {} : { dateWindow: window, valueRange: null };
+    if (other?.isEqual && !this.isZoomed) range = this.#equal(window, around(rows.flatMap(([, ...ys]) => ys)));
+    if (range.dateWindow) this.#window = [...range.dateWindow];
     this.#drawn = [from, to].join();
     if (this.#graph && isSame) {
       this.#graph.updateOptions({ file: rows, ...range });
@@ -127,11 +146,18 @@ export class Chart {
     if (this.#graph) this.onRange();
   }
 
-  /** Another part may be seen, as after a zoom: choose its samples. */
+  /** Another part may be seen, as after a zoom: choose its samples, or the other axis' range. */
   #look() {
     if (!this.#graph) return; // it is being made
     this.onRange();
-    if (this.#graph.xAxisRange().join() !== this.#drawn) requestAnimationFrame(() => this.show(...this.#wanted));
+    const other = this.#wanted[2];
+    const [across, up] = [this.#graph.xAxisRange(), this.#graph.yAxisRange()];
+    if (!other && across.join() !== this.#drawn) requestAnimationFrame(() => this.show(...this.#wanted));
+    if (!other?.isEqual) return;
+    const { w, h } = this.#graph.getArea();
+    const height = ((across[1] - across[0]) / w) * h;
+    if (Math.abs(height / (up[1] - up[0]) - 1) < 0.001) return;
+    requestAnimationFrame(() => this.#graph?.updateOptions({ valueRange: centred(up, height) }));
   }
 
   #make(labels, rows, range) {

@@ -33,6 +33,7 @@ export class PlotTab {
         <option value="10">10 s</option><option value="30" selected>30 s</option>
         <option value="120">2 min</option><option value="600">10 min</option></select></label>
       <label>against <select id="plot-x"></select></label>
+      <label hidden><input type="checkbox" id="plot-equal"> equal scales</label>
       <button id="plot-csv">Save CSV</button>
       <button id="plot-png">Save PNG</button>
     </div>
@@ -65,7 +66,11 @@ export class PlotTab {
       this.#list();
     });
     link.on("plot", ({ samples }) => this.#take(samples));
-    byId("plot-window").onchange = byId("plot-x").onchange = () => this.#showLast(byId("plot-window").value);
+    byId("plot-window").onchange = byId("plot-equal").onchange = () => this.#showLast(byId("plot-window").value);
+    byId("plot-x").onchange = () => {
+      this.#against();
+      this.#showLast(byId("plot-window").value);
+    };
     byId("plot-search").oninput = () => this.#list();
     byId("plot-pause").onclick = () => this.#pause(this.#frozen === null);
     byId("plot-zoom").onclick = () => this.#showLast(KEEP_S);
@@ -94,6 +99,7 @@ export class PlotTab {
     const last = Math.min(KEEP_S, Math.max(1, Math.round(Number(query.get("last")) || 30)));
     this.#list();
     byId("plot-x").value = fields.includes(query.get("x")) ? query.get("x") : "";
+    this.#against();
     this.#showLast(last);
   }
 
@@ -138,12 +144,22 @@ export class PlotTab {
 
   /** The axis across and its rows where that is not time. */
   #across(from) {
-    const arrays = Object.values(this.#samples).map(({ entries }) => entries ?? []);
-    if (arrays.some(({ length }) => length)) return { label: "index", rows: rowsOfArrays(arrays) };
+    const all = Object.values(this.#samples);
+    if (all.some(({ entries }) => entries?.length)) return { label: "index", rows: rowsOfArrays(all) };
     const label = byId("plot-x").value;
     if (!label) return null;
     const tracks = Object.entries(this.#samples).map(([field, track]) => (field === label ? new Track() : track));
-    return { label, rows: rowsAgainst(this.#samples[label], tracks, from, this.#newest, MOST_ROWS) };
+    const rows = rowsAgainst(this.#samples[label], tracks, from, this.#newest, MOST_ROWS);
+    return { label, rows, isEqual: byId("plot-equal").checked };
+  }
+
+  /** Two coordinates of one thing have one unit: then a circle is drawn as a circle. */
+  #against() {
+    const label = byId("plot-x").value;
+    const others = this.fields.filter((field) => field !== label);
+    const parent = (field) => field.replace(/[^/.]*$/, "");
+    byId("plot-equal").checked = others.every((field) => parent(field) === parent(label));
+    byId("plot-equal").parentElement.hidden = !label;
   }
 
   /** The values at the mouse, where a point is drawn that of the point; or the newest. */
@@ -153,7 +169,9 @@ export class PlotTab {
     const unit = this.#other ? ` of ${this.#other.label}` : " s";
     say(byId("plot-at"), pointed === null ? "" : `At ${t.toFixed(2)}${unit}:`);
     byId("plot-values").replaceChildren(...Object.entries(this.#samples).map(([field, track], i) => {
-      const value = points.find(({ name }) => name === field)?.yval ?? track.at(this.#other ? this.#newest : t);
+      const drawn = points.find(({ name, yval }) => name === field && !Number.isNaN(yval))?.yval;
+      const across = field === this.#other?.label ? pointed : null;
+      const value = drawn ?? across ?? track.at(this.#other ? this.#newest : t);
       const none = track.entries ? `${track.entries.length} entries` : "–";
       return element("span", { "data-field": field }, this.chart.sample(i), `${field} `,
         element("output", {}, value === undefined ? none : written(value)));
@@ -198,6 +216,7 @@ export class PlotTab {
     this.watch({ fields: this.fields });
     this.#fresh = true;
     this.#limit();
+    this.#against();
     this.page.moved();
   }
 

@@ -102,10 +102,12 @@ export function rowsAgainst(x, tracks, from, to, most) {
     .filter((_, i) => i % step === 0);
 }
 
-/** Rows [index, entry of each array]. */
-export function rowsOfArrays(arrays) {
-  const length = Math.max(0, ...arrays.map((one) => one.length));
-  return Array.from({ length }, (_, i) => [i, ...arrays.map((one) => one[i] ?? null)]);
+/** Rows [index, entry of each whole array; the newest value of each other field], of Tracks. */
+export function rowsOfArrays(tracks) {
+  const length = Math.max(0, ...tracks.map(({ entries }) => entries?.length ?? 0));
+  const levels = tracks.map(({ values }) => values.at(-1) ?? null);
+  return Array.from({ length }, (_, i) =>
+    [i, ...tracks.map(({ entries }, track) => (entries ? entries[i] ?? null : levels[track]))]);
 }
 
 /** A number as a person reads it: at most six digits, but seconds since 1970 with their thousandths. */
