@@ -186,7 +186,8 @@ setTimeout(() => {
     xs.push((i / 4) % width);
     ys.push(Math.floor(i / 4 / width));
   }
-  const length = (all) => all.reduce((a, b) => Math.max(a, b), 0) - all.reduce((a, b) => Math.min(a, b), 1e9);
+  const extreme = (all, choose) => all.reduce((a, b) => choose(a, b), all[0] ?? 0);
+  const length = (all) => extreme(all, Math.max) - extreme(all, Math.min);
   done([frames, length(xs), length(ys)]);
 }, ms);"""
 FIRST, SECOND = [0x2B, 0x83, 0xD6], [0xD9, 0x70, 0x0A]

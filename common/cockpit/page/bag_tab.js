@@ -4,6 +4,8 @@ import { Chart } from "./chart.js";
 import { byId, element, offer, row, say } from "./dom.js";
 import { Track, written } from "./samples.js";
 
+const EMPTY = "Open a recording to see its curves.";
+
 export class BagTab {
   static title = "Bag";
   static panel = `
@@ -14,7 +16,7 @@ export class BagTab {
     <button id="bag-record" disabled>Record all topics</button>
     <span id="bag-recorder" role="status"></span>
   </div>
-  <div class="card chart"><div id="bag-chart" data-empty="Open a recording to see its curves."></div></div>
+  <div class="card chart"><div id="bag-chart" data-empty="${EMPTY}"></div></div>
   <div class="card">
     <label class="long">Position <output id="bag-at">0.0 s</output>
       <input type="range" id="bag-position" min="0" max="1" step="0.01" value="0"></label>
@@ -176,7 +178,10 @@ export class BagTab {
     const { isOpen } = this.link;
     const isPlaying = isOpen && at.playing;
     const isNone = this.#bag && !byId("bag-topic").options.length;
-    const refusal = isNone ? "This recording has no joystick topic to publish." : this.#refusal;
+    const refusal = isNone ? "This recording has no joystick topic to publish here." : this.#refusal;
+    byId("bag-chart").dataset.empty = isNone
+      ? `Curves are drawn of a joystick's topics, and ${this.#bag.path} has none. In a shell: rosbag play ${this.#bag.path}`
+      : EMPTY;
     byId("bag-open").disabled = byId("bag-position").disabled = !isOpen;
     byId("bag-play").disabled = !isOpen || !this.#bag || Boolean(refusal);
     byId("bag-pause").disabled = !isPlaying;

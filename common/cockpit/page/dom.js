@@ -17,6 +17,9 @@ export function element(tag, properties = {}, ...children) {
 /** For sort(): robot_2 before robot_10. */
 export const byName = new Intl.Collator("en", { numeric: true }).compare;
 
+/** A node's name without the numbers that rospy, or roscpp, gives an anonymous one: /talker_host_…. */
+export const brief = (name) => name.replace(/_\d+_\d{10,}$|_\d{16,}$/, "_…");
+
 /** A row of a table. */
 export const row = (...cells) => element("tr", {}, ...cells.map((cell) => element("td", {}, cell)));
 

@@ -1,6 +1,6 @@
 /** The tab Graph: the nodes and their topics, live. */
 
-import { byId, byName, element, say } from "./dom.js";
+import { brief, byId, byName, element, say } from "./dom.js";
 import { layout, neighbours } from "./graph_layout.js";
 
 // Every node is connected to /rosout, which would hide the rest; as draw_graph has it.
@@ -160,7 +160,7 @@ export class GraphTab {
       ? svg("ellipse", { cx, cy, rx: w / 2, ry: h / 2 })
       : svg("rect", { x, y, width: w, height: h, rx: 3 });
     const box = svg("g", { class: kind, "data-item": item, role: "button", tabindex: 0, "aria-label": item },
-      shape, svg("text", { x: cx, y: cy + 5 }, name));
+      shape, svg("text", { x: cx, y: cy + 5 }, brief(name)), svg("title", {}, name));
     box.onclick = () => this.#choose(item);
     box.onkeydown = (event) => {
       if (event.key !== "Enter" && event.key !== " ") return;
@@ -200,7 +200,7 @@ export class GraphTab {
   /** Buttons that choose nodes or topics, or a dash. */
   #links(items) {
     const button = (item) => element(
-      "button", { className: "link", onclick: () => this.#choose(item) }, item.split(" ")[1]);
+      "button", { className: "link", onclick: () => this.#choose(item), title: item }, brief(item.split(" ")[1]));
     return items.length ? items.sort(byName).map(button) : "–";
   }
 }

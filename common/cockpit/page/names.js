@@ -3,6 +3,7 @@
 const HEIGHT = 16, GAP = 4; // of a name, and from its robot [pixel]
 const SIDES = [[1, 0], [0, 1], [0, -1], [-1, 0], [1, 1], [1, -1], [-1, 1], [-1, -1]];
 // In 14 rings around the robot; from the second on a line leads to the name.
+const NARROW = 600; // Below this width [pixel] only the chosen robot's name has a line that leads to it.
 const PLACES = Array.from({ length: 14 }, (_, ring) => SIDES.map(([dx, dy]) => ({ ring, dx, dy }))).flat();
 
 export const overlap = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
@@ -37,19 +38,21 @@ export function drawNames({ pen, colour }, robots, free) {
     pen.font = font(robot);
     return { ...robot, width: pen.measureText(robot.name).width };
   });
-  const places = placeNames(measured, free);
+  const isNear = ({ ring }, i) => !ring || width >= NARROW || seen[i].isChosen;
+  const places = placeNames(measured, free).map((place, i) => ({ ...place, isSeen: isNear(place, i) }));
   pen.save();
   Object.assign(pen, { textAlign: "center", textBaseline: "middle", lineJoin: "round" });
   Object.assign(pen, { strokeStyle: colour("--muted"), lineWidth: 1 });
   pen.beginPath();
-  for (const [i, { x, y, ring }] of places.entries()) {
+  for (const [i, { x, y, ring, isSeen }] of places.entries()) {
     pen.moveTo(seen[i].x, seen[i].y);
-    if (ring) pen.lineTo(x, y);
+    if (ring && isSeen) pen.lineTo(x, y);
   }
   pen.stroke();
   // With an edge: walls and trails may be below.
   Object.assign(pen, { strokeStyle: colour("--floor"), lineWidth: 4, fillStyle: colour("--text") });
-  places.forEach(({ name, x, y }, i) => {
+  places.forEach(({ name, x, y, isSeen }, i) => {
+    if (!isSeen) return;
     pen.font = font(seen[i]);
     pen.strokeText(name, x, y);
     pen.fillText(name, x, y);

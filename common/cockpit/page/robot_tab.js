@@ -51,7 +51,7 @@ export class RobotTab {
       </div>
       <p id="how" class="hint" hidden><span id="how-to"></span> <label>F710 at <select id="mode"><option>D</option><option>X</option></select></label></p>
     </div>
-    <div class="card">
+    <div class="card of-robot">
       <h2>joy2twist</h2>
       <p id="teleop" role="status" aria-live="polite" data-state="unknown">No report from joy2twist yet.</p>
     </div>
@@ -59,11 +59,11 @@ export class RobotTab {
       <h2>Kobuki</h2>
       <dl class="values">${values(KOBUKI)}</dl>
     </div>
-    <div class="card">
+    <div class="card of-robot">
       <h2>Joystick <small id="pad-age"></small></h2>
       <div id="pad"></div>
     </div>
-    <div class="card">
+    <div class="card of-robot">
       <h2>Odometry</h2>
       <dl id="odometry" class="values">${values(ODOMETRY)}</dl>
     </div>
@@ -73,7 +73,7 @@ export class RobotTab {
         <tbody id="robots"></tbody></table>
     </div>
   </div>`;
-  static watches = { robots: true, look: null, turtles: false };
+  static watches = { robots: true, floor: false, look: null, turtles: false };
 
   #names = []; // of the robots
   #look = null; // the name of the chosen robot, once there is one
@@ -93,6 +93,7 @@ export class RobotTab {
       if (this.#look !== null) this.lookAt(this.#look);
     });
     link.on("robots", ({ robots }) => this.#showRobots(robots));
+    link.on("speed", (speed) => this.session.showSpeed(speed)); // while another tab is shown
     link.on("map", (map) => {
       if (!this.floor.around.showMap(map)) return; // the view stays as it was chosen
       this.floor.showAll();
@@ -119,7 +120,7 @@ export class RobotTab {
   }
 
   show(on) {
-    this.watch({ turtles: on });
+    this.watch({ floor: on, turtles: on });
   }
 
   #showNames(names) {
@@ -167,7 +168,8 @@ export class RobotTab {
     this.floor.show(robots);
     const names = Object.keys(robots).sort(byName);
     if (JSON.stringify(names) !== JSON.stringify(this.#names)) this.#showNames(names);
-    byId("floor").parentElement.hidden = byId("turtles").hasChildNodes() && !names.length; // turtles alone
+    const areAlone = byId("turtles").hasChildNodes() && !names.length; // turtles, without a robot
+    for (const part of [byId("floor").parentElement, ...document.querySelectorAll("#robot .of-robot")]) part.hidden = areAlone;
     const placed = names.filter((name) => "x" in robots[name]);
     if (placed.length && JSON.stringify(placed) !== this.#onFloor) {
       this.#onFloor = JSON.stringify(placed);

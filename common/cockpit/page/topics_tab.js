@@ -3,14 +3,15 @@
  * call a service, or set a parameter.
  */
 
-import { appendBelow, byId, byName, element, offer, row, say } from "./dom.js";
+import { appendBelow, brief, byId, byName, element, offer, row, say } from "./dom.js";
 import { neighbours } from "./graph_layout.js";
+import { Publishing } from "./publishing.js";
 
 const LISTED = 100; // of the names that are found
 const MOST_RATES = 40, LONGEST_RATES = 3000; // topics, and characters of their names, as the server takes them
 const LOOK_MS = 500; // between two looks at which topics are in sight
 const ECHOED = 100; // messages that are kept
-const SIGN_MS = 50; // between two signs of life, while this page publishes again and again, or drives by its form
+const SIGN_OF_COPY_MS = 2000;
 const LONGEST_VALUE = 2000; // characters of a field, as the server takes it
 const FORMS = { // of each kind: what the server is asked to describe, and what the form does
   topics: { what: "message", title: "Publish a message", act: "Publish" },
@@ -29,7 +30,7 @@ export class TopicsTab {
       <span id="topics-count" class="hint" role="status"></span>
     </div>
     <div class="scroll" id="topics-scroll" role="region" tabindex="0" aria-label="Topics or services">
-      <table><thead><tr><th>Name</th><th>Type</th><th>Publishers</th><th>Subscribers</th><th>Hz</th><th>bytes/s</th></tr></thead>
+      <table><thead><tr><th>Name</th><th id="topics-type">Type</th><th>Publishers</th><th>Subscribers</th><th>Hz</th><th>bytes/s</th></tr></thead>
         <tbody id="topics-rows"></tbody></table></div>
   </div>
   <div class="panel">
@@ -37,16 +38,16 @@ export class TopicsTab {
       <p id="topics-about" class="hint"></p>
       <p class="row" id="topics-plots" hidden><label>Plot <select id="topics-plot"></select></label></p>
       <details><summary>Definition</summary><pre id="topics-definition"></pre></details></div>
-    <div class="card" id="topics-echoes" hidden><h2>Messages <small>at most 12 in a second</small></h2>
-      <div class="row"><button id="topics-pause" aria-pressed="false">Pause</button>
-        <button id="topics-copy">Copy</button></div>
-      <pre id="topics-echo" tabindex="0" role="region" aria-label="Messages"></pre></div>
     <form class="card" id="topics-form" hidden><h2 id="topics-do"></h2>
       <div id="topics-fields"></div>
       <p class="row"><button id="topics-send" class="primary"></button>
         <label id="topics-repeat">at <input type="number" id="topics-rate" min="0.1" max="50" step="any"
           placeholder="once"> Hz</label></p>
       <pre id="topics-answer" role="status"></pre></form>
+    <div class="card" id="topics-echoes" hidden><h2>Messages <small>at most 12 in a second</small></h2>
+      <div class="row"><button id="topics-pause" aria-pressed="false">Pause</button>
+        <button id="topics-copy">Copy</button></div>
+      <pre id="topics-echo" tabindex="0" role="region" aria-label="Messages"></pre></div>
   </div>`;
   static watches = { rates: [], topic: null };
 
@@ -54,23 +55,20 @@ export class TopicsTab {
   #paused = false; // messages
   #drives = false; // whether this page may publish and call
   #graph = { topics: [], services: [], parameters: [], edges: [] };
-  #signs = 0; // the timer of signs of life, or 0
-  #repeats = false; // whether a message is published again and again
-  #moves = false; // whether this page drives by its form
-  #n = 0; // of the newest sign
-  #beat = 0; // the newest of the server
   #chosen = null; // the name
   #type = ""; // of the chosen topic
   #rows = new Map(); // name -> its row
   #described = ""; // what the server was asked to describe last
+  #values = {}; // of parameters: {name: text}
+  #named = ""; // the parameters whose values were asked for
+  #sets = false; // whether the form of a parameter is the answer to Set
 
   constructor(link, watch, page) {
     this.link = link;
     this.watch = watch;
     this.page = page;
     link.on("hello", ({ role }) => (this.#drives = role === "driver"));
-    link.on("beat", ({ n }) => (this.#beat = n));
-    link.on("session", ({ yours, topic }) => this.#drive(yours && Boolean(topic)));
+    this.publishing = new Publishing(link, () => say(byId("topics-send"), "Publish"));
     link.on("graph", (graph) => {
       this.#graph = graph;
       this.#list();
@@ -86,17 +84,25 @@ export class TopicsTab {
     });
     link.on("refused", ({ what, why }) => {
       if (what === "call") say(byId("topics-answer"), why);
-      if (["publish", "again"].includes(what)) this.#rest();
     });
-    document.addEventListener("visibilitychange", () => this.#rest());
+    link.on("values", ({ values }) => {
+      this.#values = values;
+      this.#list();
+    });
     offer(byId("topics-kind"), Object.keys(FORMS).map((kind) => [kind]));
-    byId("topics-kind").onchange = () => this.#choose(null);
+    byId("topics").dataset.kind = this.#kind;
+    byId("topics-kind").onchange = () => {
+      byId("topics-search").value = ""; // for names of another kind
+      this.#choose(null);
+    };
     byId("topics-search").oninput = () => this.#list();
     byId("topics-plot").onchange = () => (location.hash = `#plot?f=${this.#chosen}${byId("topics-plot").value}`);
     byId("topics-pause").onclick = () => this.#pause(!this.#paused);
     byId("topics-copy").onclick = () => {
       getSelection().selectAllChildren(byId("topics-echo"));
-      document.execCommand("copy"); // navigator.clipboard is not there over http from elsewhere
+      const isDone = document.execCommand("copy"); // navigator.clipboard is not there over http from elsewhere
+      say(byId("topics-copy"), isDone ? "Copied" : "Not copied");
+      setTimeout(() => say(byId("topics-copy"), "Copy"), SIGN_OF_COPY_MS);
     };
     byId("topics-form").onsubmit = (event) => this.#send(event);
     setInterval(() => this.#shown && this.watch({ rates: this.#inSight }), LOOK_MS);
@@ -119,8 +125,9 @@ export class TopicsTab {
   }
 
   connect() {
-    this.#rest();
-    this.#described = "";
+    this.publishing.rest();
+    this.#described = this.#named = "";
+    this.#sets = false;
     this.#describe();
   }
 
@@ -148,7 +155,9 @@ export class TopicsTab {
     if (!this.#shown) return;
     const { topics, edges } = this.#graph;
     const { before, after } = neighbours(edges);
-    const all = this.#isTopics ? topics : this.#graph[this.#kind].map((name) => ({ name, type: "" }));
+    if (this.#kind === "parameters") this.#askForValues();
+    const all = this.#isTopics ? topics
+      : this.#graph[this.#kind].map((name) => ({ name, type: this.#kind === "parameters" ? this.#values[name] ?? "" : "" }));
     const words = byId("topics-search").value.toLowerCase().split(/\s+/).filter(Boolean);
     const found = all.filter(({ name, type }) => words.every((word) => `${name} ${type}`.toLowerCase().includes(word)));
     const listed = found.sort((a, b) => byName(a.name, b.name)).slice(0, LISTED);
@@ -161,17 +170,25 @@ export class TopicsTab {
     }));
     byId("topics-rows").replaceChildren(...this.#rows.values());
     const rest = found.length - listed.length;
-    say(byId("topics-count"), `${found.length} of ${all.length}${rest ? `: the first ${LISTED} are listed` : ""}`);
+    const more = rest ? `: the first ${LISTED} are listed` : found.length || !all.length ? "" : `: none has ${words.join(" ")}`;
+    say(byId("topics-count"), `${found.length} of ${all.length}${more}`);
+    say(byId("topics-type"), this.#kind === "parameters" ? "Value" : "Type");
     if (this.#chosen && this.#isTopics) this.#showTopic(before, after);
     this.#describe();
   }
 
   /** What is known of the chosen topic, also once it is there. */
   #showTopic(before, after) {
-    const names = (nodes) => nodes[`topic ${this.#chosen}`]?.map((node) => node.slice(5)).join(", ") ?? "none";
+    const names = (nodes) => nodes[`topic ${this.#chosen}`]?.map((node) => brief(node.slice(5))).join(", ") ?? "none";
     this.#type = this.#graph.topics.find(({ name }) => name === this.#chosen)?.type ?? "";
     say(byId("topics-about"), `${this.#type || "No such topic now"}. Publishers: ${names(before)}.`
       + ` Subscribers: ${names(after)}.`);
+  }
+
+  /** Ask for the values of all parameters, when these are others than before. */
+  #askForValues() {
+    const named = this.#graph.parameters.join();
+    if (named !== this.#named && this.link.send("describe", { what: "values", name: "" })) this.#named = named;
   }
 
   #rowOf(name) {
@@ -232,6 +249,12 @@ export class TopicsTab {
       element("label", { className: "long" }, `${name} `, element("input", { name, placeholder: type, autocomplete: "off" }))));
     if (what === "parameter" && definition.length <= LONGEST_VALUE) byId("topics-fields").querySelector("input").value = definition;
     byId("topics-form").hidden = false;
+    if (this.#sets) {
+      this.#sets = false;
+      this.#named = "";
+      this.#list();
+      say(byId("topics-answer"), `Set to ${definition}`);
+    }
   }
 
   #send(event) {
@@ -239,44 +262,18 @@ export class TopicsTab {
     const values = Object.fromEntries([...new FormData(event.target)].filter(([, value]) => value !== ""));
     const period = 1 / byId("topics-rate").valueAsNumber || null;
     if (this.#kind === "services") this.link.send("call", { service: this.#chosen, values });
-    else if (this.#kind === "parameters") this.link.send("set", { parameter: this.#chosen, values });
-    else if (this.#repeats) this.#rest();
-    else if (this.link.send("publish", { topic: this.#chosen, type: this.#type, values, period }) && period) {
-      this.#repeats = true;
-      this.#begin(1000 * period);
+    else if (this.#kind === "parameters") {
+      say(byId("topics-answer"), "");
+      this.#sets = this.link.send("set", { parameter: this.#chosen, values });
+    }
+    else if (this.publishing.repeats) this.publishing.rest();
+    else if (this.publishing.begin({ topic: this.#chosen, type: this.#type, values, period }) && period) {
       say(byId("topics-send"), "Stop publishing");
     }
   }
 
-  /** Send signs of life, some of which publish. period: between two messages [ms]; without one none is due. */
-  #begin(period = Infinity) {
-    clearInterval(this.#signs);
-    const steps = Math.ceil(period / SIGN_MS); // from one message to the next
-    let step = 0;
-    const sign = () => this.link.send("again",
-      { n: ++this.#n, t: performance.now(), beat: this.#beat, due: ++step % steps === 0 });
-    this.#signs = setInterval(sign, period < Infinity ? period / steps : SIGN_MS);
-  }
-
-  /** Whether this page's form drives, as the server says. */
-  #drive(on) {
-    if (on && !this.#signs) this.#begin();
-    if (!on && this.#moves) this.#rest();
-    this.#moves = on;
-  }
-
   /** Another tab or name: what is published again and again ends, and a motion goes on, as Stop is above all tabs. */
   #leave() {
-    if (this.#repeats) this.#rest();
-  }
-
-  /** Publish no more; what is hidden or not connected publishes nothing, and moves nothing. */
-  #rest() {
-    if (!this.#signs) return;
-    clearInterval(this.#signs);
-    this.#signs = 0;
-    this.#repeats = false;
-    this.link.send("publish_end");
-    say(byId("topics-send"), "Publish");
+    if (this.publishing.repeats) this.publishing.rest();
   }
 }

@@ -78,7 +78,9 @@ def page(role="driver", number=7, **watch):
     close = lambda: sent.append("closed")  # noqa: E731
     hear = lambda text: sent.append(json.loads(text))  # noqa: E731
     client = Client(number, role, "10.0.0.1", hear, is_behind=no, is_cut=no, close=close)
-    client.watch = SimpleNamespace(**{"robots": False, "look": None, "bag": False, **watch})
+    client.watch = SimpleNamespace(
+        **{"robots": False, "floor": False, "look": None, "bag": False, **watch}
+    )
     return client, sent
 
 

@@ -41,5 +41,7 @@ test("against another track each of its times in the window is a row, at most so
 });
 
 test("arrays are rows by index, with a gap where one is shorter", () => {
-  assert.deepEqual(rowsOfArrays([[1, null], [], [7]]), [[0, 1, null, 7], [1, null, null, null]]);
+  const array = (entries) => Object.assign(new Track(), { entries });
+  const [one, none, other, level] = [array([1, null]), array([]), array([7]), new Track([[0, 3], [1, 4]])];
+  assert.deepEqual(rowsOfArrays([one, none, other, level]), [[0, 1, null, 7, 4], [1, null, null, null, 4]]);
 });

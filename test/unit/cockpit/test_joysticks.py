@@ -49,7 +49,7 @@ def test_joystick_is_shown_finite_and_up_to_a_length():
 
 def test_other_joystick_is_a_rival_whatever_is_in_its_message(ours, monkeypatch):
     ours, topics = ours
-    one = page(look="ada")
+    one = page(look="ada", floor=True)
     look(ours, one)
     topics.hear("/ada/joy", Joy())
     assert [len(look(ours, one)[0]) for _ in range(2)] == [1, 0]  # each is sent once

@@ -52,7 +52,7 @@ class Seen(Topics):
     def __init__(self, graph):
         super().__init__()
         self.graphs = SimpleNamespace(graph=graph)
-        self.robots, self.page = Robots(self, self.graphs), page(robots=True)
+        self.robots, self.page = Robots(self, self.graphs), page(robots=True, floor=True)
         self.look()
 
     def look(self):
@@ -89,3 +89,16 @@ def test_a_robot_has_its_place_in_the_map_and_its_pressed_bumpers():
     for data, pressed in [(b"\1\1", [1]), *malformed, (b"\0\1", [0, 1]), (b"\1\0", [0])]:
         seen.hear(bumper, data)
         assert seen.look()["ada"]["bumpers"] == pressed
+
+
+def test_a_page_whose_floor_is_hidden_gets_the_speed_of_its_robot_alone():
+    """All robots at first, as it has a list of them, and whenever there are others."""
+    seen = Seen(graph("ada", "bob"))
+    hidden = page(robots=True, look="ada")
+    assert [one["kind"] for one in look(seen.robots, hidden)[0]] == ["robots"]
+    seen.place("/ada/odom", 1.0)
+    speeds = [one for at in range(21) for one in look(seen.robots, hidden, now=1.0 + at / 20)[0]]
+    assert [one["kind"] for one in speeds] == ["speed"] * 5
+    assert set(speeds[0]) == {"kind", "v", "w", "age"}
+    seen.graphs.graph = graph("ada")
+    assert [one["kind"] for one in look(seen.robots, hidden, now=3.0)[0]] == ["robots"]

@@ -43,7 +43,7 @@ class Seen(Topics):
         published = {topic: {"/sim"} for topic in TYPES}
         self.graphs = SimpleNamespace(graph=Graph(publishers=published, types=TYPES))
         self.source = surroundings.Surroundings(self, self.graphs)
-        self.page = page(robots=True, look="ada")
+        self.page = page(floor=True, look="ada")
         self.look()
 
     def look(self):
@@ -68,7 +68,15 @@ def test_a_page_gets_the_map_and_the_scan_when_they_change():
     seen.hear("/ada/scan", scan([inf, 3.0, nan]))
     assert seen.look()["scan"]["points"] == [[3.0, 0.0]]
     seen.graphs.graph = Graph()
-    assert seen.look()["map"] == {"kind": "map"}  # it goes with its last publisher
+    gone = seen.look()  # with their last publishers
+    assert (gone["map"], gone["scan"]["points"]) == ({"kind": "map"}, [])
+
+
+def test_a_robot_without_a_map_has_a_scan_all_the_same():
+    """As a real TurtleBot has before gmapping is started."""
+    seen = Seen()
+    seen.hear("/ada/scan", scan([2.0, inf, nan]))
+    assert len(seen.look()["scan"]["points"]) == 1
 
 
 @pytest.mark.parametrize(

@@ -25,6 +25,8 @@ WHO = {
     "a joystick at rest": (
         About(said=ARMED, senders=PLAYS),
         "Nobody drives. Publishers of its joystick topic: /rosbag_play."),
+    "an anonymous joystick": (About(said=MOVING, senders=("/play_host_81_1764250000000",)),
+        "/play_host_… drives ada."),
     "without diagnostics": (About(senders=PLAYS, moves=True), "/rosbag_play drives ada."),
     "no joystick": (About(moves=True),
         "No joystick drives ada, but it moves: the tab Graph shows what moves it."),
@@ -56,6 +58,8 @@ BY_77 = "Hold button 77 (a gamepad's button), then move the stick (or arrow keys
 FREELY = "Move the stick (a thumb, a gamepad, the arrow keys)."
 READY = {  # -> why it stands and what to do now; how it is driven, without "Esc: stop."
     "drives": (SEAT, "Hold LB, then move the stick.", BY_LB),
+    "pushes alone": (SEAT._replace(pushes=True),
+        "The stick alone moves nothing: hold LB, too.", BY_LB),
     "sits down": (SEAT._replace(armed=False), "Release LB and the stick first.", BY_LB),
     "was stopped": (SEAT._replace(armed=False, why="hidden"),
         "Stopped: hidden. Release LB and the stick, then hold LB again.", BY_LB),

@@ -101,6 +101,11 @@ class DriverSession:
         return self.driver, self.robot, self.plays, self.armed, self.why
 
     @property
+    def pushes(self) -> bool:
+        """Whether the hand moves the stick, and holds no button."""
+        return self._last is not None and not any(self._last[1]) and not is_neutral(*self._last)
+
+    @property
     def is_by_hand(self) -> bool:
         return not self.plays and not self.topic
 

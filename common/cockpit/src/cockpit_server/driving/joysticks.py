@@ -92,7 +92,7 @@ class Joysticks(Source):
     def send_to(self, client: Client, now: float) -> None:
         robot = client.watch.look
         came, joy = self._newest.get(topic_of(robot or "", "joy"), (0.0, None))
-        if client.take_if_new("pad", (robot, came)) and joy:
+        if client.watch.floor and client.take_if_new("pad", (robot, came)) and joy:
             client.send("pad", robot=robot, age=round(max(0.0, now - came), 3), **joy)
 
     def _hear(self, message: Raw, topic: str) -> None:

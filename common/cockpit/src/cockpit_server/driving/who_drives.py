@@ -218,6 +218,7 @@ class Driving(Source):
             plays=bool(page) and session.plays,
             topic=session.topic if page else "",
             armed=bool(page) and session.armed,
+            pushes=bool(page) and session.pushes,
             why=session.why if robot == session.stopped else "",
             said=self._teleop.newest(robot, now),
             senders=self._graphs.joysticks(robot),

@@ -1,6 +1,7 @@
 """The words for what drives a robot, why it stands, and what to do; all of them here (pure)."""
 
-from typing import Container, Dict, NamedTuple, Optional, Tuple
+import re
+from typing import Container, Dict, Iterable, NamedTuple, Optional, Tuple
 
 from cockpit_server.graph import topic_of
 from gamepad.gamepads import F710
@@ -26,6 +27,7 @@ class About(NamedTuple):
     plays: bool = False  # whether that page plays a recording
     topic: str = ""  # on which a form of that page publishes
     armed: bool = False  # whether all was seen released
+    pushes: bool = False  # whether its hand moves the stick, and holds no button
     why: str = ""  # the last stop by a loss of the driver
     said: Optional[Report] = None
     senders: Tuple[str, ...] = ()  # other nodes that publish its joystick's topic
@@ -44,7 +46,12 @@ def driver(about: About) -> str:
     """Return the name of what drives, for a table; "" if nothing does."""
     if about.driver is not None:
         return about.name
-    return (", ".join(about.senders) or "a joystick") if about.is_driven_by_node else ""
+    return (brief(about.senders, ", ") or "a joystick") if about.is_driven_by_node else ""
+
+
+def brief(nodes: Iterable[str], between: str) -> str:
+    """Return nodes without the numbers that rospy, or roscpp, gives anonymous ones."""
+    return between.join(re.sub(r"_\d+_\d{10,}$|_\d{16,}$", "_…", node) for node in nodes)
 
 
 def rival(node: str, services: Container[str]) -> str:
@@ -68,7 +75,7 @@ def who(about: About, robot: str, page: int) -> str:
     its = robot or "the robot"
     if about.driver is not None:
         return by_page(about, its, about.driver == page)
-    some = " and ".join(about.senders)
+    some = brief(about.senders, " and ")
     if about.is_driven_by_node:
         return f"{some or 'A joystick'} drives {its}."
     if about.moves and not about.said:
@@ -126,6 +133,8 @@ def ready(about: About, robot: str, page: int, refusal: str) -> str:
         todo = again(about) if stopped else f"Release {some} first."
     elif button is None:
         todo = "Move the stick: this robot needs no button held."
+    elif about.pushes:
+        todo = f"The stick alone moves nothing: hold {button}, too."
     else:
         todo = f"Hold {button}, then move the stick."
     return f"{stopped} {todo}".strip()

@@ -21,6 +21,7 @@ from node_kit.message_types import message_class
 from node_kit.parameters import Check
 from node_kit.services import call_service, kind_of
 
+MOST_VALUES, SHORT = 1000, 60  # parameters in a list, and characters of the value of each
 MOST_FIELDS = 60  # A form has no more.
 LONGEST_VALUE = 2000  # characters
 LONGEST_ANSWER, LONGEST_LINE = 4000, 200  # characters
@@ -77,7 +78,7 @@ class Forms(Source):
     """Calls services and sets parameters for pages that may drive, unless another page does."""
 
     messages: ClassVar = {
-        "describe": {"what": one_of("message", "service", "parameter"), "name": text},
+        "describe": {"what": one_of("message", "service", "parameter", "values"), "name": text},
         "call": {"service": full_name, "values": TEXTS},
         "set": {"parameter": full_name, "values": TEXTS},
         "reset": {"robot": text},
@@ -92,6 +93,8 @@ class Forms(Source):
             self._call(client, name, lambda: describe_service(name))
         elif what == "parameter":
             self._ask_master(client, lambda: describe_parameter(name))
+        elif what == "values":
+            self._ask_master(client, describe_values)
         # Of what is there: message_class() remembers each name.
         elif name in self._graphs.graph.types.values() and message_class(name):
             kind = message_class(name)
@@ -169,6 +172,26 @@ def answer_of(name: str, values: Mapping[str, str], timeout_s: float) -> dict[st
 def describe_parameter(name: str) -> dict[str, Any]:
     value = json.dumps(rospy.get_param(name, None), default=str)[:LONGEST_ANSWER]
     return form(name, [value], [("value", "JSON, or a text")])
+
+
+def describe_values() -> dict[str, Any]:
+    """Return the values of all parameters, each in short."""
+    values = {name: _short(value) for name, value in _leaves("", rospy.get_param("/", {}))}
+    return {"kind": "values", "values": dict(list(values.items())[:MOST_VALUES])}
+
+
+def _leaves(above: str, value: Any) -> Iterable[tuple[str, Any]]:
+    """Yield (name, value) of the parameters in a tree of them, as rosparam list has them."""
+    if not isinstance(value, dict) or not value:
+        yield above or "/", value
+        return
+    for name, inner in value.items():
+        yield from _leaves(f"{above}/{name}", inner)
+
+
+def _short(value: Any) -> str:
+    written = json.dumps(value, default=str)
+    return written if len(written) <= SHORT else f"{written[: SHORT - 4]} ..."
 
 
 def set_parameter(name: str, written: str) -> dict[str, Any]:

@@ -25,13 +25,15 @@ KOBUKI = {  # what a robot's commands of these types ask for, by their value
 }  # fmt: skip
 BASE, BUMPER, TRUTH = "/mobile_base/", "events/bumper", "base_pose_ground_truth"
 BUMPERS, BUMPER_BYTES = 3, 2  # bytes of an event: which bumper, and whether it is pressed
+SPEED, SPEED_S = ("v", "w", "age"), 0.25  # where the floor is hidden, so often
 FRESH_S, LEAST_SPEED = 1.0, 0.01  # [s], [m/s, rad/s]: newer and faster odometry is motion
 
 
 class Robots(Source):
     """All robots, with the newest odometry of each, for the pages that show them."""
 
-    watches: ClassVar = {"robots": (switch, False)}
+    # floor: all about them, twenty times a second; else of the one it looks at what the header shows
+    watches: ClassVar = {"robots": (switch, False), "floor": (switch, False)}
 
     def __init__(self, feeds: Feeds, graph_watch: GraphWatch) -> None:
         self._feeds, self._graphs = feeds, graph_watch
@@ -39,6 +41,8 @@ class Robots(Source):
         # robot -> (Motion, when it came [s], distance covered [m], Motion in the map)
         self._states: dict[str, tuple[Motion, float, float, Motion | None]] = {}
         self._text = ""  # all robots, as pages get them
+        self._names: list[str] = []
+        self._speeds: dict[str, dict[str, Any]] = {}  # robot -> v, w, age
         # robot -> {led1, led2, sound: name; bumpers: numbers of those that are pressed}
         self._kobukis: dict[str, dict[str, Any]] = {}
 
@@ -63,13 +67,23 @@ class Robots(Source):
         for robot in known:
             self._read(robot)
         states = {r: shown(*state, now) for r, state in self._states.items() if r in known}
-        names = sorted(graph.robots())
-        robots = {r: {**states.get(r, {}), **self._kobukis.get(r, {})} for r in names}
+        self._names = sorted(graph.robots())
+        robots = {r: {**states.get(r, {}), **self._kobukis.get(r, {})} for r in self._names}
+        speeds = {r: {name: state.get(name) for name in SPEED} for r, state in states.items()}
+        self._speeds = speeds
         self._text = encoded("robots", robots=robots)
 
     def send_to(self, client: Client, now: float) -> None:
-        if client.watch.robots and self._text:
-            client.write(self._text)  # also while all stand: it shows that the server is there
+        if not client.watch.robots or not self._text:
+            return
+        # Also while all stand: it shows that the server is there.
+        if client.watch.floor or client.seen.get("names") != self._names:
+            client.seen["names"] = self._names
+            client.write(self._text)
+        elif now - client.seen.get("speed", 0.0) >= SPEED_S:
+            client.seen["speed"] = now
+            speed = self._speeds.get(client.watch.look or "", {})
+            client.send("speed", **{name: v for name, v in speed.items() if v is not None})
 
     def moves(self, robot: str, now: float) -> bool:
         """Return whether the newest odometry says so; known while a page shows robots."""

@@ -38,7 +38,7 @@ class Surroundings(Source):
         self._lock = threading.Lock()  # each publisher of /tf_static has a thread
 
     def collect(self, clients: Sequence[Client], now: float) -> None:
-        graph, looks = self._graphs.graph, {c.watch.look for c in clients if c.watch.robots}
+        graph, looks = self._graphs.graph, {c.watch.look for c in clients if c.watch.floor}
         scans = {topic_of(robot, "scan") for robot in looks & graph.robots()}
         wanted = {
             "/map": (OccupancyGrid._type, self._hear_map),
@@ -49,17 +49,21 @@ class Surroundings(Source):
         there = {topic: hear for topic, (kind, hear) in wanted.items() if types.get(topic) == kind}
         if looks and "/map" not in there:
             self._map = {}
+        if looks:
+            self._scans = {topic: scan for topic, scan in self._scans.items() if topic in there}
         self._feeds.set_subscriptions(self, there, every=False)
 
     def send_to(self, client: Client, now: float) -> None:
-        if not client.watch.robots:
+        if not client.watch.floor:
             return
         if client.take_if_new("map", self._map):
             client.send("map", **self._map)
         robot = client.watch.look
         came, data = self._scans.get(topic_of(robot or "", "scan"), (0.0, b""))
-        if self._map and robot is not None and data and client.take_if_new("scan", (robot, came)):
-            client.send("scan", robot=robot, points=scan_points(data, self._mounts))
+        is_wanted = robot is not None and (data or "scan" in client.seen)  # or it has ended
+        if is_wanted and client.take_if_new("scan", (robot, came)):
+            points = scan_points(data, self._mounts) if data else []
+            client.send("scan", robot=robot, points=points)
 
     def _hear_map(self, message: Raw, _topic: str) -> None:
         shown = map_shown(message.data)
