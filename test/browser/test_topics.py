@@ -6,6 +6,7 @@ import signal
 import pytest
 
 from tutorial_testing.cockpit.chromium import Chromium
+from tutorial_testing.socket_page import SocketPage
 from tutorial_testing.waiting import tolerance, wait_for
 
 PERIOD_S, SILENCE_S = 0.05, 0.2  # of what is published, and the silence more that ends it
@@ -97,3 +98,44 @@ def test_a_page_that_is_killed_or_hangs_publishes_a_zero_and_nothing_more(world,
         assert world.stays_at_rest()
         published_at, speed = map(float, echo.output.split()[-1].split(","))
         assert speed == 0.0 and published_at / 1e9 - lost_at < bound_s
+
+
+def hide(page):
+    """Show another tab of the browser in front of the page."""
+    other = page.send("Target.createTarget", url="about:blank", background=True)["targetId"]
+    page.send("Target.activateTarget", targetId=other)
+    return other
+
+
+def test_what_a_form_moves_is_named_and_ends_by_stop_of_another_page_esc_and_hiding(world, page):
+    mine, nobody = "You drive by a form, on /cmd_vel.", "Nobody drives."
+    page.driver.get(f"{world.address}#topics/cmd_vel")
+    wait_for(lambda: page.all("[name='linear/x']"), "form")
+    page.one("[name='linear/x']").send_keys("0.1")
+    page.one("#topics-rate").send_keys("20")
+    with SocketPage(world.port) as other:
+        drives = lambda: publishes(page) and page.text("#session") == mine and world.moves  # noqa: E731
+        wait_for(drives, "motion")
+        assert page.one("#stop").is_enabled()
+        other.wait_for(
+            "drives", lambda said: said["who"].endswith("drives by a form, on /cmd_vel.")
+        )
+        other.say("stop")
+        page.wait_for_text("#session", nobody)
+        page.wait_for_text("#notice", "pressed Stop")
+        world.wait_for_rest()
+        assert page.text("#topics-send") == "Publish" and world.stays_at_rest()
+        wait_for(drives, "motion")
+        page.key("rawKeyDown", "Escape")
+        page.wait_for_text("#session", nobody)
+        world.wait_for_rest()
+        assert page.text("#topics-send") == "Publish" and world.stays_at_rest()
+        page.one("#topics-rate").clear()
+        page.press("#topics-send")  # once: a robot without a timeout drives on until it is stopped
+        page.wait_for_text("#session", mine)
+        page.tab("Log")
+        driver = other.of("session")[-1]["driver"]
+        front = hide(page)
+        wait_for(lambda: other.of("session")[-1]["driver"] is None, "end")
+        page.send("Target.closeTarget", targetId=front)
+        assert driver

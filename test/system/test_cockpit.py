@@ -1,6 +1,7 @@
 """The cockpit beside clients without a browser: refusals, floods, and launch_joy_node.launch."""
 
 import contextlib
+import functools
 import http.client
 import re
 import socket
@@ -11,6 +12,7 @@ from pathlib import Path
 import pytest
 import rospkg
 
+from node_kit.ros_api import call
 from tutorial_testing import flood
 from tutorial_testing.cockpit.world import World
 from tutorial_testing.nodes import node_path
@@ -23,6 +25,8 @@ MOST_MORE_KB = 20_000
 # Frames of a WebSocket: pings, answers to none, pieces of a message that does not end.
 PINGS, PONGS, PIECES = (1000 * (code + b"\x80" + bytes(4)) for code in (b"\x89", b"\x8a", b"\0"))
 MOST_BYTES = 30_000_000
+# Modules whose import ends a program, opens a browser, or prints.
+HOSTILE = ("cockpit/x", "unittest.__main__/x", "antigravity/x", "this/x", "../x", "*")
 HALF_OPEN, MOST_PAGES = 300, 64
 
 
@@ -183,6 +187,33 @@ def test_viewers_and_connections_make_room_for_a_driver(open_world, connect):
         assert pages[-1].refusal == 503
         with page_of(open_world) as page:
             drive(open_world, page)
+
+
+def test_hostile_types_of_a_page_and_of_the_graph_leave_the_server_and_its_driver_alone(open_world):
+    ask = functools.partial(call, open_world.environment["ROS_MASTER_URI"], caller="/hostile")
+    _, node = ask("lookupNode", "/fake_turtlebot")
+    topics = {f"/t{n}": kind for n, kind in enumerate(HOSTILE)}
+    for topic, kind in topics.items():
+        ask("registerPublisher", topic, kind, node)
+    token = open_world.token("drive")
+    with page_of(open_world) as page, SocketPage(open_world.port, token=token) as other:
+        for kind in HOSTILE:
+            other.say("publish", topic="/fz", type=kind, values={}, period=None)
+        wait_for(lambda: len(other.of("refused")) == len(HOSTILE), "refusals")
+        assert all("no topic of the type" in said["why"] for said in other.of("refused"))
+        drive(open_world, page)
+        for topic, kind in topics.items():
+            fields = [f"{topic}/x"]
+            other.say("watch", field_list=True, topic=topic, rates=list(topics), fields=fields)
+            other.say("describe", what="message", name=kind)
+        other.wait_for("fields")
+        wait_for(lambda: len(other.of("refused")) == 2 * len(HOSTILE), "refusals")
+        drive(open_world, page)
+        assert not page.of("closed") and not other.of("closed")
+        page.say("stop")
+        open_world.wait_for_rest()
+    for topic in topics:
+        ask("unregisterPublisher", topic, node)
 
 
 def test_a_recording_of_rosbag_is_paused_by_the_page_which_then_drives(open_world):
