@@ -9,6 +9,7 @@ from fake_turtlebot_sim.simulator import kobuki
 from fake_turtlebot_sim.simulator.parameters import Parameters
 from fake_turtlebot_sim.simulator.sensors import Sensed
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot, Verdict
+from tutorial_testing.processes import REPOSITORY
 
 SECOND = 1_000_000_000
 TICKS_PER_M = 11724.4  # 11.7244 ticks/mm
@@ -107,3 +108,13 @@ def test_without_power_a_robot_stands_and_with_it_waits_for_a_new_command():
     assert one.command((0.5, 0.0), 5 * SECOND) is Verdict.ACCEPTED
     one.advance(6 * SECOND)
     assert one.state().x == 1.0
+
+
+def test_the_page_has_the_stop_of_this_robot_and_that_of_a_kobuki():
+    """kobuki_node stops 0.62 to 0.70 s after the last command, measured on a serial line."""
+    one = robot(Parameters().cmd_vel_timeout)
+    one.command((0.7, 0.0), 0)
+    one.advance(2 * SECOND)
+    page = " ".join((REPOSITORY / "fake_turtlebot_sim/README.md").read_text().split())
+    assert f"exactly 0.6 s after the last command: {one.state().x:.3f} m at 0.7 m/s" in page
+    assert f"stops after 0.62 to 0.70 s: up to {0.70 * 0.7:.2f} m" in page
