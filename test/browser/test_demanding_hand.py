@@ -129,8 +129,10 @@ def test_a_recording_without_a_joystick_says_how_to_play_it(world, page):
       const link = {isOpen: true, send: () => true, on};
       new BagTab(link, () => {}, {look: () => ""});
       const topics = [{name: "/odom", type: "nav_msgs/Odometry", count: 3}];
-      for (const hear of handlers.bag) hear({path: "all.bag", start: 0, end: 2, curves: {}, topics});
-      done(getComputedStyle(document.getElementById("bag-chart"), "::before").content);
+      const bag = {path: "all.bag", start: 0, end: 2, curves: {}, topics};
+      for (const hear of handlers.bag) hear(bag);
+      const chart = document.getElementById("bag-chart");
+      done(getComputedStyle(chart, "::before").content);
     });"""
     assert "rosbag play all.bag" in page.driver.execute_async_script(script)
 

@@ -182,7 +182,8 @@ setTimeout(() => {
   for (const layer of layers) pen.drawImage(layer, 0, 0);
   const {data} = pen.getImageData(0, 0, width, height), xs = [], ys = [];
   for (let i = 0; i < data.length; i += 4) {
-    if (data[i + 3] < 200 || colour.some((part, at) => Math.abs(part - data[i + at]) > 30)) continue;
+    const isOther = (part, at) => Math.abs(part - data[i + at]) > 30;
+    if (data[i + 3] < 200 || colour.some(isOther)) continue;
     xs.push((i / 4) % width);
     ys.push(Math.floor(i / 4 / width));
   }
