@@ -114,7 +114,8 @@ cannot launch node of type [...]: Cannot locate node of type
   > scripts/a.py is not executable: chmod +x
 import: command not found
     package; echo 'import rospy' >ws/src/mine/scripts/a.py
-    chmod +x ws/src/mine/scripts/a.py; nodes; rosrun mine a.py; TUTORIAL_IN=$PWD/ws doctor
+    chmod +x ws/src/mine/scripts/a.py; nodes; LC_ALL=C.UTF-8 rosrun mine a.py
+    TUTORIAL_IN=$PWD/ws doctor
   > scripts/a.py does not begin with #!: sed
 you may be missing a '#!' declaration
     package; echo 'import rospy' >ws/src/mine/scripts/a.py
