@@ -32,7 +32,7 @@ FRESH_S, LEAST_SPEED = 1.0, 0.01  # [s], [m/s, rad/s]: newer and faster odometry
 class Robots(Source):
     """All robots, with the newest odometry of each, for the pages that show them."""
 
-    # floor: all about them, twenty times a second; else of the one it looks at what the header shows
+    # floor: all about them, twenty times a second; else the speed of the one it looks at
     watches: ClassVar = {"robots": (switch, False), "floor": (switch, False)}
 
     def __init__(self, feeds: Feeds, graph_watch: GraphWatch) -> None:
