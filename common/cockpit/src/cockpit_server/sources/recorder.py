@@ -18,8 +18,8 @@ from cockpit_server.clients import Client, RefusedError, Source
 from cockpit_server.schema import switch
 
 # It ends at 150 MB, as Bag opens up to 200 MB, or after an hour.
-COMMAND = ("rosbag", "record", "-q", "-a", "--size=150", "--duration=1h", "--min-space=1G", "-O")
-LEAST_FREE = 1 << 30  # bytes; with less rosbag records nothing
+COMMAND = ("rosbag", "record", "-q", "-a", "--size=150", "--duration=1h", "-O")
+LEAST_FREE = 1 << 30  # bytes; with less rosbag records nothing (its --min-space)
 NO_SPACE = "less than 1 GB is free in the cockpit's folder"
 FULL = "150 MB or an hour are recorded"
 LOOK_S = 1.0  # how often the free space is looked at
