@@ -145,7 +145,7 @@ Cannot load message class for
 '_1' was not declared in this scope
     printf '#include <ros/ros.h>\nvoid f(int) {}\nint main() { boost::bind(f, _1)(1); }\n' >a.cpp
     flags=$(sed -n "s/.*'_1' was.*CXXFLAGS='\(.*\)'.*/\1/p" "$PAGE")
-    LC_ALL=C g++ -fsyntax-only $flags a.cpp && LC_ALL=C g++ -fsyntax-only a.cpp
+    bare g++ -fsyntax-only $flags a.cpp && bare g++ -fsyntax-only a.cpp
 Invalid roslaunch XML syntax: [Errno 2] No such file
     echo '<launch><include file="$(find joy2twist)/x.launch"/></launch>' >a.launch
     roslaunch a.launch
