@@ -105,6 +105,9 @@ ATTACKS = {
     "change what you check": lambda: os.truncate(aims["original"], 0) is None,
     "read this suite's solutions": lambda: read(aims["solution"]),
     "reach your network": lambda: len(socket.if_nameindex()) > 1,
+    "reach your machine past its network": lambda: (
+        socket.socket(socket.AF_VSOCK, socket.SOCK_STREAM).close() is None
+    ),
     "reach your roscore": lambda: connect(socket.AF_INET, ("127.0.0.1", aims["port"])),
     "reach the sockets of your desktop": lambda: (
         os.listdir("/run") or connect(socket.AF_UNIX, f"\0{aims['name']}")

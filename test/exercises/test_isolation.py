@@ -65,6 +65,13 @@ def promised():
     }
 
 
+def has_vsock():
+    try:
+        return socket.socket(socket.AF_VSOCK, socket.SOCK_STREAM).close() is None
+    except OSError:
+        return False
+
+
 def impossible(words, mode):
     """What no program can do on this machine, whatever the mode."""
     can_mount = "Landlock" not in mode and subprocess.call([*words, *FILLS_MEMORY]) == 0
@@ -73,6 +80,7 @@ def impossible(words, mode):
     return {
         *(() if can_mount or has_memory else (FILLS,)),
         *(() if is_connected else ("reach your network",)),
+        *(() if has_vsock() else ("reach your machine past its network",)),
     }
 
 

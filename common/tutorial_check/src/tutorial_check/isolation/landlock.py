@@ -14,7 +14,7 @@ import platform
 import socket
 import struct
 from pathlib import Path
-from typing import Iterable
+from typing import Iterable, Sequence
 
 from tutorial_check.isolation.privileges import prctl
 
@@ -39,6 +39,8 @@ MACHINES = {
 TRUNCATING = {"x86_64": ((76, 437), {2: 1, 257: 2}), "aarch64": ((45, 437), {56: 2})}
 TRUNCATES = os.O_TRUNC | os.O_ACCMODE
 FAMILIES = (socket.AF_INET, socket.AF_INET6, socket.AF_NETLINK)  # and not a desktop's
+# In namespaces of its own a program sees no desktop. AF_VSOCK leads out of them, to the machine.
+IN_NAMESPACES = (socket.AF_UNIX, *FAMILIES)
 PR_SET_SECCOMP, FILTER, ALLOWED, REFUSED = 22, 2, 0x7FFF0000, 0x00050000 | 13  # by EACCES
 LOAD, EQUAL, AT_LEAST, AND, RETURN = 0x20, 0x15, 0x35, 0x54, 0x06  # of linux/bpf_common.h
 X32 = 0x40000000  # and above: system calls of x86_64 with numbers of their own
@@ -86,13 +88,25 @@ def ruleset(shown: Iterable[str | Path], own: Iterable[str | Path]) -> int:
 def confine(descriptor: int) -> None:
     """Confine this process and its children for good, once rights are given up. Raises OSError."""
     _call(RESTRICT_SELF, descriptor, ctypes.c_uint32(0))
-    machine, open_socket, leading_out = MACHINES[platform.machine()]
-    others = [*leading_out]
+    _filter_calls(FAMILIES, MACHINES[platform.machine()][2], version() < WITH_TRUNCATE)
+
+
+def confine_sockets() -> None:
+    """Leave a program in namespaces no socket that leads out of them, where Linux can do that."""
+    if platform.machine() in MACHINES:
+        with contextlib.suppress(OSError):
+            _filter_calls(IN_NAMESPACES, MACHINES[platform.machine()][2][-1:], False)
+
+
+def _filter_calls(families: Sequence[int], refused_calls: Sequence[int], truncating: bool) -> None:
+    """Refuse system calls. families: of sockets that may be opened. truncating: also that."""
+    machine, open_socket, _ = MACHINES[platform.machine()]
+    others = [*refused_calls]
     refused = [(RETURN, 0, 0, REFUSED)]
     # Each (code, steps forward if so, if not, value); the steps count the instructions in between.
     steps = [(LOAD, 0, 0, 4), (EQUAL, 1, 0, machine), *refused, (LOAD, 0, 0, 0)]
     steps += [(AT_LEAST, 0, 1, X32), *refused]
-    if version() < WITH_TRUNCATE:
+    if truncating:
         paths, flags = TRUNCATING[platform.machine()]
         others += paths
         for number, argument in flags.items():
@@ -101,7 +115,7 @@ def confine(descriptor: int) -> None:
     for number in others:
         steps += [(EQUAL, 0, 1, number), *refused]
     steps += [(EQUAL, 1, 0, open_socket), (RETURN, 0, 0, ALLOWED), (LOAD, 0, 0, 16)]  # its family
-    steps += [(EQUAL, len(FAMILIES) - at, 0, family) for at, family in enumerate(FAMILIES)]
+    steps += [(EQUAL, len(families) - at, 0, family) for at, family in enumerate(families)]
     steps += [*refused, (RETURN, 0, 0, ALLOWED)]
     code = ctypes.create_string_buffer(b"".join(struct.pack("HBBI", *step) for step in steps))
     program = struct.pack("HP", len(steps), ctypes.addressof(code))

@@ -82,6 +82,8 @@ class Runner:
         privileges.give_up_rights()
         if self._ruleset is not None:
             landlock.confine(self._ruleset)
+        elif self._alone:
+            landlock.confine_sockets()
 
     def wait(
         self, condition: Callable[[], Value], deadline_s: float, or_idle: bool = False
