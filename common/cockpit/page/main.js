@@ -21,8 +21,9 @@ const TABS = [RobotTab, GraphTab, TopicsTab, BagTab, PlotTab, LogTab, DoctorTab]
 const NOTICE_MS = 8000;
 const BY_ITSELF = ["watch", "input", "release", "again", "publish_end"]; // sent without a person's action
 const WORDS = { open: "Connected", lost: "Connection lost – trying again", gone: "No cockpit – trying again" };
-const GONE = `The cockpit has exited, it waits for a ROS master, or the network to it is down. Start roscore and the
- cockpit again, with the launch file or with ./tutorial cockpit: this page then reconnects. With --lan, open the new address that it prints.`;
+const GONE = `The cockpit has exited, it waits for a ROS master (start roscore), or the network to it is down.
+ Start it again, with the launch file or with ./tutorial cockpit: this page then reconnects. With --lan, open
+ the new address that it prints.`;
 
 const watched = Object.assign({}, ...TABS.map((Tab) => Tab.watches));
 let noticeEnd = null;
