@@ -1,17 +1,21 @@
 """A driver beside viewers that flood, and beside many topics: how long an input takes."""
 
+import shutil
 import subprocess
 import sys
+import time
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from statistics import mean
 
+import pytest
 from live import FAKE_TURTLEBOT, JOY2TWIST, delays, master, running
 
 from tutorial_testing import flood as flood_program
 from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import free_port
 from tutorial_testing.socket_page import SocketPage
+from tutorial_testing.waiting import wait_for
 
 ALONE = 1000  # inputs
 FLOODERS, FLOOD_S, INPUTS_PER_S = 30, 60, 50
@@ -19,6 +23,12 @@ MOST_FLOODED_S, LEAST_DRIVEN = 0.05, 0.95
 WARM = 24  # rates [at 4 Hz] that are counted over less than the whole window
 MOST_WRONG = 0.02  # of a rate
 MANY_TOPICS = [sys.executable, str(Path(__file__).with_name("many_topics.py"))]
+POSE = "/odom/pose/pose"
+PLOTS = {
+    "a robot's way": f"f={POSE}/position/x&f={POSE}/position/y&last=30&x={POSE}/position/x",
+    "an array beside a number": f"f={POSE}/covariance&f={POSE}/position/x",
+}
+MOST_BUSY = 0.25
 READ = {"stdout": subprocess.PIPE, "text": True}
 
 
@@ -74,6 +84,34 @@ def test_the_driver_goes_on_beside_many_topics_whose_rates_are_right(figure):
     check(figure, "a page with 2,000 topics, 10 MB and 1 kHz", beside_s, alone_s, most_s)
     figure("the rate of 1 kHz that it shows", f"{wrong:.2%} wrong", f"<= {MOST_WRONG:.0%}")
     assert wrong <= MOST_WRONG
+
+
+@pytest.mark.parametrize("what", PLOTS)
+def test_a_plot_leaves_the_browser_and_the_driver_their_time(figure, what):
+    """The driven robot is drawn, which asks for the most."""
+    if not shutil.which("chromium"):
+        pytest.skip("no Chromium here: ./tutorial test browser installs it")
+    from tutorial_testing.cockpit.chromium import Chromium  # noqa: PLC0415  needs what that installs
+
+    with cockpit() as (port, (to_look, to_drive)), Chromium() as browser:
+        driver = f"page:{port}:{to_drive}"
+        alone_s = delays(driver, INPUTS_PER_S, ALONE)
+        browser.open(f"http://127.0.0.1:{port}/?token={to_look}#plot?{PLOTS[what]}")
+        wait_for(lambda: browser.all("#plot-chart canvas"), "chart")
+        browser.send("Performance.enable")
+        start_s, tasks_s = time.monotonic(), tasks(browser)
+        beside_s = delays(driver, INPUTS_PER_S, ALONE)
+        busy = (tasks(browser) - tasks_s) / (time.monotonic() - start_s)
+    check(figure, f"a plot of {what}", beside_s, alone_s, MOST_FLOODED_S)
+    demanded = f"<= {1e3 * MOST_BUSY:.0f} ms/s"
+    figure(f"main thread of a page with a plot of {what}", f"{1e3 * busy:.0f} ms/s", demanded)
+    assert busy <= MOST_BUSY
+
+
+def tasks(browser):
+    """Return how long the main thread of the page has worked until now [s]."""
+    metrics = browser.send("Performance.getMetrics")["metrics"]
+    return next(one["value"] for one in metrics if one["name"] == "TaskDuration")
 
 
 def check(figure, what, beside_s, alone_s, most_s):
