@@ -137,5 +137,7 @@ def test_what_a_form_moves_is_named_and_ends_by_stop_of_another_page_esc_and_hid
         driver = other.of("session")[-1]["driver"]
         front = hide(page)
         wait_for(lambda: other.of("session")[-1]["driver"] is None, "end")
+        page.send("Target.activateTarget", targetId=page.driver.current_window_handle)
         page.send("Target.closeTarget", targetId=front)
+        wait_for(lambda: page.ask("document.visibilityState") == "visible", "page")
         assert driver
