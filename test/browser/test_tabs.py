@@ -204,7 +204,7 @@ def test_plot_of_a_turning_robot_is_a_circle_and_asks_for_few_frames(world, page
         wait_for(lambda: world.now.yaw < -1, "half of the circle")
         wait_for(lambda: world.now.yaw > 1, "all of it")
         frames, width, height = page.driver.execute_async_script(DRAWN, 4000, SECOND)
-    assert 5 < frames < 4 * FRAMES_S
+    assert frames < 4 * FRAMES_S
     assert width > 100 and abs(width / height - 1) < 0.05, (width, height)
     page.mouse("mouseMoved", "#plot-chart")
     page.wait_for_text("#plot-at", f"of {POSITION}")
