@@ -9,7 +9,7 @@ export class Publishing {
   #beat = 0; // the newest of the server
   repeats = false; // whether a message is published again and again
 
-  /** onRest(): it has ended. */
+  /** onRest(): called when publishing has ended. */
   constructor(link, onRest) {
     this.link = link;
     this.onRest = onRest;
@@ -29,7 +29,7 @@ export class Publishing {
     return isSent;
   }
 
-  /** Some signs publish. period: between two messages [ms]; without one none is due. */
+  /** Some signs make the server publish. period: between two messages [ms]; Infinity: no sign does. */
   #sendSigns(period = Infinity) {
     clearInterval(this.#timer);
     const steps = Math.ceil(period / SIGN_MS); // from one message to the next
@@ -45,7 +45,7 @@ export class Publishing {
     this.#moves = on;
   }
 
-  /** Publish no more; what is hidden or not connected publishes nothing, and moves nothing. */
+  /** Stop publishing: a page that is hidden or not connected publishes and moves nothing. */
   rest() {
     if (!this.#timer) return;
     clearInterval(this.#timer);

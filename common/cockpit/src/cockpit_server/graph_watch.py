@@ -15,8 +15,8 @@ from cockpit_server.schema import switch
 from node_kit.ros_api import Answer, call
 
 PERIOD_S = 1.0
-MASTER_S = 0.2  # how often it is asked whether it is there: until that is noticed, a form drives on
-NODE_S = 0.3  # within which a node that is there accepts a connection
+MASTER_S = 0.2  # How often to check that it is there; until then a form drives on.
+NODE_S = 0.3  # A node that runs accepts a connection within this time.
 
 
 class GraphWatch(Source):
@@ -75,10 +75,8 @@ class GraphWatch(Source):
             self._is_lost = True
             return
         types, shown = dict(types or []), {topic for topic, _ in state[0]} - {"/rosout"}
-        known, names = (
-            self.graph.machines,
-            {n for part in state for _, nodes in part for n in nodes},
-        )
+        known = self.graph.machines
+        names = {n for part in state for _, nodes in part for n in nodes}
         machines = {n: known.get(n) or self._machine(n) for n in names - {self._own_name}}
         dead = {name for name, machine in machines.items() if machine is None}
         publishers = without({self._own_name}, without(dead, state[0]).items(), shown_in=shown)
@@ -89,7 +87,7 @@ class GraphWatch(Source):
             self.graph, self._text = graph, encoded("graph", **graph.parts())
 
     def _machine(self, node: str) -> str | None:
-        """Return that of a node; None if it was killed, and the master does not know."""
+        """Return the machine of a node; None if it was killed without the master's knowledge."""
         answer, uri = call(self._uri, "lookupNode", node, caller=self._own_name)
         if answer is not Answer.WELL:
             return ""

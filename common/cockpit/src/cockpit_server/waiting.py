@@ -7,7 +7,7 @@ import socket
 import time
 from contextlib import suppress
 
-READ_S, LONGEST_REQUEST = 0.2, 4096  # for a request, which is read so that none is left; bytes
+READ_S, LONGEST_REQUEST = 0.2, 4096  # For the one read of a request; bytes.
 LINE = "The cockpit waits for a ROS master: start roscore, or a launch file. Its page then opens."
 PAGE = f"<!doctype html><html lang=en><title>Cockpit</title><p>{LINE}</p></html>\n"
 ANSWER = (
@@ -22,7 +22,7 @@ def answer_for(listener: socket.socket, duration_s: float) -> None:
     """Answer each connection in this time with that page."""
     end = time.monotonic() + duration_s
     while select.select([listener], [], [], max(0.0, end - time.monotonic()))[0]:
-        with suppress(OSError):  # it has gone
+        with suppress(OSError):  # The browser closed it.
             connection, _ = listener.accept()
             with connection:
                 connection.settimeout(READ_S)

@@ -42,7 +42,7 @@ def check_topic(path: str) -> None:
     """Raise BagError if a bag has no joystick message on /joy; it says what to do."""
     with opened(path) as bag:
         topics = bag.get_type_and_topic_info().topics
-    kinds = {topic: one.msg_type for topic, one in topics.items() if one.message_count}
+    kinds = {topic: about.msg_type for topic, about in topics.items() if about.message_count}
     if kinds.get(TOPIC) == JOY:
         return
     joysticks = [topic for topic, kind in sorted(kinds.items()) if kind == JOY]
@@ -63,7 +63,7 @@ def check_recording(bag: str, preset: str) -> None:
     numbers = [parameters[key] for key in KEYS if parameters.get(key, -1) >= 0]
     with opened(bag) as recorded:
         for _, joy, _ in recorded.read_messages(TOPIC):
-            if not numbers or any(any(joy.buttons[one : one + 1]) for one in numbers):
+            if not numbers or any(any(joy.buttons[n : n + 1]) for n in numbers):
                 return
     buttons = " or ".join(_name(number, Path(preset).stem) for number in numbers)
     raise ValueError(

@@ -47,7 +47,7 @@ class Announcement:
         atexit.register(self.withdraw)
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             if signal.getsignal(number) != signal.SIG_IGN:
-                signal.signal(number, self._end)  # until the node has handlers of its own
+                signal.signal(number, self._end)  # The node's own handlers replace it.
         uri = network.create_local_xmlrpc_uri(self.node_port)
         for service in self.services:
             self._tell("registerService", service, self.address, uri)

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Iterator
 from xml.etree import ElementTree
 
-MOST_BYTES = 256 << 10  # of package.xml; parsed, it takes ten times the memory
+MOST_BYTES = 256 << 10  # Parsing takes ten times the memory.
 
 
 def broken_manifests(folder: str | Path) -> list[tuple[str, str]]:

@@ -10,13 +10,11 @@ _ESCAPES = re.compile(
     r"\x1b\[[0-?]*[ -/]*[@-~]|\x1b[\]P^_X][^\x07\x1b]*(?:\x07|\x1b\\)?"
     r"|[\x00-\x08\x0b-\x1f\x7f-\x9f\ud800-\udfff\ufffe\uffff]"
 )
-
-
-LONGEST = 600  # letters of a sentence that quotes a file or program
+LONGEST = 600  # characters
 
 
 def quotable(text: str) -> str:
-    """Return a printable text of bounded length, for a sentence."""
+    """Return a printable text of at most LONGEST characters, to be quoted in a sentence."""
     text = printable(text)
     return text if len(text) <= LONGEST else f"{text[:LONGEST]} ..."
 

@@ -21,7 +21,7 @@ from rosgraph.network import (
 from node_kit.message_types import service_class
 from node_kit.ros_api import Answer, call
 
-PROBE_S = 5.0  # within which a service that is there says what type it has
+PROBE_S = 5.0  # How long to wait for the type of a service.
 LONGEST_ANSWER = 50_000_000  # bytes
 _READ = 65536  # bytes at a time
 
@@ -54,7 +54,7 @@ def call_service(name: str, request: Any, kind: Any, timeout_s: float) -> Any:
         raise ServiceError(answer.decode(errors="replace") or f"{name} reports a failure")
     try:
         return kind._response_class().deserialize(answer)
-    except Exception:  # whatever the bytes make a message class do
+    except Exception:  # Malformed bytes may raise anything.
         raise ServiceError(f"the answer of {name} is malformed") from None
 
 
@@ -62,7 +62,7 @@ def call_service(name: str, request: Any, kind: Any, timeout_s: float) -> Any:
 def _connected(
     name: str, timeout_s: float, **fields: str
 ) -> Iterator[tuple[socket.socket, dict[str, str]]]:
-    """Give a connection, which is shut at the end of the time, and the header of the service."""
+    """Yield a connection, which is shut after the timeout, and the header of the service."""
     answer, uri = call(rosgraph.get_master_uri(), "lookupService", name, timeout_s=timeout_s)
     if answer is not Answer.WELL:
         raise ServiceError(f"there is no service {name}")
@@ -96,7 +96,7 @@ def _connected(
 
 
 def _read(connection: socket.socket, size: int) -> bytes:
-    """Return so many bytes. Raises OSError."""
+    """Return the next `size` bytes. Raises OSError."""
     data = bytearray()
     while len(data) < size:
         part = connection.recv(min(_READ, size - len(data)))

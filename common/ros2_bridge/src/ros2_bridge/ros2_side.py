@@ -60,16 +60,15 @@ class Ros2Side:
         """Return the class of package/msg/Name; None, with a line, if it does not exist here."""
         package, _, name = kind.partition("/msg/")
         try:
-            found = is_generated(package, name) and getattr(
-                importlib.import_module(f"{package}.msg"), name
-            )
-        except (Exception, SystemExit):  # whatever a package that is half there brings about
-            found = None
-        if not found:
+            is_here = is_generated(package, name)
+            message = getattr(importlib.import_module(f"{package}.msg"), name) if is_here else None
+        except (Exception, SystemExit):  # An incomplete package may raise anything.
+            message = None
+        if not message:
             self._say(topic, f"{topic}: {kind}: ROS 2 has no such type here; it is not carried")
             return None
         self._wrong.pop(topic, None)
-        return found
+        return message
 
     # ---------------------------------------------------------------- from ROS 1
 
@@ -186,8 +185,8 @@ def is_generated(package: str, name: str) -> bool:
     for place in (spec.submodule_search_locations if spec else None) or ():
         path = Path(place) / "msg" / "__init__.py"
         lines = path.read_text(errors="replace").splitlines() if path.is_file() else []
-        words = [one.split() for one in lines if one.startswith(line)]
-        if any(one[2:4] == ["import", name] for one in words):
+        imports = [text.split() for text in lines if text.startswith(line)]
+        if any(words[2:4] == ["import", name] for words in imports):
             return True
     return False
 

@@ -25,7 +25,7 @@ from tutorial_check.model import CannotCheck, Outcome, fault
 from tutorial_check.order import Order
 from tutorial_check.worker_process import END_S, no_more
 
-PERIOD_S = 0.2  # between two looks at no_more
+PERIOD_S = 0.2  # How often to look at no_more.
 TOO_LONG = f"reading it takes more than {privileges.MOST_CPU_S} s"
 TOO_MUCH = f"reading it takes more than {privileges.MOST_MB} MB of memory"
 Answer = Any  # (an Outcome, a Result that came), the Outcomes at the end, or a CannotCheck
@@ -37,7 +37,7 @@ def examine(
     side_by_side: bool = False,
 ) -> list[Outcome]:
     """Return the Outcomes as launcher.examine does, made in another process. Raises CannotCheck."""
-    # Its time is the student's; that for our modules, which the workers read, too, is not.
+    # Compiled before: the time for that must not count as the time for the student's files.
     compileall.compile_dir(str(Path(__file__).parent), quiet=2)
     with _process() as (process, line):
         line.send((launcher.sourced(order), side_by_side))
@@ -55,7 +55,7 @@ def _process() -> Any:
     """Yield (the process, the line to it). At the end it has ended, and what it started."""
     ours, theirs = socket.socketpair()
     words = [sys.executable, "-s", "-m", "tutorial_check.examination", str(theirs.fileno())]
-    # In a session of its own: Ctrl-C, which ends this process, ends it through the line.
+    # In a session of its own: Ctrl-C ends us, and the closed line ends it.
     about: dict[str, Any] = {"stdin": subprocess.DEVNULL, "start_new_session": True}
     process = subprocess.Popen(words, pass_fds=[theirs.fileno()], **about)
     theirs.close()
@@ -65,7 +65,7 @@ def _process() -> Any:
     finally:
         line.close()
         try:
-            process.wait(2 * END_S)  # for what it has to end itself
+            process.wait(2 * END_S)  # It ends its own processes first.
         finally:
             process.kill()
             process.wait()

@@ -110,7 +110,7 @@ class DriverSession:
         return not self.plays and not self.topic
 
     def take(self, client: int, robot: str, now: float, *, plays: bool = False) -> None:
-        """Sit down. Raises RefusedError if another sits there."""
+        """Begin the session of a client. Raises RefusedError if another one has it."""
         refusal = self.refusal(client)
         if refusal:
             raise RefusedError(refusal)
@@ -124,9 +124,9 @@ class DriverSession:
     def publish(
         self, client: int, robot: str, topic: str, rest: Callable[[], object], now: float
     ) -> None:
-        """Sit down with a form, which publishes on a topic. rest: called once, when that ends.
+        """Begin a session with a form, which publishes on a topic. rest: called once, at its end.
 
-        Raises RefusedError if another sits there.
+        Raises RefusedError if another client has it.
         """
         self.take(client, robot, now)
         self.topic, self._rest_form, self.armed = topic, rest, True
@@ -141,7 +141,7 @@ class DriverSession:
         return True
 
     def refusal(self, client: int) -> str:
-        """Return why a client may not sit down, or ""."""
+        """Return why a client may not begin a session, or ""."""
         if self._has_ended:
             return "the cockpit is being shut down"
         if self.driver in (None, client):
@@ -155,7 +155,7 @@ class DriverSession:
             self._clear()
 
     def hand_over(self, client: int, to: int, now: float) -> None:
-        """Let another client sit down. Raises RefusedError."""
+        """Hand the session to another client. Raises RefusedError."""
         if client != self.driver or not self.is_by_hand:
             raise RefusedError("only the page that drives may hand over")
         robot = self.robot

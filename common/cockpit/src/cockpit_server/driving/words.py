@@ -56,7 +56,8 @@ def brief(nodes: Iterable[str], between: str) -> str:
 
 def rival(node: str, services: Container[str]) -> str:
     """Return what to do about a node that publishes the joystick topic of a robot."""
-    pause = f"{node}/pause_playback"  # of rosbag play; its end may end a launch file, with the page
+    # rosbag play has this service. Ending it may end a launch file, and the cockpit with it.
+    pause = f"{node}/pause_playback"
     if pause in services:
         todo = f"pause it first (tab Topics, Show: services, {pause}, data: true)"
     else:
@@ -94,7 +95,7 @@ def by_page(about: About, its: str, is_own: bool) -> str:
 
 
 def by_form(name: str, is_own: bool, topic: str) -> str:
-    """Return a sentence that says to a page which one's form drives."""
+    """Return a sentence for a page: its own form drives, or that of the page of this name."""
     return sentence(f"{'you drive' if is_own else f'{name} drives'} by a form, on {topic}")
 
 

@@ -95,7 +95,7 @@ class Forms(Source):
             self._ask_master(client, lambda: describe_parameter(name))
         elif what == "values":
             self._ask_master(client, describe_values)
-        # Of what is there: message_class() remembers each name.
+        # Only names of the graph: message_class() remembers each one.
         elif name in self._graphs.graph.types.values() and message_class(name):
             kind = message_class(name)
             client.send(**form(name, definition(kind), form_fields(kind), numbers_of(name)))

@@ -122,7 +122,7 @@ class Publishing(Source):
         if period or rest is not None:
             self.on_publish_end(client, now)
         if drives:
-            key = topic, message._type  # of the publisher, which comes below
+            key = topic, message._type  # _send() below makes this outlet.
             rest_it = lambda: self._outlets[key].send(stamped(rest))  # noqa: E731  short
             self._driving.publish(client, topic, rest_it, now)
         self._send(topic, message, now)
@@ -134,7 +134,7 @@ class Publishing(Source):
     ) -> None:
         held = self._held.get(client.number)
         if held is None or not self._is_on(client, held):
-            return  # it was on its way when that ended
+            return  # It was under way when that ended.
         if held.drives:
             is_fresh = self._driving.session.sign(client.number, Input(n, t, beat, (), ()), now)
         else:

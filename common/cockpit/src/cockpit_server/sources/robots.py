@@ -25,7 +25,7 @@ KOBUKI = {  # what a robot's commands of these types ask for, by their value
 }  # fmt: skip
 BASE, BUMPER, TRUTH = "/mobile_base/", "events/bumper", "base_pose_ground_truth"
 BUMPERS, BUMPER_BYTES = 3, 2  # bytes of an event: which bumper, and whether it is pressed
-SPEED, SPEED_S = ("v", "w", "age"), 0.25  # where the floor is hidden, so often
+SPEED, SPEED_S = ("v", "w", "age"), 0.25  # How often these are sent to a page without the floor.
 FRESH_S, LEAST_SPEED = 1.0, 0.01  # [s], [m/s, rad/s]: newer and faster odometry is motion
 
 

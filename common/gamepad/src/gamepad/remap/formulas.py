@@ -48,9 +48,9 @@ def _compiled(node: ast.AST) -> Formula:
         operand = _compiled(node.operand)
         return lambda controls: -operand(controls)
     if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and not node.keywords:
-        function, given = FUNCTIONS.get(node.func.id), [_compiled(part) for part in node.args]
-        if function and (len(given) == 1 if function is abs else len(given) > 1):
-            return lambda controls: function(*(part(controls) for part in given))
+        function, values = FUNCTIONS.get(node.func.id), [_compiled(part) for part in node.args]
+        if function and (len(values) == 1 if function is abs else len(values) > 1):
+            return lambda controls: function(*(value(controls) for value in values))
     if isinstance(node, ast.Subscript) and isinstance(node.value, ast.Name):
         name, index = node.value.id, _index(node.slice)
         if name in NAMES and index is not None:
@@ -59,6 +59,6 @@ def _compiled(node: ast.AST) -> Formula:
 
 
 def _index(node: Any) -> int | None:
-    node = node.value if type(node).__name__ == "Index" else node  # around it in Python 3.8
+    node = node.value if type(node).__name__ == "Index" else node  # Python 3.8 wraps it.
     is_whole = isinstance(node, ast.Constant) and type(node.value) is int
     return node.value if is_whole else None

@@ -15,7 +15,7 @@ from node_kit.start import run
 
 NODE_NAME = "joy_remap"
 PARTS = ("axes", "buttons")
-KNOWN = ("mappings", "queue_size")  # upstream's; a queue is not needed here
+KNOWN = ("mappings", "queue_size")  # Upstream has queue_size; it has no effect here.
 
 
 @dataclass(frozen=True)
@@ -75,7 +75,7 @@ class JoyRemap:
         self._publisher.publish(Joy(joy.header, axes, buttons))
 
     def _report(self, line: str) -> None:
-        """Warn once of each."""
+        """Warn, unless the last warning was the same."""
         if line != self._reported:
             self._reported = line
             self._warn(line)

@@ -20,7 +20,7 @@ BUS_USB = 3  # linux/input.h
 EV_KEY, EV_ABS = 1, 3  # linux/input-event-codes.h
 # How often a FIFO repeats the state at opening: so its reader knows that this program lives [s].
 SIGN_OF_LIFE_S = 0.15
-TREMBLE_S = 0.4  # how often a held stick trembles: so joy2twist knows it
+TREMBLE_S = 0.4  # How often a held stick trembles, for the same reason.
 LOOK_S = 0.05  # how often a FIFO without a reader is looked at
 
 
@@ -110,9 +110,9 @@ class StreamPad(ContextManager["StreamPad"]):
         self._fd: int | None = None
         self._told: dict[tuple[int, int], int] = {}  # (type, number) -> value that the reader knows
         self._signed_at = -math.inf  # when the last sign of life was given
-        self._position: Position | None = None  # shown last
-        self._trembled_at = -math.inf  # when that began, or when its sticks trembled last
-        self._bent = False  # whether its sticks are one step off
+        self._position: Position | None = None  # The one that was shown last.
+        self._trembled_at = -math.inf  # When it was first shown, or trembled last.
+        self._bent = False  # Whether its held sticks are one step off.
         try:
             self._made = not os.path.lexists(path)
             if self._made:
@@ -136,8 +136,8 @@ class StreamPad(ContextManager["StreamPad"]):
     def show(self, position: Position | None) -> None:
         """Move to (axes, buttons) as on /joy; None: unplugged. Raises PadError.
 
-        The same position once more: held sticks tremble, for every joy_node; one that is not ours
-        takes a sign of life for nothing.
+        If the position is the same as before, held sticks tremble: every joy_node publishes that,
+        and only ours knows the sign of life.
         """
         if position is None or (self._fd is not None and _reader_left(self._fd)):
             self._close()

@@ -1,4 +1,4 @@
-"""Hands rospy the callers that came to an Announcement, before and after it could answer."""
+"""Hands rospy the calls to an Announcement, those from before it could answer included."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from node_kit.announcement import Announcement
 
 
 def answer_early_callers(announcement: Announcement | None) -> None:
-    """Answer who calls at the announced address; call it once the services are open."""
+    """Answer the calls to the announced address; use it once the services are open."""
     if announcement:
         announcement.keep()
         threading.Thread(target=_answer, args=(announcement,), daemon=True).start()

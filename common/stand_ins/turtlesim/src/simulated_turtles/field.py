@@ -39,7 +39,7 @@ def pixel(place: complex) -> tuple[float, float]:
 
 def near(place: complex) -> complex:
     """Return the pixel of a place as column + row j, none farther than FARTHEST."""
-    column, row = (min(max(one, -FARTHEST), FARTHEST) for one in pixel(place))
+    column, row = (min(max(value, -FARTHEST), FARTHEST) for value in pixel(place))
     return complex(column, row)
 
 

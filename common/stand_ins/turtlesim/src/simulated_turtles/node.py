@@ -111,7 +111,7 @@ class Turtlesim:
 def background() -> tuple[int, ...]:
     """Return the background (r, g, b), of the parameters as roscpp reads whole numbers."""
     given = ((rospy.get_param(f"~{name}", None), value) for name, value in BACKGROUND.items())
-    return tuple(whole(one, default) & 255 for one, default in given)
+    return tuple(whole(value, default) & 255 for value, default in given)
 
 
 def whole(value: Any, default: int) -> int:
@@ -121,7 +121,7 @@ def whole(value: Any, default: int) -> int:
     """
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         return default
-    if not abs(value) < 2**31:  # NaN, too; it is INT_MIN there
+    if not abs(value) < 2**31:  # NaN, too. roscpp makes INT_MIN of these.
         return 0
     return math.floor(value) if math.fmod(value, 1.0) < 0.5 else math.ceil(value)
 

@@ -42,7 +42,7 @@ FAMILIES = (socket.AF_INET, socket.AF_INET6, socket.AF_NETLINK)  # and not a des
 # In namespaces of its own a program sees no desktop. AF_VSOCK leads out of them, to the machine.
 IN_NAMESPACES = (socket.AF_UNIX, *FAMILIES)
 PR_SET_SECCOMP, FILTER, ALLOWED, REFUSED = 22, 2, 0x7FFF0000, 0x00050000 | 13  # by EACCES
-LOAD, EQUAL, AT_LEAST, AND, RETURN = 0x20, 0x15, 0x35, 0x54, 0x06  # of linux/bpf_common.h
+LOAD, EQUAL, AT_LEAST, AND, RETURN = 0x20, 0x15, 0x35, 0x54, 0x06  # Source: linux/bpf_common.h.
 X32 = 0x40000000  # and above: system calls of x86_64 with numbers of their own
 
 

@@ -53,7 +53,8 @@ class Student:
             return wrong.id, _short(wrong.seen), "\n".join(lines_of(wrong))
         if outcome.trouble:
             return "?", "", outcome.trouble
-        why = next((one.seen for one in outcome.results if one.status == UNREACHED), "")
+        unreached = (result for result in outcome.results if result.status == UNREACHED)
+        why = next((result.seen for result in unreached), "")
         return "-", _short(why), "not reached"
 
     @property
@@ -135,12 +136,12 @@ def _link(student: Student) -> str:
 
 def _total(students: Sequence[Student], exercises: Sequence[str]) -> str:
     """Return the last row: how many students have done each exercise."""
-    checked = [one for one in students if one.outcomes]
-    done = (sum(one.cell(each)[0] == "ok" for one in checked) for each in exercises)
+    checked = [student for student in students if student.outcomes]
+    done = (sum(student.cell(name)[0] == "ok" for student in checked) for name in exercises)
     counts = (f"<td>{count} of {len(checked)}</td>" for count in done)
-    notes = sum(one.notes for one in checked) or ""
-    took = f"{sum(one.seconds for one in students):.0f} s"
-    all_done = sum(all(each.solved for each in one.outcomes) for one in checked)
+    notes = sum(student.notes for student in checked) or ""
+    took = f"{sum(student.seconds for student in students):.0f} s"
+    all_done = sum(all(outcome.solved for outcome in student.outcomes) for student in checked)
     total = f"<td>{all_done} of {len(checked)}</td><td>{notes}</td><td>{took}</td>"
     return f"<tr><th>all {len(students)}</th>{''.join(counts)}{total}</tr>"
 
@@ -150,9 +151,10 @@ def _row(cells: Iterable[str], tag: str = "td") -> str:
 
 
 def _below(students: Sequence[Student]) -> Iterator[str]:
-    """Yield what is below the table: a heading and a table each, if there is something in it."""
+    """Yield what is below the table: tables with headings, but for empty ones."""
     failed = (
-        (one, escape(title), str(count), BAR * count) for one, title, count in failures(students)
+        (check, escape(title), str(count), BAR * count)
+        for check, title, count in failures(students)
     )
     yield _section("How many fail each check", ("check", "", "how many", ""), failed)
     frequent = (
@@ -160,11 +162,12 @@ def _below(students: Sequence[Student]) -> Iterator[str]:
         for those, example in causes(students)
     )
     yield _section("The most frequent causes", ("students", "check", *WORDS), frequent)
-    changed = ((one, [*map(", ".join, changes(one).values())]) for one in students)
+    changed = ((student, [*map(", ".join, changes(student).values())]) for student in students)
     head = ("student", "now done", "no more done", "stuck at the same check")
-    rows = ((_link(one), *map(escape, cells)) for one, cells in changed if any(cells))
+    rows = ((_link(student), *map(escape, cells)) for student, cells in changed if any(cells))
     yield _section("Since the last run", head, rows)
-    remarks = ((_link(one), escape(one.remark)) for one in students if one.remark)
+    remarked = (student for student in students if student.remark)
+    remarks = ((_link(student), escape(student.remark)) for student in remarked)
     yield _section("Remarks", ("student", "remark"), remarks)
 
 

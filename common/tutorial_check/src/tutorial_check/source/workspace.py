@@ -20,7 +20,7 @@ from tutorial_check.source.student_files import TOO_LARGE, is_too_large, text_of
 
 MOST_BYTES = 300 << 20  # sources of a workspace, including bags
 MOST_FILES = 20_000
-MOST_DEPTH = 100  # of folders in folders; each of them is a call more in Python
+MOST_DEPTH = 100  # Folders in folders: Python calls a function in itself for each.
 SOLUTIONS = {"beginner_tutorials", "joy2twist"}  # the packages of the exercises
 COPY = "handed_in/src"  # the copy of what was handed in, as in a workspace
 # The words of a launch file, and in one of them what a node of the exercises reads.

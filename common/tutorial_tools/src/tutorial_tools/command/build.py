@@ -40,7 +40,7 @@ def stamp() -> str:
         for name in ("CMakeLists.txt", "package.xml", "setup.py"):
             for path in sorted(REPOSITORY.glob(f"{depth}/{name}")):
                 found.update(path.read_bytes())
-    for path in sorted((REPOSITORY / MODEL / "scripts").iterdir()):  # which is copied
+    for path in sorted((REPOSITORY / MODEL / "scripts").iterdir()):  # make_rqt() copies them.
         found.update(path.read_bytes())
     for suffix in (".py", ".test"):  # as test/CMakeLists.txt looks for them
         for path in sorted(REPOSITORY.glob(f"test/ros/*/*{suffix}")):
@@ -59,7 +59,7 @@ def clean_catkin_make(below: Path | None, folder: Path, log: Path) -> bool:
     """Return whether catkin_make succeeds over another workspace; without any other environment."""
     hidden = ("CMAKE_PREFIX_PATH", "ROS_PACKAGE_PATH", "PYTHONPATH")
     environment = {name: value for name, value in os.environ.items() if name not in hidden}
-    environment.update(PATH="/usr/bin:/bin", LC_ALL="C.UTF-8")  # its words are read
+    environment.update(PATH="/usr/bin:/bin", LC_ALL="C.UTF-8")  # Its output is parsed.
     make = 'catkin_make -C "$1" -DPYTHON_EXECUTABLE=/usr/bin/python3'
     script = f'. "$0"; {make}' if below else make
     with open(log, "a", encoding="utf-8") as file:

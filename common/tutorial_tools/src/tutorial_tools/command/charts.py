@@ -1,4 +1,4 @@
-"""The library of the cockpit's charts, of npm's registry where the archive lacks the package."""
+"""Fetches the library of the cockpit's charts from npm's registry where the archive lacks it."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pathlib import Path
 
 from tutorial_tools.system.apt import say
 
-OF_DEBIAN = Path("/usr/share/javascript/dygraphs")  # of libjs-dygraphs; cockpit_server has it, too
+OF_DEBIAN = Path("/usr/share/javascript/dygraphs")  # cockpit_server.web serves it from there
 URL = "https://registry.npmjs.org/dygraphs/-/dygraphs-2.2.1.tgz"  # the release of Debian 12 and 13
 SHA256 = "f515549becffeb0912b0dffa963f7d42726818ca7ef5605bdd7707995742b7ec"
 FILES = ("dygraph.min.js", "dygraph.css")

@@ -40,7 +40,7 @@ STAMPED = (
 STAMPED_TOPICS = 6  # per host
 STAMPED_MESSAGES = 20  # per topic; the fastest one counts
 BRIDGE = "/ros2_bridge"  # the node of ros2_bridge
-CONNECT_S = 2.0  # which nodes take that have just started
+CONNECT_S = 2.0  # Nodes that have just started take this long to connect.
 LISTEN_S = 2.5  # /diagnostics comes once a second
 Messages = List[Tuple[float, bytes]]  # (arrival [s], bytes)
 
@@ -63,7 +63,7 @@ def collect() -> Facts:
         facts["way_out"] = way_out(found[0])
     facts["master"], _ = call(uri, "getPid")
     if facts["master"] not in (Answer.WELL, Answer.REFUSED):
-        return Facts(**facts)  # each question to it would take its time
+        return Facts(**facts)  # Each further call would wait for its timeout.
     nodes = processes.running()
     if facts["master"] is Answer.WELL:
         if facts["own_is_here"]:
@@ -170,7 +170,7 @@ def look_at(uri: str, name: str) -> Node | None:
     if not found:
         return Node(node_uri, host, Answer.UNKNOWN_NAME, None)
     answer, links = call(node_uri, "getBusInfo")  # id, peer, direction, transport, topic
-    # Of the sender: rospy lists what it receives before it is connected.
+    # Those on which it sends: rospy lists what it receives before it is connected.
     ends = [(link[4], link[1]) for link in links or [] if link[2] != "i"]
     columns = ("getPublications", "getSubscriptions") if answer is Answer.WELL else ()
     sends, takes = [dict(call(node_uri, column)[1] or []) for column in columns] or ({}, {})

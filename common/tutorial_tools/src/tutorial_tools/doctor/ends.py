@@ -24,14 +24,15 @@ REPORTS = re.compile(
     r"|visualization_msgs|kobuki_msgs|arbotix_msgs|dynamic_reconfigure|bond|smart_battery_msgs)/.*"
     r"|actionlib_msgs/GoalStatusArray|.*Action(Result|Feedback)"
 )
-REPORTING = re.compile(r".*/(active|debug/.*)")  # of a multiplexer, of a driver
+# Of a multiplexer, and of a driver.
+REPORTING = re.compile(r".*/(active|debug/.*)")
 # Topics and types that wait: nobody needs to send.
 WAITS = re.compile(
     r".*/(commands/.*|input/.*|initialpose|goal|cancel|clicked_point|reset\w*|enable|disable"
     r"|press)"
 )
 WAITING = re.compile(r"actionlib_msgs/GoalID|.*ActionGoal|(rosgraph_msgs|tf2?_msgs|bond)/.*")
-ALIKE = 0.8  # how much of two names is equal, if one is taken for a misspelt other one
+ALIKE = 0.8  # The least likeness of a name and its misspelling.
 
 
 def ends(facts: Facts) -> Iterator[Finding]:
@@ -45,7 +46,7 @@ def ends(facts: Facts) -> Iterator[Finding]:
         yield wrong("topics", f"{seen}, which {nodes[1]} wants", todo)
         del sent[topic]
         wanted.pop(other, None)
-    quiet = {*theirs, *(() if facts.driven() else facts.topics(JOY))}  # what way.py says
+    quiet = {*theirs, *(() if facts.driven() else facts.topics(JOY))}  # way.py reports these
     loud = {t: nodes for t, nodes in sent.items() if t not in quiet and not _reports(facts, t)}
     missed = {t: nodes for t, nodes in wanted.items() if not _waits(facts, t)}
     if loud:
@@ -60,7 +61,7 @@ def pairs(facts: Facts) -> list[tuple[str, str]]:
     """Return [(topic without receivers, topic without senders)] that probably mean each other."""
     sent, wanted = _open(facts, inwards=False), _open(facts, inwards=True)
     theirs = {topic for _, sends in facts.converters().values() for topic in sends}
-    found = []
+    likely = []
     for topic in sorted(sent):
         kind = _kind(facts, topic)
         others = [other for other in sorted(wanted) if not {*wanted[other]} & {*sent[topic]}]
@@ -70,8 +71,8 @@ def pairs(facts: Facts) -> list[tuple[str, str]]:
         near = max(same, key=lambda other: _likeness(topic, other), default="")
         alike = near and (kind == TWIST or _likeness(topic, near) >= ALIKE)
         if alike and topic not in theirs and kind != JOY:
-            found.append((topic, near))
-    return found
+            likely.append((topic, near))
+    return likely
 
 
 def plays_a_bag(facts: Facts) -> list[str]:
@@ -111,15 +112,15 @@ def _reports(facts: Facts, topic: str) -> bool:
 
 def _waits(facts: Facts, topic: str) -> bool:
     kind = _kind(facts, topic)
-    said = kind in (JOY, TWIST)  # by way.py
-    return said or bool(WAITS.fullmatch(topic) or WAITING.fullmatch(kind))
+    is_of_way = kind in (JOY, TWIST)  # way.py reports these
+    return is_of_way or bool(WAITS.fullmatch(topic) or WAITING.fullmatch(kind))
 
 
-def _likeness(one: str, other: str) -> float:
+def _likeness(topic: str, other: str) -> float:
     """Return 0 to 1; 1 for names that differ in their namespace alone."""
-    if one.rsplit("/", 1)[1] == other.rsplit("/", 1)[1]:
+    if topic.rsplit("/", 1)[1] == other.rsplit("/", 1)[1]:
         return 1.0
-    return difflib.SequenceMatcher(None, one, other).ratio()
+    return difflib.SequenceMatcher(None, topic, other).ratio()
 
 
 def _of(topics: dict[str, list[str]]) -> list[str]:

@@ -8,7 +8,7 @@ from typing import NamedTuple
 from node_kit.ros_api import Answer
 from tutorial_tools.doctor.facts import Facts, Finding, some, wrong
 
-ANY = ("*", "")  # the type that `rostopic echo` wants, and one that is not known
+ANY = ("*", "")  # The type of `rostopic echo`, and an unknown one.
 
 
 class Cut(NamedTuple):
@@ -54,7 +54,7 @@ def unconnected(facts: Facts) -> Iterator[Finding]:
 
 def cuts(facts: Facts) -> list[Cut]:
     """Return each pair of nodes that answer, and should be connected, and are not."""
-    found = []
+    pairs = []
     for topic in facts.used():
         wanted = facts.kinds(topic, inwards=True)
         for sender, sent in sorted(facts.kinds(topic, inwards=False).items()):
@@ -62,8 +62,8 @@ def cuts(facts: Facts) -> list[Cut]:
                 fits = sent == kind or sent in ANY or kind in ANY
                 linked = sender in facts.nodes and (topic, receiver) in facts.nodes[sender].links
                 if fits and not linked and _answers(facts, sender) and _answers(facts, receiver):
-                    found.append(Cut(topic, sender, receiver))
-    return found
+                    pairs.append(Cut(topic, sender, receiver))
+    return pairs
 
 
 def mismatched(facts: Facts) -> set[str]:

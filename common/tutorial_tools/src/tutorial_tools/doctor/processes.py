@@ -1,7 +1,7 @@
 """Finds the nodes that run on this machine, also those that the master does not know.
 
-Asked are only programs that have roscpp or keep a log of rospy open: a question might disturb
-another server. The processes of other users are not seen.
+Only programs that have roscpp, or a log of rospy open, are called: a call might disturb another
+server. The processes of other users are not seen.
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ from tutorial_tools.doctor.facts import Stray
 from tutorial_tools.doctor.network import addresses, at_once, call, header, is_here
 
 PROC = Path("/proc")
-LISTENS = "0A"  # the state of such a socket in /proc/net/tcp
-ASK_S = 5.0  # for all of them
+LISTENS = "0A"  # The state of a listening socket in /proc/net/tcp.
+ASK_S = 5.0  # The timeout for all nodes together.
 
 
 class Running(NamedTuple):
@@ -46,8 +46,8 @@ def running() -> list[Running]:
             sockets = [ports[link] for link in _descriptors(process) if link in ports]
             if sockets and pid != os.getpid() and _is_of_ros(process):
                 uris[pid] = sockets[::-1]
-    found = at_once(lambda pid: _ask(pid, uris[pid]), uris, ASK_S)
-    return [node for _, node in sorted(found.items()) if node]
+    answers = at_once(lambda pid: _ask(pid, uris[pid]), uris, ASK_S)
+    return [node for _, node in sorted(answers.items()) if node]
 
 
 def strays(nodes: list[Running], master_uri: str, known: set[str]) -> list[Stray]:
@@ -55,7 +55,7 @@ def strays(nodes: list[Running], master_uri: str, known: set[str]) -> list[Stray
 
     known: the URIs of the nodes that it knew meanwhile.
     """
-    found, ports = [], {urlsplit(uri).port for uri in known}
+    lost, ports = [], {urlsplit(uri).port for uri in known}
     for node in nodes:
         if node.name == "/rosout" or urlsplit(node.uri).port in ports:
             continue  # rosout comes and goes with its roscore
@@ -65,25 +65,25 @@ def strays(nodes: list[Running], master_uri: str, known: set[str]) -> list[Stray
             isinstance(registered, str) and urlsplit(registered).port == urlsplit(node.uri).port
         )
         if not is_known and call(node.uri, "getPid")[0] is Answer.WELL:
-            found.append(Stray(node.name, node.pid, own))
-    return found
+            lost.append(Stray(node.name, node.pid, own))
+    return lost
 
 
 def is_same(uri: str, other: str) -> bool:
     """Return whether two URIs lead to one master."""
     with contextlib.suppress(ValueError):
-        one, two = urlsplit(uri), urlsplit(other)
-        if one.port != two.port:
+        first, second = urlsplit(uri), urlsplit(other)
+        if first.port != second.port:
             return False
-        mine, theirs = addresses(one.hostname or ""), addresses(two.hostname or "")
+        mine, theirs = addresses(first.hostname or ""), addresses(second.hostname or "")
         local = bool(mine and theirs) and all(map(is_here, [*mine, *theirs]))
-        return one.hostname == two.hostname or local or bool({*mine} & {*theirs})
+        return first.hostname == second.hostname or local or bool({*mine} & {*theirs})
     return False
 
 
 def _listening() -> dict[str, str]:
     """Return {link of a descriptor: URI} of the ports on which something listens here."""
-    found = {}
+    uris = {}
     for table in ("tcp", "tcp6"):
         with contextlib.suppress(OSError):
             for line in (PROC / "net" / table).read_text().splitlines()[1:]:
@@ -94,8 +94,8 @@ def _listening() -> dict[str, str]:
                     host = socket.inet_ntoa(struct.pack("=I", int(number, 16)))
                 host = "127.0.0.1" if host == "0.0.0.0" else host
                 if state == LISTENS:
-                    found[f"socket:[{rest[5]}]"] = f"http://{host}:{int(port, 16)}/"
-    return found
+                    uris[f"socket:[{rest[5]}]"] = f"http://{host}:{int(port, 16)}/"
+    return uris
 
 
 def _descriptors(process: Path) -> list[str]:
@@ -108,9 +108,8 @@ def _descriptors(process: Path) -> list[str]:
 
 
 def _is_of_ros(process: Path) -> bool:
-    logs = rospkg.get_log_dir()
-    if any(re.search(r"\.log(\.\d+)?( \(deleted\))?$", link) and link.startswith(logs)
-           for link in _descriptors(process)):  # fmt: skip
+    log = re.compile(re.escape(rospkg.get_log_dir()) + r".*\.log(\.\d+)?( \(deleted\))?")
+    if any(log.fullmatch(link) for link in _descriptors(process)):
         return True
     return b"/libroscpp.so" in (process / "maps").read_bytes()
 
@@ -118,12 +117,12 @@ def _is_of_ros(process: Path) -> bool:
 def _ask(pid: int, uris: list[str]) -> Running | None:
     """Return the node of a process, which may listen on several ports."""
     for uri in uris:
-        answer, topics = call(uri, "getPublications")  # a master or roslaunch does not know that
+        answer, topics = call(uri, "getPublications")  # A master and roslaunch have no such method.
         if answer is Answer.WELL:
-            _, name = call(uri, "getName")  # rospy alone has these two
+            _, name = call(uri, "getName")  # Only rospy has these two.
             _, master_uri = call(uri, "getMasterUri")
-            for topic, _ in [] if name else topics[-1:]:
-                name = header(uri, topic).get("callerid")
+            if not name and topics:
+                name = header(uri, topics[-1][0]).get("callerid")
             return Running(uri, name or _program(pid), pid, master_uri or _master_uri(pid))
     return None
 

@@ -60,10 +60,11 @@ def missing_in(output: str) -> list[str]:
 
 def not_found(session: Session, name: str) -> tuple[str, str, str]:
     """Return (seen, where, hint) for a package of a CMakeLists.txt that catkin does not find."""
-    cmakes = [(f"{each.inside}/CMakeLists.txt", each.cmake or "") for each in session.packages]
+    packages = session.packages
+    cmakes = [(f"{package.inside}/CMakeLists.txt", package.cmake or "") for package in packages]
     places = ((place_of(file, text, name), text) for file, text in cmakes if name in text)
     place, text = next(places, ("", ""))
-    absent = {each for names in WANTED.values() for each in names if each not in text}
+    absent = {wanted for names in WANTED.values() for wanted in names if wanted not in text}
     hint = ""
     if "," not in name and not is_lacking(name):
         hint = meant(name, absent, 0.65, f"correct {name} to {{}} in CMakeLists.txt")
@@ -117,7 +118,8 @@ def _of_header(session: Session, message: str, target: str) -> str:
     header = HEADER.search(message)
     if not header:
         return ""
-    package = next((each for each in session.packages if each.name == header[1]), None)
+    packages = (package for package in session.packages if package.name == header[1])
+    package = next(packages, None)
     if not package:
         return advice(header[1], packages_of_ros(header[1]))
     files = [path for kind in MAKERS for path in (package.folder / kind).glob("*")]
@@ -154,7 +156,7 @@ def _target(session: Session, output: str) -> tuple[Package | None, str]:
     target = TARGET.search(output)
     if not target:
         return None, ""
-    inside = (each for each in session.packages if each.inside == target[1])
+    inside = (package for package in session.packages if package.inside == target[1])
     return next(inside, None), target[2]
 
 
