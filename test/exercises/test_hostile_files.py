@@ -120,6 +120,6 @@ def test_what_no_student_wrote_is_read_in_bounded_time_and_memory(hostile, under
         lines = [str(error)]
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     used_s = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    assert used_s < MOST_CPU_S + 3  # of what else is started
-    assert after.ru_maxrss >> 10 < MOST_MB + 50  # of libraries; of all until now
+    assert used_s < MOST_CPU_S + 3  # The rest is for the programs that it starts.
+    assert after.ru_maxrss >> 10 < MOST_MB + 50  # The rest is for libraries.
     assert all("\n" not in line and "\x1b" not in line and len(line) < 700 for line in lines), lines

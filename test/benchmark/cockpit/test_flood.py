@@ -111,7 +111,7 @@ def test_a_plot_leaves_the_browser_and_the_driver_their_time(figure, what):
 def tasks(browser):
     """Return how long the main thread of the page has worked until now [s]."""
     metrics = browser.send("Performance.getMetrics")["metrics"]
-    return next(one["value"] for one in metrics if one["name"] == "TaskDuration")
+    return next(metric["value"] for metric in metrics if metric["name"] == "TaskDuration")
 
 
 def check(figure, what, beside_s, alone_s, most_s):

@@ -17,7 +17,7 @@ TEXT = "std_msgs/String"
 VALUES = {VELOCITY: {"linear/x": "1"}, TEXT: {"data": "a"}, JOY: {"axes": "[1]", "buttons": "[1]"}}
 TICK_S, BEAT_S = 0.01, 0.05
 REST = {VELOCITY: 0.0, JOY: (0.0,)}
-LOST_S, ONCE = 0.6, 0.0  # by then the zero is published; the period of what is published once
+LOST_S, ONCE = 0.6, 0.0  # The zero's deadline [s]; the period for a message that is published once.
 
 
 def value_of(message):

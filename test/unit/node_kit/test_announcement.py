@@ -30,7 +30,7 @@ def master(monkeypatch):
     monkeypatch.setenv("ROS_MASTER_URI", f"http://127.0.0.1:{server.server_address[1]}")
     monkeypatch.setenv("ROS_IP", "127.0.0.1")
     monkeypatch.setattr(sys, "argv", ["turtlesim_node"])
-    monkeypatch.setattr(atexit, "register", lambda _: None)  # of the tests' process
+    monkeypatch.setattr(atexit, "register", lambda _: None)  # It would run when the tests end.
     monkeypatch.setattr(signal, "signal", lambda *_: None)
     yield state, told
     server.shutdown()

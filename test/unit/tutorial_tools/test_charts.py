@@ -34,7 +34,7 @@ def test_what_the_archive_lacks_is_fetched_and_served(registry, tmp_path, monkey
     }
     assert "the archive lacks" in capsys.readouterr().err
     monkeypatch.setenv("TUTORIAL_RESULTS", str(workspace))
-    monkeypatch.setattr(web, "CHARTS", tmp_path / "none")
+    monkeypatch.setattr(web, "OF_DEBIAN", tmp_path / "none")
     assert web.folder_of_charts() == folder
     registry.unlink()
     charts.fetch_charts(workspace, again=True)

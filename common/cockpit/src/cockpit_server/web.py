@@ -20,8 +20,8 @@ from cockpit_server.access import DRIVER, Access, without_token
 from cockpit_server.clients import Client
 from cockpit_server.hub import Hub
 from node_kit.rospy_patches.newest_only import CUT_AFTER_RESENDS, resends
+from tutorial_tools.command.charts import FETCHED, OF_DEBIAN
 
-CHARTS = Path("/usr/share/javascript/dygraphs")
 HEADERS = {
     "X-Content-Type-Options": "nosniff",
     "X-Frame-Options": "DENY",
@@ -212,7 +212,8 @@ class _Server(HTTPServer):
 
 def folder_of_charts() -> Path:
     """Return where dygraphs is: Debian's, or what ./tutorial has fetched where there is none."""
-    return CHARTS if CHARTS.exists() else Path(os.environ.get("TUTORIAL_RESULTS", ""), "charts")
+    fetched = Path(os.environ.get("TUTORIAL_RESULTS", ""), FETCHED)
+    return OF_DEBIAN if OF_DEBIAN.exists() else fetched
 
 
 def server(hub: Hub, access: Access) -> HTTPServer:

@@ -10,7 +10,8 @@ from pathlib import Path
 
 from tutorial_tools.system.apt import say
 
-OF_DEBIAN = Path("/usr/share/javascript/dygraphs")  # cockpit_server.web serves it from there
+OF_DEBIAN = Path("/usr/share/javascript/dygraphs")
+FETCHED = "charts"  # folder in the workspace
 URL = "https://registry.npmjs.org/dygraphs/-/dygraphs-2.2.1.tgz"  # the release of Debian 12 and 13
 SHA256 = "f515549becffeb0912b0dffa963f7d42726818ca7ef5605bdd7707995742b7ec"
 FILES = ("dygraph.min.js", "dygraph.css")
@@ -22,7 +23,7 @@ def fetch_charts(workspace: Path, again: bool) -> None:
 
     again: try again after a failure.
     """
-    folder, failed = workspace / "charts", workspace / "no_charts"
+    folder, failed = workspace / FETCHED, workspace / "no_charts"
     is_there = OF_DEBIAN.exists() or all((folder / name).exists() for name in FILES)
     if is_there or (failed.exists() and not again):
         return

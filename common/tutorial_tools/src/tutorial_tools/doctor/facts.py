@@ -176,7 +176,7 @@ class Facts:
         return [t for t in self.used() if any(self.users(t, kind, inwards) for inwards in ends)]
 
     def dead(self) -> set[str]:
-        """Return the nodes that have died; the master does not miss them."""
+        """Return the nodes that have died; the master still lists them."""
         return {name for name, node in self.nodes.items() if node.answer in DEAD}
 
     def senders(self, topic: str) -> list[str]:

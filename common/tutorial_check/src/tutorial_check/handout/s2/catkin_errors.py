@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+from node_kit.printable import printable
 from tutorial_check.handout.s2.wanted import WANTED
 from tutorial_check.model import Wrong
 from tutorial_check.record.session import Session
@@ -13,7 +14,6 @@ from tutorial_check.source.launch_xml import place_of
 from tutorial_check.source.workspace import Package
 
 EXPECTED = "catkin_make without an error"
-COLOURS = re.compile(r"\x1b\[[0-9;]*m")
 NOTABLE = re.compile(r"Error at|^E: |mismatched tag|error:|Could not find|Multiple packages")
 CMAKE_ERROR = re.compile(r"^CMake Error(?: at [^\n]*)?:\s(.*?)(?:\n\n\n|\Z)", re.M | re.S)
 # What genmsg says of a message or service: (file, type) or (file, what it read there).
@@ -43,7 +43,7 @@ MADE = "(?:Request|Response|Config|(?:Action)?(?:Goal|Result|Feedback)?)"
 
 def build_error(session: Session, output: str) -> Wrong:
     """Return the Wrong for the first error in what catkin_make printed."""
-    output = COLOURS.sub("", output)
+    output = printable(output)
     is_of_cmake = CMAKE_ERROR.search(output)
     readers = () if is_of_cmake else (_of_compiler, _of_linker)
     for read in (_of_definition, _of_package, *readers):
