@@ -38,7 +38,7 @@ BESIDE = """
   </group>
 </launch>
 """
-READY_S = 0.5  # of a processor; upstream's took 0.31 s
+READY_S = 0.5  # Processor time; upstream's node took 0.31 s.
 TIMES = 10
 
 

@@ -98,7 +98,7 @@ def test_cells_are_those_of_map_server(tmp_path, image, given, values):
     [
         (HOLED, 205, [-1, -1, 0, -1]),  # gray and alpha, averaged
         (HOLED.point(lambda shade: shade // 16 * 17), 204, [-1, -1, 0, -1]),
-        (COLOURS, (170, 170, 0), [-1, -1]),  # of RGB it counts for nothing
+        (COLOURS, (170, 170, 0), [-1, -1]),  # It has no effect in RGB.
         (INDEXED, b"\xff\0", [100, 100]),
         (INDEXED, b"\xff\xff", [100, 100]),
         (INDEXED, b"\xff\x80", [0, 100]),  # half of a colour: RGBA

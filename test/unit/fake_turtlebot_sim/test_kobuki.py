@@ -92,7 +92,7 @@ def test_the_stream_has_the_parts_of_a_real_packet():
     assert parts[5] == struct.pack("<3H", 1500, 1500, 1500)
     frame, count, *digits = struct.unpack("<2B6h", parts[13])
     assert (frame, count) == (10, 6)
-    assert digits == [0, 0, 3274, 0, 0, 6548]  # of 0.00875 deg/s, two readings
+    assert digits == [0, 0, 3274, 0, 0, 6548]  # Two readings [0.00875 deg/s].
 
 
 def test_without_power_a_robot_stands_and_with_it_waits_for_a_new_command():

@@ -10,7 +10,7 @@ from node_kit.start import remedy
     [
         ("~rate: 'abc': must be a number", {"rate"}, "rosparam delete /joy_node/rate"),
         ("~dve: '/x': no such parameter", {"dve", "rate"}, "rosparam delete /joy_node/dve"),
-        ("~rate: 'abc': must be a number", {"dev"}, ""),  # of the command line
+        ("~rate: 'abc': must be a number", {"dev"}, ""),  # The command line has it.
         ("a file is missing", {"rate"}, ""),
     ],
 )

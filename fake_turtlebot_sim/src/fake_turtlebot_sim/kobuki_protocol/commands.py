@@ -7,14 +7,14 @@ from typing import Sequence
 from fake_turtlebot_sim.kobuki_protocol.packets import bits, int16, packet, part
 
 WHEEL_SEPARATION_MM = 230.0
-SMALL = 1e-4  # [m/s, rad/s] what counts as none
-POWER_ON = 0x00F0  # of all four supplies, as the driver starts
+SMALL = 1e-4  # [m/s, rad/s] Less counts as zero.
+POWER_ON = 0x00F0  # All four supplies are on, as the driver starts.
 LED_COLOURS = (0, 2, 3, 1)  # two bits, red and green, of kobuki_msgs' BLACK, GREEN, ORANGE, RED
 SOUNDS = 7
 
 
 def speed_and_radius(v: float, w: float) -> tuple[int, int]:
-    """Return how a Kobuki is told v [m/s] and w [rad/s]: [mm/s] and [mm].
+    """Return v [m/s] and w [rad/s] as a Kobuki takes them: speed [mm/s] and radius [mm].
 
     A radius of 0 is straight ahead, one of 1 a turn on the spot. Otherwise the speed is that of the
     outer wheel.
@@ -67,7 +67,7 @@ class Outputs:
         return self._set(3 << shift, LED_COLOURS[value] << shift)
 
     def digital(self, values: Sequence[bool], mask: Sequence[bool]) -> bytes:
-        """Return the packet that sets those of the four pins that the mask has."""
+        """Return the packet that sets the pins (of four) that the mask names."""
         return self._set(bits(mask), bits(values))
 
     def power(self, source: int, state: int) -> bytes:
