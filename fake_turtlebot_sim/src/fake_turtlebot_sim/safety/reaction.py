@@ -11,7 +11,7 @@ Velocity = Tuple[float, float]  # [m/s], [rad/s]
 BACK_M_S, TURN_RAD_S = -0.1, 0.4
 LEFT, CENTER, RIGHT = 0, 1, 2  # kobuki_msgs
 BUMPS = ("bumper", "cliff")  # kinds of sensors that are treated alike; the other: wheel_drop
-TURNS = {CENTER: 0.0, LEFT: -TURN_RAD_S, RIGHT: TURN_RAD_S}  # [rad/s] The first one that is active decides.
+TURNS = {CENTER: 0.0, LEFT: -TURN_RAD_S, RIGHT: TURN_RAD_S}  # [rad/s] The first active one decides.
 
 
 class Reaction:
