@@ -25,7 +25,7 @@ def test_types_that_genpy_made_are_known():
     assert message_class("std_srvs/Empty") is service_class("std_msgs/String") is None
 
 
-@settings(max_examples=3000)
+@settings(max_examples=300)
 @given(names)
 @example("unittest.__main__/x")
 @example("std_msgs/msg/String")
