@@ -1,6 +1,7 @@
 """What a person meets who uses every tab: signs of what was done, all in sight, few bytes."""
 
 import pytest
+import rospkg
 from selenium.webdriver.common.keys import Keys as Key
 
 from tutorial_testing.cockpit.hands import Keys
@@ -102,6 +103,37 @@ def test_a_hovered_tab_does_not_look_like_the_chosen_one(world, page):
     line = "getComputedStyle(document.querySelector('#tab-%s')).borderBottomColor"
     assert page.ask("document.querySelector('#tab-log').matches(':hover')")
     assert page.ask(line % "log") == "rgba(0, 0, 0, 0)" != page.ask(line % "robot")
+
+
+def test_graph_shows_an_anonymous_node_without_its_numbers(world, page):
+    page.tab("Graph")
+    with world.run("rostopic", "pub", "-r", "1", "/named", "std_msgs/Empty"):
+        wait_for(lambda: "/rostopic_…" in page.text("#graph-picture"), "its name in short")
+
+
+def test_a_recording_of_rosbag_is_answered_by_how_to_pause_it(world, page):
+    bag = rospkg.RosPack().get_path("gamepad") + "/bag/joy.bag"
+    with world.run("rosbag", "play", "--loop", bag, "__name:=rosbag"):
+        page.wait_for_text("#ready", "pause it first (tab Topics, Show: services")
+    page.wait_for_text("#session", "Nobody drives.")
+    world.wait_for_rest()
+
+
+def test_a_page_that_is_opened_before_the_master_comes_by_itself(shared_browser):
+    class Early(World):
+        def begin(self):
+            self.cockpit = self.run(node_path("cockpit", "cockpit.py"), "--port", str(self.port))
+            wait_for(lambda: "waiting for a ROS master" in self.cockpit.output, "its line")
+            shared_browser.driver.get(f"http://127.0.0.1:{self.port}/")
+            wait_for(lambda: "start roscore" in shared_browser.text("body"), "what to do")
+            super().begin()
+
+        def start_cockpit(self):
+            self.find_page()
+
+    with Early():
+        wait_for(lambda: shared_browser.all("#me"), "page")
+        shared_browser.wait_for_text("#me", "page")
 
 
 @pytest.mark.parametrize("tab", ["graph", "log", "doctor"])

@@ -92,3 +92,14 @@ def test_a_change_of_tab_keeps_the_view_of_walls_scan_and_bumper(two, shared_bro
     assert wait_for(lambda: settled(page, "--wall"), "walls again") == view
     assert page.one("#follow").get_attribute("aria-pressed") == "false"
     assert page.errors() == []
+
+
+SCAN = """{header: {frame_id: base_link}, angle_min: -0.5, angle_increment: 0.1, range_min: 0.1,
+  range_max: 9, ranges: [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]}"""
+
+
+def test_a_scan_without_a_map_is_on_the_floor_until_it_ends(world, page):
+    """As of a real TurtleBot before gmapping is started."""
+    with world.run("rostopic", "pub", "-r", "10", "/scan", "sensor_msgs/LaserScan", SCAN):
+        wait_for(lambda: page.ask(DRAWN % "--scan")[0] > 50, "scan")
+    wait_for(lambda: page.ask(DRAWN % "--scan")[0] == 0, "end of the scan")

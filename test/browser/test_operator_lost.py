@@ -99,6 +99,7 @@ def start_server(it):
     it.browser.wait_for_text("#connection", "Connected")
     assert "Start it again" not in it.browser.text("#notice")
     it.browser.wait_for_text("#session", "Nobody drives")
+    wait_for(lambda: "/cockpit" not in it.browser.text("#session"), "no word of the killed one")
 
 
 def plug_cable(it):

@@ -1,6 +1,7 @@
 """The map and the scan, as pages get them."""
 
 import base64
+import time
 from math import cos, inf, nan, pi
 from types import SimpleNamespace
 
@@ -46,9 +47,9 @@ class Seen(Topics):
         self.page = page(floor=True, look="ada")
         self.look()
 
-    def look(self):
-        """Return what the page is sent now, by kind."""
-        return {message["kind"]: message for message in look(self.source, self.page)[0]}
+    def look(self, now=0.0):
+        """Return what the page is sent at a time [s], by kind."""
+        return {message["kind"]: message for message in look(self.source, self.page, now=now)[0]}
 
 
 def test_a_page_gets_the_map_and_the_scan_when_they_change():
@@ -77,6 +78,8 @@ def test_a_robot_without_a_map_has_a_scan_all_the_same():
     seen = Seen()
     seen.hear("/ada/scan", scan([2.0, inf, nan]))
     assert len(seen.look()["scan"]["points"]) == 1
+    assert seen.look(time.monotonic() + 1.0) == {}
+    assert seen.look(time.monotonic() + 3.0)["scan"]["points"] == []  # its scanner was killed
 
 
 @pytest.mark.parametrize(

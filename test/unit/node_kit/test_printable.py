@@ -2,7 +2,9 @@
 
 import pytest
 
+from node_kit.arguments import Parser
 from node_kit.printable import LONGEST, printable, quotable
+from node_kit.start import run
 
 
 @pytest.mark.parametrize(
@@ -19,3 +21,18 @@ def test_escape_sequences_and_control_characters_are_left_out(text, shown):
 def test_a_quoted_text_has_a_bounded_length():
     assert quotable("a" * LONGEST) == "a" * LONGEST
     assert quotable("a" * 10**7) == "a" * LONGEST + " ..."
+
+
+def test_no_line_on_a_mistake_has_an_escape_sequence(capsys, monkeypatch):
+    """As of a world's file with one in it."""
+
+    def load(_parameters):
+        raise ValueError("~world: \x1b[2Jroom: no such file")
+
+    monkeypatch.setattr("node_kit.start._check_master", lambda: None)
+    monkeypatch.setattr("node_kit.start._parameters", lambda _name: ({}, set()))
+    assert run("node", load, lambda _parameters: None) == 1
+    with pytest.raises(SystemExit):
+        Parser(prog="program").error("\x1b[31mred")
+    lines = capsys.readouterr().err
+    assert "no such file" in lines and "red" in lines and "\x1b" not in lines

@@ -48,6 +48,8 @@ def run(
     Everything is checked before rospy.init_node(), which ends a running node of the same name. The
     parameters of the command line are not put on the master, where they would stay.
     """
+    own_name = name
+    stored: set[str] = set()
     try:
         own_name = full_name(name)
         _check_master()

@@ -22,6 +22,7 @@ MOST_CELLS = 250_000  # in a page's map; a larger map gets larger cells
 LARGEST_MAP = 20_000_000  # bytes
 MOST_POINTS = 160  # in a page's scan
 LONGEST_SCAN = 200_000  # bytes
+OLD_S = 2.0  # An older scan is not shown; the slowest scanners have 5 in a second.
 MOST_FRAMES, LONGEST_FRAMES, LONGEST_NAME = 5_000, 1_000_000, 200  # in all; bytes; characters
 DIGITS = 3  # after the point [m]
 
@@ -60,6 +61,8 @@ class Surroundings(Source):
             client.send("map", **self._map)
         robot = client.watch.look
         came, data = self._scans.get(topic_of(robot or "", "scan"), (0.0, b""))
+        if now - came > OLD_S:  # of a scanner that has ended, or was killed
+            came, data = 0.0, b""
         is_wanted = robot is not None and (data or "scan" in client.seen)  # or it has ended
         if is_wanted and client.take_if_new("scan", (robot, came)):
             points = scan_points(data, self._mounts) if data else []
