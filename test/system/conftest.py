@@ -12,6 +12,7 @@ from tutorial_testing.student import Student
 from tutorial_testing.two_hosts.network import Host
 from tutorial_testing.two_hosts.scene import Scene
 from tutorial_testing.waiting import DEADLINE_S
+from tutorial_tools.command.build import WAITS
 
 
 @pytest.fixture
@@ -40,11 +41,14 @@ def tutorial():
 
 @pytest.fixture(scope="session")
 def call(tutorial):
-    """A function that runs ./tutorial to its end, and returns (exit code, output)."""
+    """A function that runs ./tutorial to its end, and returns (exit code, output).
+
+    Without the line that it waits for another test's, which may come at any call.
+    """
 
     def run(*words, deadline_s=DEADLINE_S, **environment):
         with Program(tutorial, *words, **environment) as program:
-            return program.wait(deadline_s), program.output
+            return program.wait(deadline_s), program.output.replace(f"tutorial: {WAITS}\n", "")
 
     return run
 

@@ -61,7 +61,7 @@ class Surroundings(Source):
             client.send("map", **self._map)
         robot = client.watch.look
         came, data = self._scans.get(topic_of(robot or "", "scan"), (0.0, b""))
-        if now - came > OLD_S:  # of a scanner that has ended, or was killed
+        if now - came > OLD_S:  # The scanner has ended, or was killed.
             came, data = 0.0, b""
         is_wanted = robot is not None and (data or "scan" in client.seen)  # or it has ended
         if is_wanted and client.take_if_new("scan", (robot, came)):
