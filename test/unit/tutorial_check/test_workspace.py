@@ -10,6 +10,7 @@ import pytest
 from tutorial_check.model import CannotCheck
 from tutorial_check.record import session
 from tutorial_check.source import workspace
+from tutorial_check.source.manifests import unreadable
 from tutorial_check.source.workspace import (
     Layout,
     copy,
@@ -220,3 +221,12 @@ def test_folders_in_folders_without_end_are_one_line(tmp_path, reads):
     with pytest.raises(CannotCheck, match="folders in folders") as caught:
         reads(top)
     assert str(caught.value).startswith(f"{top}:")
+
+
+def test_a_manifest_that_nobody_wrote_is_called_too_large(tmp_path):
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine" / "package.xml").write_text("<package>" + " " * 2_000_000)
+    [package] = packages_below(tmp_path)
+    wrong = unreadable(package)
+    assert (wrong.seen, wrong.where) == ("larger than 256 kB", "mine/package.xml")
+    assert "catkin_create_pkg" in wrong.hint and "tag" not in wrong.hint

@@ -11,6 +11,7 @@ from node_kit.manifests import broken_manifests
 from tutorial_check.model import Wrong
 from tutorial_check.source.causes import explained
 from tutorial_check.source.launch_xml import place_of, read
+from tutorial_check.source.student_files import TOO_LARGE
 from tutorial_check.source.workspace import Package
 
 # The real ones may well be in a student's src.
@@ -25,7 +26,9 @@ def is_stand_in(name: str) -> bool:
 def unreadable(package: Package) -> Wrong:
     """Return the Wrong for a package.xml that is no XML, or not what catkin makes of it."""
     where = f"{package.inside}/package.xml"
-    if package.malformed:
+    if package.error == TOO_LARGE:
+        hint = "take the one of a new package of catkin_create_pkg, which has some sixty lines"
+    elif package.malformed:
         line = re.search(r"line (\d+)", package.error)
         where += f":{line[1]}" if line else ""
         hint = "repair that line or the one before: each <tag> needs its </tag>"
