@@ -6,7 +6,6 @@ Parts: workspace, student=PATH, pypi=NAME:FILE, maybe=NAME:FILE, alone=NAME:FILE
 from __future__ import annotations
 
 import contextlib
-import fcntl
 import filecmp
 import hashlib
 import os
@@ -14,13 +13,12 @@ import re
 import shutil
 import subprocess
 import sys
-import time
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import TextIO
 
 from node_kit.manifests import broken_manifests, manifests
 from tutorial_tools.command.errors import first_errors
+from tutorial_tools.command.lock import one_at_a_time
 from tutorial_tools.command.requirements import names_of
 from tutorial_tools.hidden import hidden_stand_ins
 from tutorial_tools.system.apt import SetUpError, say
@@ -33,8 +31,6 @@ SHARE = Path(PREFIX or "/usr", "share")  # where its packages are
 OVERLAY = ("beginner_tutorials", "joy2twist", "test")  # the solutions
 # Commands of the shell, under these names.
 COMMANDS = ("common/tutorial_tools/scripts/2to3", "tutorial")
-PATIENCE_S = 2.0  # A wait for another call that is shorter is not worth a line.
-WAITS = "another ./tutorial is building here; this one waits for it"
 
 
 def stamp() -> str:
@@ -70,29 +66,6 @@ def clean_catkin_make(below: Path | None, folder: Path, log: Path) -> bool:
         command = ["bash", "-c", script, str(below or "bash"), str(folder)]
         done = subprocess.run(command, check=False, env=environment, stdout=file, stderr=file)
     return done.returncode == 0
-
-
-@contextlib.contextmanager
-def one_at_a_time(workspace: Path) -> Iterator[None]:
-    """Of two calls at once let one do the work, and the other wait and find it done."""
-    workspace.mkdir(parents=True, exist_ok=True)
-    with open(workspace / "lock", "w", encoding="utf-8") as file:
-        end_s = time.monotonic() + PATIENCE_S
-        while not _is_locked_by(file):
-            if time.monotonic() > end_s:
-                say(WAITS)
-                fcntl.flock(file, fcntl.LOCK_EX)
-                break
-            time.sleep(0.05)
-        yield
-
-
-def _is_locked_by(file: TextIO) -> bool:
-    """Lock a file; return whether that was possible without waiting."""
-    with contextlib.suppress(BlockingIOError):
-        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        return True
-    return False
 
 
 def is_built(workspace: Path) -> bool:
