@@ -1,6 +1,5 @@
 """The table of a class: all columns in sight, on paper too, and readable for all, by axe."""
 
-import base64
 from pathlib import Path
 
 import pytest
@@ -62,8 +61,5 @@ def test_all_columns_of_a_class_are_on_paper(address, shared_browser):
     page.send("Emulation.setEmulatedMedia", media="print", features=[])
     page.resize(A4_LANDSCAPE_PX, HEIGHT)
     assert page.ask("document.documentElement.scrollWidth") <= A4_LANDSCAPE_PX
-    printed = page.send("Page.printToPDF", preferCSSPageSize=True)
-    paper = base64.b64decode(printed["data"])
-    assert paper.startswith(b"%PDF")
     page.send("Emulation.setEmulatedMedia", media="")
     page.resize()

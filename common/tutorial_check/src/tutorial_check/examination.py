@@ -65,7 +65,8 @@ def _process() -> Any:
     finally:
         line.close()
         try:
-            process.wait(2 * END_S)  # It ends its own processes first.
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                process.wait(2 * END_S)  # It ends its own processes first.
         finally:
             process.kill()
             process.wait()
@@ -79,7 +80,11 @@ def _answer(process: subprocess.Popen[bytes], line: Connection) -> Answer:
                 raise CannotCheck("it was ended")
         return line.recv()
     except (EOFError, OSError):
-        code = process.wait()
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            process.wait(END_S)
+    code = process.poll()
+    if code is None:
+        raise CannotCheck("the process that reads it no longer answers")
     if code == -signal.SIGXCPU:
         raise CannotCheck(TOO_LONG)
     how = signal.strsignal(-code) if code < 0 else f"exit code {code}"
