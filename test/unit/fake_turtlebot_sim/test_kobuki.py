@@ -9,6 +9,7 @@ from fake_turtlebot_sim.simulator import kobuki
 from fake_turtlebot_sim.simulator.parameters import Parameters
 from fake_turtlebot_sim.simulator.sensors import Sensed
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot, Verdict
+from kobuki_protocol import messages, robot_packets
 from tutorial_testing.processes import REPOSITORY
 
 SECOND = 1_000_000_000
@@ -21,7 +22,7 @@ def robot(cmd_vel_timeout=60.0):
 
 def packet(one, now_ns=0, pressed=(False, False, False)):
     one.advance(now_ns)
-    return kobuki.core(now_ns, one, pressed)
+    return messages.sensor_state(kobuki.sensors(now_ns, one, pressed), None)
 
 
 @pytest.mark.parametrize(
@@ -77,7 +78,9 @@ def test_the_stream_has_the_parts_of_a_real_packet():
     one = robot()
     one.command((0.5, 1.0), 0)
     state = packet(one, 100_000_000)
-    data = kobuki.stream(state, pi / 2, -1.0, (0.5, 1.0))
+    sensed = kobuki.sensors(100_000_000, one, [False] * 3)
+    feedback = kobuki.with_gyro(sensed, pi / 2, -1.0, (0.5, 1.0))
+    data = robot_packets.build(*feedback.parts())
     assert (len(data), data[:3]) == (81, b"\xaa\x55\x4d")
     parts, rest = {}, data[3:-1]
     while rest:
@@ -88,7 +91,7 @@ def test_the_stream_has_the_parts_of_a_real_packet():
     head, tail = struct.unpack("<H3B2H", parts[1][:9]), struct.unpack("<2b4B", parts[1][9:])
     assert head == (100, 0, 0, 0, state.left_encoder, state.right_encoder)
     assert tail == (state.left_pwm, state.right_pwm, 0, 0, 164, 0)
-    assert struct.unpack("<2h", parts[4][:4]) == (9000, -5729)  # [0.01 deg, 0.01 deg/s]
+    assert struct.unpack("<2h", parts[4][:4]) == (9000, -5730)  # [0.01 deg, 0.01 deg/s]
     assert parts[5] == struct.pack("<3H", 1500, 1500, 1500)
     frame, count, *digits = struct.unpack("<2B6h", parts[13])
     assert (frame, count) == (10, 6)

@@ -6,11 +6,11 @@ from math import hypot, remainder, tau
 import pytest
 
 from fake_turtlebot_sim.safety.reaction import Reaction
-from fake_turtlebot_sim.simulator.kobuki import EVENTS
 from fake_turtlebot_sim.simulator.parameters import Parameters
 from fake_turtlebot_sim.simulator.sensors import Sensed
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
 from fake_turtlebot_sim.simulator.world_files import read_world, shipped_worlds
+from kobuki_protocol.events import EVENTS
 
 PERIOD_S = 0.02  # sensor period
 DELAY, LONGEST_DELAY = 2, 5  # periods from an event to the command that answers it

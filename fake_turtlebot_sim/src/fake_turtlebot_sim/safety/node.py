@@ -12,7 +12,7 @@ from std_msgs.msg import Empty
 
 from fake_turtlebot_sim.safety.parameters import Parameters, parse_parameters
 from fake_turtlebot_sim.safety.reaction import Reaction
-from fake_turtlebot_sim.simulator.kobuki import EVENTS, QUEUE
+from kobuki_protocol.events import EVENTS, QUEUE
 from node_kit.log import Log
 from node_kit.rospy_patches.connections import has_sender, report_bad_messages
 from node_kit.rospy_patches.prompt_publisher import PromptPublisher

@@ -2,33 +2,33 @@
 
 from __future__ import annotations
 
-from math import cos, sin
-from sys import float_info
 from typing import Any, Callable
 
 import rospy
-from geometry_msgs.msg import Quaternion, Vector3
 from kobuki_msgs import msg
 from sensor_msgs.msg import Imu
-from std_msgs.msg import Header, Int16MultiArray, String
+from std_msgs.msg import Int16MultiArray, String
 
-from fake_turtlebot_sim.kobuki_protocol import commands
 from fake_turtlebot_sim.simulator.differential_drive import wrap_angle
-from fake_turtlebot_sim.simulator.kobuki import EVENTS, QUEUE, core, stream
+from fake_turtlebot_sim.simulator.kobuki import sensors, with_gyro
 from fake_turtlebot_sim.simulator.parameters import Parameters
 from fake_turtlebot_sim.simulator.ros_clock import Motion
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
+from kobuki_protocol import command_messages, commands, messages, robot_packets
+from kobuki_protocol.base_control import base_control, control_values
+from kobuki_protocol.events import EVENTS, QUEUE
+from kobuki_protocol.feedback import Feedback, RawGyro
+from kobuki_protocol.identity import Controller, FirmwareVersion, HardwareVersion, UniqueId
 from node_kit.log import Log
 from node_kit.rospy_patches.prompt_publisher import PromptPublisher
 
+IDENTITY = HardwareVersion(4, 0, 1), FirmwareVersion(0, 2, 1), UniqueId((0, 0, 0))
 # Published once: what a Kobuki answers when its driver asks.
 LATCHED = {
-    "version_info": msg.VersionInfo("1.0.4", "1.2.0", "simulated", [0, 0, 0], 3),  # both features
-    "controller_info": msg.ControllerInfo(msg.ControllerInfo.DEFAULT, 100.0, 0.1, 2.0),
+    "version_info": messages.version_info(*IDENTITY, software="simulated"),
+    "controller_info": messages.controller_info(Controller()),
     "events/robot_state": msg.RobotStateEvent(msg.RobotStateEvent.ONLINE),
 }
-# Of heading and turning [rad2, rad2/s2]: about x and y nothing is known (kobuki_node).
-COVARIANCE = (float_info.max, 0.0, 0.0, 0.0, float_info.max, 0.0, 0.0, 0.0, 0.05)
 NEVER_SENT = {"power_system": msg.PowerSystemEvent, "digital_input": msg.DigitalInputEvent}
 GYRO_READINGS = 2  # in a packet
 
@@ -69,20 +69,9 @@ class KobukiTopics:
 
     def _subscribe(self, base: str) -> None:
         """Take the commands that change nothing here; the cockpit shows LEDs and sounds."""
-        outputs = commands.Outputs()
-        encoded: dict[str, tuple[type, Callable[[Any], bytes]]] = {
-            "led1": (msg.Led, lambda led: outputs.led(1, led.value)),
-            "led2": (msg.Led, lambda led: outputs.led(2, led.value)),
-            "sound": (msg.Sound, lambda sound: commands.sound(sound.value)),
-            "digital_output": (msg.DigitalOutput, lambda o: outputs.digital(o.values, o.mask)),
-            "external_power": (msg.ExternalPower, lambda o: outputs.power(o.source, o.state)),
-            "controller_info": (
-                msg.ControllerInfo,
-                lambda i: commands.controller(i.type, (i.p_gain, i.i_gain, i.d_gain)),
-            ),
-        }
-        for name, (kind, encode) in encoded.items():
-            rospy.Subscriber(base + name, kind, self._on_command, callback_args=encode)
+        encoder = command_messages.CommandEncoder()
+        for name, kind in command_messages.TOPICS.items():
+            rospy.Subscriber(base + name, kind, self._on_command, callback_args=(encoder, name))
 
     def messages(self, stamp: rospy.Time) -> list[tuple[PromptPublisher, Any]]:
         """Return what subscribers are to get; call once a period, while the motion is held."""
@@ -93,25 +82,20 @@ class KobukiTopics:
         self._sent.clear()
         return made
 
+    def _feedback(self, stamp: rospy.Time) -> Feedback:
+        return sensors(stamp.to_nsec(), self._robot, self._pressed)
+
     def _core(self, stamp: rospy.Time) -> list[msg.SensorState]:
-        packet = core(stamp.to_nsec(), self._robot, self._pressed)
-        packet.header.stamp = stamp
-        return [packet]
+        return [messages.sensor_state(self._feedback(stamp), stamp)]
 
     def _imu(self, stamp: rospy.Time) -> list[Imu]:
         state = self._robot.state()
-        imu, half = self._turning(stamp, state.w), 0.5 * state.yaw
-        imu.orientation = Quaternion(0.0, 0.0, sin(half), cos(half))
-        imu.orientation_covariance = imu.angular_velocity_covariance = COVARIANCE
-        return [imu]
+        return [messages.imu(state.yaw, state.w, stamp, self._prefix)]
 
     def _raw_imu(self, stamp: rospy.Time) -> list[Imu]:
         earlier = rospy.Time(0, max(0, stamp.to_nsec() - self._reading_ns))
-        return [self._turning(*reading) for reading in zip((earlier, stamp), self._raw_rates())]
-
-    def _turning(self, stamp: rospy.Time, rate: float) -> Imu:
-        header = Header(0, stamp, f"{self._prefix}gyro_link")
-        return Imu(header=header, angular_velocity=Vector3(0.0, 0.0, rate))
+        gyro = RawGyro.of(0, [(0.0, 0.0, rate) for rate in self._raw_rates()])
+        return messages.raw_imu(gyro, (earlier, stamp), self._prefix)
 
     def _raw_rates(self) -> tuple[float, float]:
         """Return the rate [rad/s] in the middle of the period, about, and at its end."""
@@ -119,26 +103,27 @@ class KobukiTopics:
         return 0.5 * (self._rate_before + rate), rate
 
     def _dock_ir(self, stamp: rospy.Time) -> list[msg.DockInfraRed]:
-        return [msg.DockInfraRed(Header(0, stamp, f"{self._prefix}dock_ir_link"), bytes(3))]
+        return [messages.dock_infrared(Feedback(), stamp, self._prefix)]
 
     def _stream(self, stamp: rospy.Time) -> list[String]:
         left, right = self._robot.turned
         heading = wrap_angle((right - left) * self._rad_per_turned)
-        (state,), rate = self._core(stamp), self._robot.state().w
-        data = stream(state, heading, rate, self._raw_rates())
-        return [String(f"{{ {data.hex(' ').upper()} }}")]
+        rate = self._robot.state().w
+        feedback = with_gyro(self._feedback(stamp), heading, rate, self._raw_rates())
+        return [messages.stream_text(robot_packets.build(*feedback.parts()))]
 
     def _control(self, _stamp: rospy.Time) -> list[Int16MultiArray]:
-        return [Int16MultiArray(data=commands.control_values(*self._robot.target))]
+        return [Int16MultiArray(data=control_values(*self._robot.target))]
 
     def _raw_commands(self, _stamp: rospy.Time) -> list[String]:
-        sent = [*self._sent, commands.base_control(*self._robot.target)]
-        return [String(f"[ {' '.join(f'0x{byte:02x}' for byte in packet)} ]") for packet in sent]
+        sent = [*self._sent, commands.build(base_control(*self._robot.target))]
+        return [messages.command_text(packet) for packet in sent]
 
-    def _on_command(self, message: Any, encode: Callable[[Any], bytes]) -> None:
+    def _on_command(self, message: Any, to: tuple[command_messages.CommandEncoder, str]) -> None:
+        encoder, topic = to
         try:
             with self._motion.hold():
-                self._sent.append(encode(message))
+                self._sent.append(commands.build(encoder.command(topic, message)))
         except ValueError as error:
             self._log.error(f"{self._prefix}mobile_base/commands: {error}; ignored")
 

@@ -17,10 +17,8 @@ from sensor_msgs.msg import JointState
 from fake_turtlebot_sim.simulator.differential_drive import Pose, composed
 from fake_turtlebot_sim.simulator.parameters import Parameters
 from fake_turtlebot_sim.simulator.simulated_robot import RobotState, SimulatedRobot
+from kobuki_protocol.messages import POSE_COVARIANCE
 
-# Diagonal of the pose covariance [m2, rad2] that kobuki_node publishes (odometry.cpp): huge for
-# what a robot on a plane cannot know. Its twist covariance is left at zero, "unknown".
-KOBUKI_POSE_COVARIANCE = (0.1, 0.1, 1e10, 1e10, 1e10, 0.05)
 Place = Tuple[float, float, float]  # x, y, z [m]
 ORIGIN: Place = (0.0, 0.0, 0.0)
 X_Y_YAW = (0, 1, 5)  # where x, y and yaw stand in the 6 x 6 covariance of a message
@@ -43,7 +41,7 @@ class RobotMessages:
         if parameters.world:
             self.ground_truth.header.frame_id = parameters.map_frame
         self.odometry.pose.covariance = [0.0] * 36
-        self.odometry.pose.covariance[::7] = KOBUKI_POSE_COVARIANCE
+        self.odometry.pose.covariance[::7] = POSE_COVARIANCE
         self.transform = TransformStamped()
         self.transform.header.frame_id = odom_frame
         self.transform.child_frame_id = base_frame

@@ -7,12 +7,11 @@ from typing import Any, Callable
 
 import numpy as np
 import rospy
-from kobuki_msgs.msg import CliffEvent
 from rospy.msg import serialize_message
 from sensor_msgs.msg import LaserScan
 from visualization_msgs.msg import MarkerArray
 
-from fake_turtlebot_sim.simulator.kobuki import BOTTOM, EVENTS, QUEUE
+from fake_turtlebot_sim.simulator.kobuki import felt
 from fake_turtlebot_sim.simulator.laser import Laser
 from fake_turtlebot_sim.simulator.map_topics import MapTopics
 from fake_turtlebot_sim.simulator.parameters import Parameters
@@ -21,6 +20,7 @@ from fake_turtlebot_sim.simulator.sensors import Sensed
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot, meet
 from fake_turtlebot_sim.simulator.world import World
 from fake_turtlebot_sim.simulator.world_messages import bumper_markers, world_map, world_markers
+from kobuki_protocol.events import EVENTS, QUEUE, events
 from node_kit.rospy_patches.prompt_publisher import PromptPublisher
 
 # The camera's depth frame above base_footprint [m]: turtlebot_description's 0.287 above base_link.
@@ -87,10 +87,10 @@ class SensorTopics:
         p, prefix = parameters, f"{name}/" if name else ""
         self.scan_frame, self.base_frame = prefix + p.scan_frame, prefix + p.base_frame
         self._sensed = self._published = Sensed()
-        self._events = [
-            rospy.Publisher(f"{prefix}mobile_base/events/{topic}", kind, queue_size=QUEUE)
+        self._events = {
+            topic: rospy.Publisher(f"{prefix}mobile_base/events/{topic}", kind, queue_size=QUEUE)
             for topic, kind, _ in EVENTS
-        ]
+        }
         self._markers = rospy.Publisher(
             f"{prefix}bumper_markers", MarkerArray, queue_size=1, latch=True
         )
@@ -122,11 +122,8 @@ class SensorTopics:
             self._scans.publish(self._scan)
 
     def _publish_events(self, before: Sensed, after: Sensed) -> None:
-        for (_, kind, field), publisher, was, now in zip(EVENTS, self._events, before, after):
-            for k, is_on in enumerate(now):
-                if is_on != was[k]:
-                    bottom = {"bottom": BOTTOM[is_on]} if kind is CliffEvent else {}
-                    publisher.publish(kind(state=int(is_on), **{field: k}, **bottom))
+        for topic, event in events(felt(before), felt(after)):
+            self._events[topic].publish(event)
         if any(after.wheels) and not any(before.wheels):
             (x, y, _), todo = self._seen[0], "lift it with ~reset or initialpose"
             self._warn(f"{self._name} fell over an edge at ({x:.2f}, {y:.2f}): {todo}")

@@ -1,0 +1,105 @@
+"""Packets on the serial line of a Kobuki, and where they begin and end in a stream of bytes.
+
+A packet is a header, the length of its payload, the payload and a checksum; the payload is a row
+of parts, each with its id and length. All numbers are little-endian.
+"""
+
+from __future__ import annotations
+
+from functools import reduce
+from operator import xor
+from typing import Iterator, Tuple
+
+HEADER = b"\xaa\x55"
+PREFIX = len(HEADER) + 1  # bytes before a payload: the header and its length
+LONGEST_PAYLOAD = 255
+Part = Tuple[int, bytes]  # id and data
+DAMAGED, INCOMPLETE = 0, -1
+
+
+def packet(payload: bytes) -> bytes:
+    """Return a payload as a packet; the exclusive or of all bytes behind the header is 0."""
+    body = bytes([len(payload)]) + payload
+    return HEADER + body + bytes([reduce(xor, body)])
+
+
+def part(number: int, data: bytes) -> bytes:
+    """Return one part of a payload: its id, the length of its data, and the data."""
+    return bytes([number, len(data)]) + data
+
+
+def split(payload: bytes) -> Iterator[Part]:
+    """Yield the id and the data of each part of a payload that the Framer has returned."""
+    start = 0
+    while start + 1 < len(payload):
+        end = start + 2 + payload[start + 1]
+        yield payload[start], payload[start + 2 : end]
+        start = end
+
+
+class Framer:
+    """Finds the packets in a stream of bytes, which may be damaged anywhere.
+
+    A packet is what begins with a header, has parts that fill its length, and a right checksum.
+    What begins like one and is none costs only itself: the next header is looked for inside it.
+    """
+
+    def __init__(self) -> None:
+        """Begin without any byte."""
+        self._waiting = bytearray()
+        self.damaged = 0  # headers that began no packet
+        self.skipped = 0  # bytes that belong to no packet
+
+    def feed(self, data: bytes) -> list[bytes]:
+        """Take the next bytes; return the payloads of the packets that they complete."""
+        waiting, payloads = self._waiting, []
+        waiting += data
+        start = done = 0  # done: where the last packet ends
+        while (start := waiting.find(HEADER, start)) >= 0:
+            end = _end_of_packet(waiting, start)
+            if end == INCOMPLETE:
+                break
+            if end == DAMAGED:
+                self.damaged += 1
+                start += 1
+                continue
+            self.skipped += start - done
+            payloads.append(bytes(waiting[start + PREFIX : end - 1]))
+            start = done = end
+        if start < 0:  # the last byte may be half a header
+            start = len(waiting) - waiting.endswith(HEADER[:1])
+        self.skipped += max(0, start - done)
+        del waiting[: max(start, done)]
+        return payloads
+
+    def reset(self) -> None:
+        """Forget a packet that has started: what comes next is no continuation of it."""
+        self.skipped += len(self._waiting)
+        self._waiting.clear()
+
+
+def _end_of_packet(data: bytearray, start: int) -> int:
+    """Return where the packet ends that begins at start, DAMAGED, or INCOMPLETE."""
+    if len(data) < start + PREFIX:
+        return INCOMPLETE
+    stop = start + PREFIX + data[start + PREFIX - 1]
+    position = _end_of_parts(data, start + PREFIX, stop)
+    if position > stop or stop == start + PREFIX:
+        return DAMAGED
+    if position < stop or len(data) <= stop:
+        return INCOMPLETE
+    return DAMAGED if reduce(xor, data[start + 2 : stop + 1]) else stop + 1
+
+
+def _end_of_parts(data: bytearray, position: int, stop: int) -> int:
+    """Return where the parts that have started end: at stop, if they are the whole payload.
+
+    Less if they are not all here, and more if they do not fit.
+    """
+    while position < stop:
+        if position + 1 == stop:
+            return stop + 1  # an id without a length
+        if position + 1 >= len(data):
+            break
+        position += 2 + data[position + 1]
+    return position

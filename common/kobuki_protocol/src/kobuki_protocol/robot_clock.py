@@ -1,0 +1,39 @@
+"""The clock of a Kobuki: 16 bits of milliseconds, which start again when it is switched on."""
+
+from __future__ import annotations
+
+WRAP_MS = 1 << 16
+NEXT_MS = 100  # A packet that is so much newer than the last one continues its count.
+TOLERANCE_MS = 300.0  # How much the clock may differ from ours after a gap.
+MOST_DRIFT_MS = 0.02  # between two packets: 1 ms/s
+
+
+class RobotClock:
+    """Decides whether a packet continues the count of those before it.
+
+    Packets may come late, as after a suspension of the driver, and many may be lost. A robot that
+    was switched off and on has another time than it would have by our clock.
+    """
+
+    def __init__(self) -> None:
+        """Begin with the first packet."""
+        self._stamp_ms: int | None = None
+        self._offset_ms = 0.0  # of our clock from the robot's, when nothing is late
+
+    def elapsed_s(self, stamp_ms: int, now_s: float) -> float | None:
+        """Return the time since the last packet; None if this is the first one of a count.
+
+        stamp_ms: core.time_stamp. now_s: of a clock that never jumps.
+        """
+        last, self._stamp_ms = self._stamp_ms, stamp_ms
+        offset_ms = 1000.0 * now_s - stamp_ms
+        if last is None:
+            self._offset_ms = offset_ms
+            return None
+        late_ms = (offset_ms - self._offset_ms + WRAP_MS / 2) % WRAP_MS - WRAP_MS / 2
+        dt_ms = (stamp_ms - last) % WRAP_MS
+        if dt_ms > NEXT_MS and abs(late_ms) > TOLERANCE_MS:
+            self._offset_ms = offset_ms
+            return None
+        self._offset_ms += min(late_ms, MOST_DRIFT_MS)
+        return dt_ms / 1000.0

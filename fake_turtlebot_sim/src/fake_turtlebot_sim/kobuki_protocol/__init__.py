@@ -1,1 +1,0 @@
-"""The serial protocol of a Kobuki, as bytes; kobuki_driver's appendix describes it."""
