@@ -5,7 +5,7 @@ from pathlib import Path
 
 REPOSITORY = Path(__file__).resolve().parents[1]
 FOLDERS = (
-    *("*/src", "common/*/src", "common/stand_ins/*/src"),
+    *("*/src", "common", "common/*/src", "common/stand_ins/*/src"),
     *("test/faults", "test/exercises", "test/ros2", "test/benchmark/fake_turtlebot_sim"),
 )
 sys.path[:0] = [str(folder) for pattern in FOLDERS for folder in REPOSITORY.glob(pattern)]

@@ -6,11 +6,11 @@ setup(
         packages=find_packages("src"),
         package_data={
             "tutorial_check": [
-                "*/*.yaml",
-                "autograder/*",
-                "isolation/session/bin/*",
-                "isolation/session/view/*/rviz/*",
-                "source/causes.txt",
+                "checking/*.txt",
+                "checking/*.yaml",
+                "commands/autograder/*",
+                "sandbox/session/bin/*",
+                "sandbox/session/view/*/rviz/*",
                 "report/class_page.html",
             ]
         },

@@ -10,8 +10,8 @@ import pytest
 import stored
 from edits import literal  # noqa: F401
 
-from tutorial_check.examination import examine
-from tutorial_check.order import Order
+from tutorial_check.checking.examination import examine
+from tutorial_check.recording.order import Order
 
 HERE = Path(__file__).resolve().parent
 REPOSITORY = HERE.parents[1]

@@ -1,5 +1,6 @@
 """Recordings of the rows, stored: what their programs did is judged without running them again."""
 
+import ast
 import functools
 import hashlib
 import importlib.util
@@ -11,17 +12,14 @@ import re
 import tokenize
 from pathlib import Path
 
-from tutorial_check.course import read_course
-from tutorial_check.launcher import HANDED_IN, judge, prepared
-from tutorial_check.order import Order
+from tutorial_check.checking.launcher import HANDED_IN, judge, prepared
+from tutorial_check.course.definition import read_course
+from tutorial_check.recording.order import Order
 
 FOLDER = Path(__file__).resolve().parent / "recordings"
 REPOSITORY = FOLDER.parents[2]
 BEFORE_A_STATEMENT = (tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT)
-IMPORT = re.compile(
-    r"^ *from (tutorial_check\.(?:record|handout)[\w.]*) import (\([^)]+\)|.+)", re.M
-)
-RULES = [f"tutorial_check.handout.s4_3.{name}" for name in ("rules", "evidence")]  # Of a judge.
+OURS = ("tutorial_check", "courses")  # The rest is the standard library and ROS.
 
 
 def path_of(test):
@@ -86,15 +84,24 @@ def code_hash(module):
 
 
 def imported_by(module, found):
-    """Add a module of recorders to those found, with all that it works with; return them."""
+    """Add a module to those found, with all of ours that it imports; return them."""
+    if module.partition(".")[0] not in OURS or module in found:
+        return found
     spec = importlib.util.find_spec(module)
-    if spec.submodule_search_locations is None and module not in (*found, *RULES):
+    if spec.submodule_search_locations is None:
         found.add(module)
-        for base, names in IMPORT.findall(Path(spec.origin).read_text()):
-            is_package = importlib.util.find_spec(base).submodule_search_locations
-            inner = (f"{base}.{name}" for name in re.findall(r"\w+", names)) if is_package else ()
-            for name in (base, *filter(importlib.util.find_spec, inner)):
-                imported_by(name, found)
+        for node in ast.walk(ast.parse(Path(spec.origin).read_text())):
+            if isinstance(node, ast.ImportFrom):
+                name = "." * node.level + (node.module or "")
+                base = importlib.util.resolve_name(name, spec.parent)
+                if base.partition(".")[0] in OURS:
+                    inner = (f"{base}.{alias.name}" for alias in node.names)
+                    is_package = importlib.util.find_spec(base).submodule_search_locations
+                    for each in (
+                        base,
+                        *filter(importlib.util.find_spec, inner if is_package else ()),
+                    ):
+                        imported_by(each, found)
     return found
 
 

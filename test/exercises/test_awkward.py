@@ -78,7 +78,9 @@ def test_a_class_has_a_table_and_reports(literal, underlay, tmp_path):
 
 
 def examines(program):
-    return any("tutorial_check.worker" in command_line(pid) for pid in descendants(program.pid))
+    return any(
+        "tutorial_check.recording.worker" in command_line(pid) for pid in descendants(program.pid)
+    )
 
 
 def test_ctrl_c_ends_the_check_of_all(literal, underlay, tmp_path):

@@ -14,8 +14,8 @@ from test_awkward import PYTHONPATH, command, examines
 from test_endings import path_without_namespaces
 from test_mistakes import OF_HANDOUT
 
-from tutorial_check.examination import examine
-from tutorial_check.order import Order
+from tutorial_check.checking.examination import examine
+from tutorial_check.recording.order import Order
 from tutorial_testing.processes import Program, command_line, descendants, signal_all
 from tutorial_testing.two_hosts.network import Network
 from tutorial_testing.waiting import wait_for
@@ -27,7 +27,7 @@ pytestmark = [
 ]
 HOSTS = {"teacher": "10.66.0.1", "one": "10.66.0.2", "two": "10.66.0.3", "three": "10.66.0.4"}
 ADDRESS = f"tls://{HOSTS['teacher']}:8786"
-MACHINES = ("/usr/bin/python3", "-m", "tutorial_check.cluster")
+MACHINES = ("/usr/bin/python3", "-m", "tutorial_check.cluster.dask_cluster")
 EXERCISE = "3"
 RACE = "Twist for String"  # whichever of its two programs comes first decides what is wrong
 ROWS = [row for row in OF_HANDOUT if row[0] == EXERCISE and row[1] != RACE]

@@ -6,10 +6,10 @@ import subprocess
 
 import pytest
 
-from tutorial_check.self_test import patch
+from tutorial_check.commands.self_test import patch
 from tutorial_testing.processes import REPOSITORY
 
-SQUARE, WIKI = REPOSITORY / "common/doc/square", REPOSITORY / "common/doc/wiki"
+SQUARE, WIKI = REPOSITORY / "common/courses/square", REPOSITORY / "common/courses/wiki"
 
 
 def check(*words):

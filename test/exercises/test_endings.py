@@ -12,10 +12,10 @@ from stored import REPOSITORY
 from test_awkward import PYTHONPATH, check, command
 from test_hostile import processes_like
 
-from tutorial_check.isolation import bubblewrap
-from tutorial_check.launcher import prepared
-from tutorial_check.order import Order
-from tutorial_check.worker_process import Worker
+from tutorial_check.checking.launcher import prepared
+from tutorial_check.recording.order import Order
+from tutorial_check.recording.worker_process import Worker
+from tutorial_check.sandbox import bubblewrap
 from tutorial_testing.processes import Program, command_line, descendants, lives
 from tutorial_testing.waiting import wait_for
 

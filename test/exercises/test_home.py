@@ -6,9 +6,9 @@ from pathlib import Path
 import pytest
 from edits import LAUNCH_BAG, TALKER, J, built, put
 
-from tutorial_check.examination import examine
-from tutorial_check.isolation import bubblewrap
-from tutorial_check.order import Order
+from tutorial_check.checking.examination import examine
+from tutorial_check.recording.order import Order
+from tutorial_check.sandbox import bubblewrap
 
 pytestmark = pytest.mark.skipif(
     not bubblewrap.granted().options, reason="no isolation here: nothing is hidden"

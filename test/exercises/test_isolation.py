@@ -17,7 +17,7 @@ from test_awkward import PYTHONPATH, SOURCE, command
 from test_endings import path_without_namespaces
 from test_hostile import processes_like
 
-from tutorial_check.isolation import bubblewrap, landlock
+from tutorial_check.sandbox import bubblewrap, landlock
 from tutorial_testing.isolation import old_bubblewrap
 
 REPOSITORY = Path(__file__).resolve().parents[2]
@@ -31,7 +31,7 @@ OLDER = {
     **{f"{mode} of Linux 5.13": mode for mode in MODES[2:4]},
 }
 OF_LINUX_5_13 = """
-from tutorial_check.isolation import landlock
+from tutorial_check.sandbox import landlock
 landlock.version = lambda: 1
 """
 REMARKS = {"Landlock": "isolated by Landlock alone", "not isolated": "not isolated"}

@@ -8,9 +8,9 @@ import mistakes_world
 import pytest
 from edits import apply
 
-from tutorial_check.course import read_course
-from tutorial_check.examination import examine
-from tutorial_check.order import Order
+from tutorial_check.checking.examination import examine
+from tutorial_check.course.definition import read_course
+from tutorial_check.recording.order import Order
 from tutorial_check.report.text import lines_of
 
 OF_HANDOUT = mistakes_packages.ROWS + mistakes_nodes.ROWS + mistakes_launch.ROWS + grammar.WRONG

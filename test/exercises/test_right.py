@@ -9,9 +9,9 @@ import variants
 from edits import *
 from test_mistakes import is_reported
 
-from tutorial_check.course import checks_of, read_course
-from tutorial_check.examination import examine
-from tutorial_check.order import Order
+from tutorial_check.checking.examination import examine
+from tutorial_check.course.definition import checks_of, read_course
+from tutorial_check.recording.order import Order
 from tutorial_check.report.text import lines_of
 from tutorial_testing.processes import REPOSITORY
 

@@ -5,9 +5,9 @@ import re
 import pytest
 from edits import TALKER, J, at_night, put
 
-from tutorial_check.course import read_course
+from tutorial_check.course.definition import read_course
+from tutorial_check.course.tasks import drawn
 from tutorial_check.report.text import lines_of
-from tutorial_check.variants import drawn
 
 COURSE = read_course()
 TOPICS = {"joy", "cmd_vel"}

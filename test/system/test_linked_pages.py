@@ -13,7 +13,7 @@ from tutorial_testing.student import CTRL_C, END
 
 TALKERS = REPOSITORY / "test/exercises/literal/beginner_tutorials/scripts"
 WRITTEN = REPOSITORY / "test/system/linked_pages"  # what the pages show, in our own words
-SOLVED = REPOSITORY / "common/doc/wiki/solutions/right/beginner_tutorials"
+SOLVED = REPOSITORY / "common/courses/wiki/solutions/right/beginner_tutorials"
 WS = "~/ros/hydro/catkin_ws"
 TWIST = "geometry_msgs/Twist"
 TALKS = r"good day(.*\n)+.*good day"  # A Ctrl-C within the first one may lock rospy for ever.

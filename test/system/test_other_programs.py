@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import pytest
 
-from tutorial_check.source import causes
+from tutorial_check.checking import causes
 from tutorial_testing.keys import Tmux
 from tutorial_testing.processes import REPOSITORY, Program, free_port
 from tutorial_testing.robot import OBSERVER, PERIOD_S, Robot

@@ -129,7 +129,7 @@ def test_ci_has_an_environment_like_a_users():
 
 
 def test_workflows_may_only_read_and_take_actions_by_their_commit():
-    made = REPOSITORY / "common/tutorial_check/src/tutorial_check/autograder/check.yml"
+    made = REPOSITORY / "common/tutorial_check/src/tutorial_check/commands/autograder/check.yml"
     for text in map(Path.read_text, [made, *(REPOSITORY / ".github/workflows").glob("*.yml")]):
         assert re.search(r"^permissions: \{contents: read\}$", text, re.M)
         assert len(re.findall(r"\buses: ", text)) == len(

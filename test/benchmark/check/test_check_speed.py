@@ -4,9 +4,9 @@ import os
 import shutil
 import time
 
-from tutorial_check.course import read_course
-from tutorial_check.examination import examine
-from tutorial_check.order import Order
+from tutorial_check.checking.examination import examine
+from tutorial_check.course.definition import read_course
+from tutorial_check.recording.order import Order
 from tutorial_testing.processes import REPOSITORY
 
 ONE_S, ALL_S = 15.0, 90.0  # on two processors with nothing else to do

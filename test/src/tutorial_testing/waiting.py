@@ -8,7 +8,7 @@ import os
 import time
 from pathlib import Path
 
-from tutorial_check.isolation.cpu_clock import CpuClock, times_of
+from tutorial_check.processes.cpu_clock import CpuClock, times_of
 
 DEADLINE_S = 150.0  # generous: ten times what a build takes, or the start of a dozen nodes
 LONGEST_S = 4 * DEADLINE_S  # for what cannot know what it lost, such as subprocess.run()

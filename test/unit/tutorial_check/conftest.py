@@ -8,10 +8,10 @@ import pytest
 import stored
 from edits import literal  # noqa: F401
 
-from tutorial_check.handout.task import JoystickTask
-from tutorial_check.order import Order
-from tutorial_check.record.ground import Ground
-from tutorial_check.source.workspace import Layout
+from courses.handout.task import JoystickTask
+from tutorial_check.recording.ground import Ground
+from tutorial_check.recording.order import Order
+from tutorial_check.submission.workspace import Layout
 
 
 @pytest.fixture

@@ -8,10 +8,10 @@ from functools import lru_cache
 
 import pytest
 
-from tutorial_check import cluster
-from tutorial_check.isolation import bubblewrap, landlock
-from tutorial_check.isolation.bubblewrap import Isolation
-from tutorial_check.model import CannotCheck
+from tutorial_check.checking.model import CannotCheck
+from tutorial_check.cluster import dask_cluster as cluster
+from tutorial_check.sandbox import bubblewrap, landlock
+from tutorial_check.sandbox.bubblewrap import Isolation
 from tutorial_testing.isolation import old_bubblewrap
 
 

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from tutorial_check.handout.s2.catkin_errors import build_error
+from tutorial_check.checking.build_errors import build_error
 
 SESSION = SimpleNamespace(packages=[], source=Path("/ws/src"), is_own=lambda path: "/ws/" in path)
 

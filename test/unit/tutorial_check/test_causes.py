@@ -6,10 +6,10 @@ import sys
 
 import pytest
 
-from tutorial_check.source.causes import TABLES, advice, explain, explained, is_lacking
-from tutorial_check.source.launch_xml import package_hint
-from tutorial_check.source.python_facts import PythonFacts
-from tutorial_check.source.tracebacks import first_traceback
+from tutorial_check.checking.causes import TABLES, advice, explain, explained, is_lacking
+from tutorial_check.submission.launch_xml import package_hint
+from tutorial_check.submission.python_facts import PythonFacts
+from tutorial_check.submission.tracebacks import first_traceback
 
 FORMAT = "TypeError: not enough arguments for format string"
 

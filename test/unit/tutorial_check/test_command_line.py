@@ -5,9 +5,9 @@ from types import SimpleNamespace
 
 import pytest
 
-from tutorial_check import command_line
-from tutorial_check.command_line import parse, stamps, watch
-from tutorial_check.model import OK, UNREACHED, WRONG, CannotCheck, Outcome, Result
+from tutorial_check.checking.model import OK, UNREACHED, WRONG, CannotCheck, Outcome, Result
+from tutorial_check.commands import check as command_line
+from tutorial_check.commands.check import parse, stamps, watch
 from tutorial_check.report.formats import FORMATS
 
 UNDERLAY = ["--underlay", "setup.bash"]

@@ -4,15 +4,15 @@ from dataclasses import replace
 
 import pytest
 
-from tutorial_check.course import checks_of, read_course
-from tutorial_check.judge.packages import package_of
-from tutorial_check.model import UNREACHED, CannotCheck, Outcome, Result, Wrong
-from tutorial_check.self_test import complaint_of, patch
+from tutorial_check.checking.model import UNREACHED, CannotCheck, Outcome, Result, Wrong
+from tutorial_check.checking.packages import package_of
+from tutorial_check.commands.self_test import complaint_of, patch
+from tutorial_check.course.definition import checks_of, read_course
 
 YAML = 'title: T\ndocument: sheet\nexercises: {"2": two, "1": {title: one, points: 3}}\n'
 CHECKS = """
-from tutorial_check.course import check
-from tutorial_course.other import WORD
+from tutorial_check.course.definition import check
+from .other import WORD
 @check("S2", "b", "1.1", "S1")
 def b(session): return WORD
 @check("S1", "a", "1")
@@ -93,7 +93,7 @@ def test_wrong_checks_are_one_line(course, checks, why):
 
 def test_a_course_that_is_shipped_has_a_name():
     assert read_course("wiki").folder.name == "wiki"
-    with pytest.raises(CannotCheck, match="or one of square, wiki"):
+    with pytest.raises(CannotCheck, match="or one of handout, square, wiki"):
         read_course("viki")
 
 

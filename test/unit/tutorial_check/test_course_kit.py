@@ -10,12 +10,12 @@ from types import SimpleNamespace
 import pytest
 from roslaunch.loader import Loader
 
-from tutorial_check.course_kit import client_node
-from tutorial_check.course_kit.client import Answer, Client, Seen, Transform
-from tutorial_check.course_kit.files import File
-from tutorial_check.course_kit.launches import Launch, launch_file
-from tutorial_check.handout.s5.launch_facts import facts_of
-from tutorial_check.model import CannotCheck, CutShort, Wrong
+from tutorial_check.checking.files import File
+from tutorial_check.checking.launches import Launch, launch_file
+from tutorial_check.checking.model import CannotCheck, CutShort, Wrong
+from tutorial_check.recording import client_node
+from tutorial_check.recording.client import Answer, Client, Seen, Transform
+from tutorial_check.recording.launch_facts import facts_of
 from tutorial_testing.waiting import wait_for
 
 ENDS = {}

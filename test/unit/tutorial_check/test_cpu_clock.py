@@ -4,7 +4,7 @@ import os
 
 import pytest
 
-from tutorial_check.isolation.cpu_clock import SLOWEST, CpuClock, times
+from tutorial_check.processes.cpu_clock import SLOWEST, CpuClock, times
 
 OURS, THEIRS = 1, 2
 MS = 1_000_000  # nanoseconds

@@ -6,16 +6,17 @@ import threading
 
 import pytest
 
-from tutorial_check import examination, launcher, worker_process
-from tutorial_check.model import CannotCheck
-from tutorial_check.order import Order
+from tutorial_check.checking import examination, launcher
+from tutorial_check.checking.model import CannotCheck
+from tutorial_check.recording import worker_process
+from tutorial_check.recording.order import Order
 from tutorial_testing.waiting import wait_for
 
 # In place of the launcher's examine(); Linux counts the time of a processor in whole seconds.
 PROCESS = """#!/usr/bin/python3
 import os, re, resource, sys, time
-from tutorial_check import examination, launcher
-from tutorial_check.isolation import privileges
+from tutorial_check.checking import examination, launcher
+from tutorial_check.sandbox import privileges
 
 privileges.OF_READER[resource.RLIMIT_CPU] = 1
 

@@ -4,8 +4,8 @@ import os
 
 import pytest
 
-from tutorial_check.isolation.helper_process import Helper
-from tutorial_check.model import CannotCheck
+from tutorial_check.checking.model import CannotCheck
+from tutorial_check.processes.helper_process import Helper
 
 
 def test_a_helper_that_was_late_is_asked_no_more(request, tmp_path):

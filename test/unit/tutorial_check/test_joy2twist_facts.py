@@ -4,13 +4,13 @@ from types import SimpleNamespace
 
 import pytest
 
-from tutorial_check.handout.s4_3 import judge as c
-from tutorial_check.handout.s4_3.drive import Drive
-from tutorial_check.handout.s4_3.facts import Facts, repetition
-from tutorial_check.handout.s4_3.record import CMD_VEL, JOY
-from tutorial_check.handout.task import JoystickTask
-from tutorial_check.judge.rows import find
-from tutorial_check.source.python_facts import PythonFacts
+from courses.handout.driving.record import CMD_VEL, JOY
+from courses.handout.driving.run import Drive
+from courses.handout.joy2twist import checks as c
+from courses.handout.joy2twist.facts import Facts, repetition
+from courses.handout.task import JoystickTask
+from tutorial_check.checking.rows import find
+from tutorial_check.submission.python_facts import PythonFacts
 
 SCRIPT = "joy2twist.py"
 ANSWERS = [(0.1 * k, 0.0, 0.0, 0.0, 0.0, 0.5) for k in range(20)]

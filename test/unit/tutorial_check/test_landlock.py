@@ -7,7 +7,7 @@ from contextlib import suppress
 
 import pytest
 
-from tutorial_check.isolation import landlock, privileges
+from tutorial_check.sandbox import landlock, privileges
 
 # The first rights stand in linux/landlock.h since Linux 5.13.
 SYSTEM = ("/usr", "/lib", "/lib64", "/bin", "/proc")

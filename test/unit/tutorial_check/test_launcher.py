@@ -8,11 +8,12 @@ from types import SimpleNamespace
 
 import pytest
 
-from tutorial_check import launcher, worker_process
-from tutorial_check.ask_once import AskOnce
-from tutorial_check.isolation import bubblewrap
-from tutorial_check.model import CannotCheck, Check
-from tutorial_check.order import Order
+from tutorial_check.checking import launcher
+from tutorial_check.checking.ask_once import AskOnce
+from tutorial_check.checking.model import CannotCheck, Check
+from tutorial_check.recording import worker_process
+from tutorial_check.recording.order import Order
+from tutorial_check.sandbox import bubblewrap
 
 READY = json.dumps({"ready": True})
 SEEN = json.dumps({"recording": {"number": 1}, "strained": False, "hopeless": False})

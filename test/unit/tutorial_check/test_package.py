@@ -8,11 +8,11 @@ from pathlib import Path
 import pytest
 import yaml
 
-from tutorial_check.course import read_course
-from tutorial_check.model import CannotCheck
-from tutorial_check.package import package
+from tutorial_check.checking.model import CannotCheck
+from tutorial_check.commands.package import package
+from tutorial_check.course.definition import read_course
 
-SQUARE = Path(__file__).resolve().parents[3] / "common/doc/square"
+SQUARE = Path(__file__).resolve().parents[3] / "common/courses/square"
 
 
 def test_the_zip_has_scripts_suite_and_course_and_no_solutions(tmp_path):
@@ -98,7 +98,7 @@ def test_what_cannot_be_packed_is_one_line(tmp_path, git, what, out, script, why
 @pytest.mark.parametrize("name", ["doc/a # b", 'it\'s: "a"', "two\nlines", "${{ x }}"])
 def test_the_workflow_checks_out_the_suite_at_this_commit(tmp_path, git, monkeypatch, name):
     git("echo 0a1b")
-    monkeypatch.setattr("tutorial_check.package.SUITE", tmp_path)
+    monkeypatch.setattr("tutorial_check.commands.package.SUITE", tmp_path)
     (tmp_path / name).mkdir(parents=True)
     (tmp_path / name / "course.yaml").write_text("exercises: {'1': one}")
     about = ("github:lab/x", read_course(tmp_path / name), ["1"], str(tmp_path / "check.yml"))

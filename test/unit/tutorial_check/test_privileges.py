@@ -2,7 +2,7 @@
 
 import pytest
 
-from tutorial_check.isolation.privileges import unused_user
+from tutorial_check.sandbox.privileges import unused_user
 
 
 @pytest.mark.parametrize(

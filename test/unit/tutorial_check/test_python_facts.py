@@ -4,8 +4,8 @@ import functools
 
 import pytest
 
-from tutorial_check.source.python_facts import PythonFacts
-from tutorial_check.source.python_text import flipped_anonymous, unmasked, without_name
+from tutorial_check.submission.python_facts import PythonFacts
+from tutorial_check.submission.python_text import flipped_anonymous, unmasked, without_name
 
 ANONYMOUS = functools.partial(flipped_anonymous, wanted=True)
 NO_JOY = functools.partial(without_name, name="Joy")

@@ -6,14 +6,14 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from tutorial_check.handout.s3.record import Talk
-from tutorial_check.handout.s4.record import Bag, Follow, Stick
-from tutorial_check.handout.s4_3.drive import Drive
-from tutorial_check.handout.s5.record import Run
-from tutorial_check.handout.s6_1.record import Remap
-from tutorial_check.handout.s6_2.record import Alone, Endings
-from tutorial_check.handout.s7 import record as s7
-from tutorial_check.record.recording import as_json, from_json
+from courses.handout.driving.run import Drive
+from courses.handout.launch_files.record import Run
+from courses.handout.node_class.record import Alone, Endings
+from courses.handout.remapping.record import Remap
+from courses.handout.s4.record import Bag, Follow, Stick
+from courses.handout.talker_listener.record import Talk
+from courses.handout.world import record as s7
+from tutorial_check.recording.data import as_json, from_json
 
 KINDS = [Talk, Bag, Follow, Stick, Drive, Run, Remap, Alone, Endings, s7.Presses, s7.Drive]
 st.register_type_strategy(float, st.floats(allow_nan=False))

@@ -2,9 +2,9 @@
 
 import pytest
 
-from tutorial_check.handout.s4_3.evidence import Evidence
-from tutorial_check.handout.s4_3.probes import delays, displayed, numbered_joys, values_shown
-from tutorial_check.handout.s4_3.rules import judge
+from courses.handout.driving.evidence import Evidence
+from courses.handout.driving.probes import delays, displayed, numbered_joys, values_shown
+from courses.handout.driving.rules import judge
 
 JOYS = numbered_joys(20)
 AXES = [axes for axes, _ in JOYS]

@@ -9,9 +9,9 @@ from typing import Tuple
 
 import pytest
 
-from tutorial_check.launcher import Case, must_start_programs
-from tutorial_check.model import CannotCheck, Wrong
-from tutorial_check.variants import Task
+from tutorial_check.checking.launcher import Case, must_start_programs
+from tutorial_check.checking.model import CannotCheck, Wrong
+from tutorial_check.course.tasks import Task
 
 
 def test_a_folder_in_which_nothing_can_be_started_is_named(order, monkeypatch):

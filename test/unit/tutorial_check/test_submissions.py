@@ -10,9 +10,9 @@ from types import SimpleNamespace
 
 import pytest
 
-from tutorial_check import submissions
-from tutorial_check.course import read_course
-from tutorial_check.model import OK, UNREACHED, CannotCheck, Outcome, Result
+from tutorial_check.checking.model import OK, UNREACHED, CannotCheck, Outcome, Result
+from tutorial_check.commands import check_all as submissions
+from tutorial_check.course.definition import read_course
 from tutorial_check.report.memory import digest_of_checks
 from tutorial_testing.waiting import wait_for
 

@@ -4,10 +4,10 @@ from dataclasses import replace
 
 import pytest
 
-from tutorial_check.handout.s3 import judge
-from tutorial_check.handout.s3.record import PACKAGE, STRINGS, Talk
-from tutorial_check.isolation.program import Ran
-from tutorial_check.model import Wrong
+from courses.handout.talker_listener import checks as judge
+from courses.handout.talker_listener.record import PACKAGE, STRINGS, Talk
+from tutorial_check.checking.model import Wrong
+from tutorial_check.processes.program import Ran
 
 LISTENER = """from std_msgs.msg import String
 def callback(data):

@@ -9,10 +9,10 @@ import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tutorial_check.course import read_course
-from tutorial_check.handout.task import JoystickTask
-from tutorial_check.model import CannotCheck
-from tutorial_check.variants import drawn, read_variant, sheet, variant_of
+from courses.handout.task import JoystickTask
+from tutorial_check.checking.model import CannotCheck
+from tutorial_check.course.definition import read_course
+from tutorial_check.course.tasks import drawn, read_variant, sheet, variant_of
 
 COURSE = read_course()
 ALL = yaml.safe_load(

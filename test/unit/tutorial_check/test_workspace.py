@@ -7,11 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from tutorial_check.model import CannotCheck
-from tutorial_check.record import session
-from tutorial_check.source import workspace
-from tutorial_check.source.manifests import unreadable
-from tutorial_check.source.workspace import (
+from tutorial_check.checking.model import CannotCheck
+from tutorial_check.submission import session, workspace
+from tutorial_check.submission.manifests import unreadable
+from tutorial_check.submission.workspace import (
     Layout,
     copy,
     find_layout,

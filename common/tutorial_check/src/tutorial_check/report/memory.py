@@ -15,11 +15,10 @@ import tempfile
 from pathlib import Path
 from typing import Any, Dict, Iterable, Sequence
 
-from tutorial_check.course import FILE, OURS, Course
-from tutorial_check.launcher import SUITE
-from tutorial_check.model import WRONG, CannotCheck, Outcome, Result
+from tutorial_check.checking.model import WRONG, CannotCheck, Outcome, Result
+from tutorial_check.course.definition import HANDOUT, SUITE, Course, sources_of
 from tutorial_check.report.class_page import Student, cause_of
-from tutorial_check.source.workspace import all_below
+from tutorial_check.submission.workspace import all_below
 
 NEVER, AGAIN, ALWAYS = 0, 1, 2  # --hints
 CACHE = Path(os.environ.get("XDG_CACHE_HOME") or "~/.cache", "ros1_tutorial", "checked.json")
@@ -92,7 +91,7 @@ def show_solution(course: Course, exercises: Sequence[str], memory: Memory) -> N
             raise CannotCheck(f"{name} is not done yet: its solution is shown when its check is ok")
         for file in files:
             path = (course.folder / file).resolve()
-            if (SUITE if course.folder == OURS else course.folder) not in path.parents:
+            if (SUITE if course.folder == HANDOUT else course.folder) not in path.parents:
                 raise CannotCheck(f"{name}: {file} is no file of the course's folder")
             try:
                 text = path.read_text(encoding="utf-8")
@@ -142,7 +141,7 @@ def digest_of_checks(course: Course, exercises: Iterable[str], hints: int) -> st
     kinds = ("*.py", "*.yaml", "*.txt")
     sources = [path for kind in kinds for path in sorted(package.rglob(kind))]
     digest = hashlib.sha256(json.dumps([list(exercises), hints == 0]).encode())
-    for path in (*sources, course.folder / FILE, *sorted(course.folder.glob("*.py"))):
+    for path in (*sources, *sources_of(course.folder)):
         digest.update(path.read_bytes())
     return digest.hexdigest()
 

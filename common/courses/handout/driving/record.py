@@ -1,0 +1,278 @@
+"""Section 4.3: one program that turns Joy into Twist, driven over its topics."""
+
+from __future__ import annotations
+
+import re
+import statistics
+import time
+from dataclasses import dataclass, replace
+from typing import Any, Callable, Sequence
+
+from tutorial_check.processes.runner import GRACE_S
+from tutorial_check.recording.ground import Ground
+from tutorial_check.recording.ros_session import START_S, Stage
+
+from ..task import PACKAGE, Joy
+from . import probes
+from .evidence import FIELDS, LINEAR, RIGHT, rule_of
+from .run import Drive
+
+JOY, CMD_VEL = "/joy", "/cmd_vel"
+COUNT = 20
+RATE, STREAM_S = 50.0, 2.5
+NEUTRAL = ((0.0,) * 6, (0,) * 12)
+RATED = frozenset(["4.3", "6.2"])  # the exercises that look at the rate
+STARTS = 10  # under load, all at once
+ANSWER_S = 1.0  # for one Twist, before it counts as missing
+SETTLE_S = 0.15  # after it, in which more of them may come
+QUIET_S = 0.25  # without a Joy, or longer for a slow one: a clock of its own makes itself received
+SAME_S = 0.06  # in which several Twists answer one Joy
+COLOUR = re.compile(r"\x1b\[[0-9;]*m")
+
+
+@dataclass(frozen=True)
+class Found:
+    """Whether rospack finds a package."""
+
+    found: bool
+
+
+@dataclass(frozen=True)
+class Loaded:
+    """Starts while Joys stream."""
+
+    failed: bool  # in one of them a callback found no publisher
+
+
+def drive(ground: Ground, script: str, wants_twist: bool = True, text: str = "") -> Drive:
+    """Start a program and send it Joys. text: in place of its own."""
+    if text:
+        script = ground.sibling(PACKAGE, script, text)
+    with ground.stage() as stage:
+        return _Driver(ground, stage, script).drive(wants_twist)
+
+
+def found(ground: Ground, package: str) -> Found:
+    program = ground.runner.start(["rospack", "find", package], ground.environment)
+    ground.runner.wait(lambda: program.ended, 10.0)
+    return Found(not program.process.returncode)
+
+
+def loaded(ground: Ground, script: str) -> Loaded:
+    """Start it ten times while 200 Joys a second come."""
+    with ground.stage() as stage:
+        stage.driver.advertise(JOY, "Joy")
+        stage.driver.listen(CMD_VEL, "Twist")
+        stage.driver.stream(JOY, [NEUTRAL], 200.0, True)
+        names = [f"__name:=loaded_{number}" for number in range(STARTS)]
+        programs = [stage.start(PACKAGE, script, name) for name in names]
+
+        def one_has_failed() -> bool:
+            return any("NameError" in each.output for each in programs)
+
+        def all_publish() -> bool:
+            return len({caller for _, caller, _ in stage.driver.received(CMD_VEL)}) >= STARTS
+
+        stage.wait(lambda: all_publish() or one_has_failed(), START_S)
+        return Loaded(one_has_failed())
+
+
+class _Driver:
+    """Drives one program, and looks at what it has seen to choose what to send next."""
+
+    def __init__(self, ground: Ground, stage: Stage, script: str) -> None:
+        self._ground, self._stage, self._task = ground, stage, ground.task
+        facts = ground.scripts(PACKAGE).get(script)
+        sleeps = tuple(facts.called_back.get("sleep", [])) if facts else ()
+        # A queue of one drops what it has no time for, and the newest value is not late.
+        drops = facts and facts.keeps_newest and not sleeps
+        self._seen = Drive(
+            script,
+            sleep_lines=sleeps,
+            enough=0.5 if drops else 0.95,
+            factors={FIELDS[index]: each for index, each in self._task.factors.items()},
+            needs_button=self._task.needs_button,
+        )
+        stage.driver.advertise(JOY, "Joy")
+        stage.driver.listen(CMD_VEL, "Twist")
+        self._program = stage.start(PACKAGE, script)
+
+    def _note(self, **changes: Any) -> None:
+        self._seen = replace(self._seen, **changes)
+
+    def drive(self, wants_twist: bool) -> Drive:
+        stage, program = self._stage, self._program
+        stage.wait_for_start(lambda: stage.driver.listeners(JOY) or program.ended)
+        connected = bool(stage.driver.listeners(JOY)) and not program.ended
+        if connected and wants_twist:
+            self._wait(1.5, lambda: stage.driver.publishers(CMD_VEL))
+        publishers, subscribers = stage.driver.state()
+        if connected:
+            self._converse(wants_twist)
+        ended_early = program.ended
+        late, _ = stage.driver.state() if stage.master_lives else ({}, {})
+        output, master_alive = program.output, stage.master_lives
+        types, warnings = stage.driver.types(), tuple(stage.driver.warnings())
+        # Only where its end is asked for it is waited for.
+        grace_s = GRACE_S if "4.3" in self._ground.order.exercises else 0.5
+        taken_s = self._ground.runner.end(program, grace_s)
+        self._note(
+            connected=connected, publishers={**publishers, **late}, subscribers=subscribers,
+            types=types, warnings=warnings, master_alive=master_alive, ended_early=ended_early,
+            output=output, taken_s=taken_s, last_words=program.output[len(output) :],
+            program=program.ran,
+        )  # fmt: skip
+        return self._seen
+
+    def _wait(self, longest_s: float, condition: Callable[[], Any] = lambda: False) -> None:
+        self._stage.wait(lambda: self._program.ended or condition(), longest_s)
+
+    def _count(self) -> int:
+        return int(self._stage.driver.count(CMD_VEL))
+
+    def _received(self, since: int) -> list[Any]:
+        return list(self._stage.driver.received(CMD_VEL, since))
+
+    def _converse(self, wants_twist: bool) -> None:
+        stage, joys = self._stage, probes.numbered_joys(COUNT)
+        stage.driver.send(JOY, NEUTRAL)
+        if wants_twist:
+            stage.wait(self._count, 0.5)
+            self._ask_numbered(joys)
+        else:
+            for joy in joys:
+                stage.driver.send(JOY, self._task.joy(joy))
+            self._note(asked=COUNT)
+        sent = [*map(self._task.joy, joys)]
+
+        def shown() -> int:
+            """Return how many of the Joys were displayed, all six axes in a line."""
+            return len(probes.displayed(sent, COLOUR.sub("", self._program.output)))
+
+        self._wait(0.7, lambda: shown() >= min(5, self._seen.asked))
+        self._note(shown=shown())
+        seen = self._seen
+        goes = seen.answers and not seen.unanswered and not seen.judge_probes()[0]
+        if goes and RATED.intersection(self._ground.order.exercises) and not self._program.ended:
+            self._stream()
+            if not self._seen.is_prompt and not self._program.ended:
+                self._stream(beside_ours=True)
+
+    def _ask_numbered(self, joys: Sequence[Joy]) -> None:
+        self._one_by_one(joys, 0.0)
+        seen = self._seen
+        doubtful = seen.unasked > 2 or (seen.samples and seen.complaint)
+        if doubtful and not seen.naps:
+            self._ask_again(joys)
+        if len(self._seen.samples) > COUNT / 2 and not self._seen.naps:
+            self._keep_quiet()
+            seen = self._seen
+            if seen.has_clock and not seen.repeats and not seen.twists:
+                self._ask_again(joys)  # zeros by a watchdog, or between all answers
+            if not self._seen.repeats and not self._seen.complaint:
+                self._probe(joys)
+
+    def _ask_again(self, joys: Sequence[Joy]) -> None:
+        """Ask the same with time: it has a clock of its own, publishes several, or is only slow."""
+        is_plain = self._seen.unasked <= 2
+        low = [] if self._seen.missing else probes.low_joys()
+        first = self._seen.samples
+        self._note(samples=(), missing=0)
+        self._wait(SETTLE_S)  # late ones belong to the first pass
+        before = self._count()
+        self._one_by_one([*joys, *low], SETTLE_S)
+        twists = tuple(twist for _, _, twist in self._received(before))
+        if len(self._seen.samples) < len(first):
+            again, first = first, self._seen.samples
+            self._note(samples=again)
+        # Of several Twists for one Joy it is not known which of them answers it.
+        self._note(twists=twists, first_samples=first if is_plain else ())
+        received = self._ask(probes.AT_REST, SETTLE_S)[1]
+        self._note(at_rest=received[-1][2] if received else None)
+        self._ask(joys[-1], SETTLE_S)  # the last one moves the robot
+
+    def _keep_quiet(self) -> None:
+        """See whether Twists come without a Joy. The last one moves the robot."""
+        begun_s, before = time.monotonic(), self._count()
+        usual_s = statistics.median(self._seen.waits)
+        self._wait(max(QUIET_S, 2.5 * min(ANSWER_S, usual_s)))
+        unasked = self._received(before)
+        has_clock = len(unasked) > 1
+        late = [twist for when, _, twist in unasked if when > begun_s + SAME_S]
+        self._note(has_clock=has_clock, repeats=has_clock and any(map(any, late)))
+
+    def _probe(self, joys: Sequence[Joy]) -> None:
+        """Send the other Joys, each until it is answered; end at one that is not in two tries."""
+        seen = self._seen
+        before, settle_s = joys[-1], SETTLE_S if seen.twists else 0.0
+        # By now it is known how many Twists one Joy gets: no time is needed to wait for more.
+        times = max(1, round(len(seen.twists) / len(seen.samples)))
+        plan = [(joy, settle_s, 1) for joy in probes.probes(joys)]
+        plan += [(joy, 0.0, times) for joy in probes.small_and_button_probes()]
+        for joy, wait_s, often in plan:
+            _, received = self._ask(joy, wait_s, often)
+            if not received and not self._program.ended:
+                self._ask(before, wait_s, often)
+                _, received = self._ask(joy, wait_s, often)
+            if not received:
+                self._note(unanswered=(joy, before))
+                return
+            answer = joy, received[-1 if settle_s else 0][2]
+            self._note(answers=(*self._seen.answers, answer))
+            before = joy
+
+    def _ask(
+        self, joy: Joy, settle_s: float, often: int = 1, longest_s: float = ANSWER_S
+    ) -> tuple[float, list[Any]]:
+        """Return (when a Joy was sent, what came then). often: how many Twists are waited for."""
+        before = self._count()
+        sent_s = self._stage.driver.send(JOY, self._task.joy(joy))
+        self._wait(longest_s if often == 1 else SETTLE_S, lambda: self._count() - before >= often)
+        if settle_s:
+            self._wait(settle_s)
+        return sent_s, self._received(before)
+
+    def _one_by_one(self, joys: Sequence[Joy], settle_s: float) -> None:
+        before, answered, unanswered = self._count(), 0, 0
+        for joy in joys:
+            sent_s, received = self._ask(joy, settle_s)
+            seen, wait_s = self._seen, received[0][0] - sent_s if received else ANSWER_S
+            self._note(asked=seen.asked + 1, waits=(*seen.waits, wait_s))
+            if received:
+                sample = joy[0], received[-1][2] if settle_s else received[0][2]
+                self._note(samples=(*seen.samples, sample))
+                answered += 1
+            else:
+                self._note(missing=seen.missing + 1)
+                unanswered += 1
+            if unanswered == 3 or self._program.ended or self._seen.naps:
+                break
+        # Also those that came between an answer and the next Joy.
+        self._note(unasked=self._seen.unasked + self._count() - before - answered)
+        if unanswered == 3 and not self._program.ended and not self._seen.naps:
+            # The rest without much patience, to see how many of all are answered.
+            for joy in joys[answered + unanswered :]:
+                self._ask(joy, 0.0, longest_s=SAME_S)
+        self._note(came=self._count() - before)
+
+    def _stream(self, beside_ours: bool = False) -> None:
+        stage, count = self._stage, int(RATE * STREAM_S)
+        if beside_ours:
+            known = stage.driver.listeners(JOY)
+            echo, answers = stage.echo(self._task.axes[RIGHT[LINEAR]])
+            stage.driver.listen(answers, "Twist")
+            stage.wait(lambda: echo.ready() and stage.driver.listeners(JOY) > known, START_S)
+        before = self._count()
+        joys = [self._task.joy(joy) for joy in probes.rising_joys(count)]
+        stage.driver.stream(JOY, joys, RATE, False)
+        stage.wait(lambda: len(stage.driver.sent(JOY)) >= count, STREAM_S + 3)
+        stage.wait(lambda: self._count() - before >= count, 0.3)
+        sent, received = stage.driver.sent(JOY), self._received(before)
+        rule = rule_of(LINEAR, self._seen.samples)
+        delays = probes.delays(sent, received, rule.factor if rule else None)
+        strays = probes.strays([any(twist) for _, _, twist in received])
+        self._note(sent=len(sent), answered=len(received), delays=tuple(delays), strays=strays)
+        if beside_ours:
+            echoed, sign = stage.driver.received(answers), self._task.signs[RIGHT[LINEAR]]
+            ours = statistics.median(probes.delays(sent, echoed, sign) or [0.0])
+            self._note(possible=len(echoed), unavoidable_s=ours)

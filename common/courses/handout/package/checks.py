@@ -1,0 +1,261 @@
+"""C1 to C4 and C12: the workspace and its underlay, the packages, their dependencies, the build."""
+
+from __future__ import annotations
+
+import difflib
+import os
+import re
+from pathlib import Path
+from typing import Sequence
+
+from tutorial_check.checking.build_errors import build_error, missing_in, not_found
+from tutorial_check.checking.causes import is_lacking, packages_of_ros
+from tutorial_check.checking.model import Note, Wrong
+from tutorial_check.course.definition import check
+from tutorial_check.recording.build import built
+from tutorial_check.recording.builder import Built
+from tutorial_check.recording.own_build import own_built
+from tutorial_check.submission.launch_xml import place_of, read
+from tutorial_check.submission.manifests import is_stand_in, must_be_one, unreadable
+from tutorial_check.submission.session import Session
+from tutorial_check.submission.workspace import Package, packages_beside, underlays
+
+from .wanted import WANTED
+
+SUITE = ("node_kit", "fake_turtlebot_sim")  # packages of the underlay
+AGAIN = "in the workspace: rm -r build devel, then catkin_make"
+
+
+@check("C1", "the workspace", "2.1", look="ls src devel", timeless=True, eager=True)
+def workspace(session: Session) -> Note | str | None:
+    layout = session.layout
+    if not layout.source.is_dir():
+        seen = f"none in {layout.root}, and no package"
+        hint = "is this your workspace? --in ~/ros/hydro/catkin_ws; a new one begins with src"
+        raise Wrong("a folder src in the workspace", seen, hint=hint)
+    _check_names(session)
+    if not layout.is_workspace:
+        return Note("handed in as packages, without their workspace: built again here")
+    devel = layout.root / "devel"
+    real = Path(os.path.realpath(devel / "setup.sh"))
+    if layout.root.resolve() not in real.parents and not session.may_see(real):
+        return Note("never built here (devel is a link that leads elsewhere)")
+    made_for, below = underlays(devel)
+    setup = devel / "setup.bash"
+    if made_for and os.path.realpath(made_for) != os.path.realpath(devel):
+        return Note(f"its devel folder was made elsewhere ({made_for}); built again here")
+    if setup.is_file() and not (made_for and below is not None and setup.stat().st_size):
+        gone = setup.name if made_for and below is not None else "_setup_util.py or setup.sh"
+        seen = f"it is not whole: {gone} is missing or empty"
+        raise Wrong("a devel folder as catkin_make makes it", seen, "devel", AGAIN)
+    if not made_for and any((layout.source / name).is_dir() for name in ("build", "devel")):
+        hint = "catkin_make is called in the workspace: cd .., and remove src/build and src/devel"
+        raise Wrong("build and devel beside src", "they are within src", hint=hint)
+    if below is None:
+        return Note("never built here (no devel/setup.bash)", hint="catkin_make in the workspace")
+    if not any(devel.glob("setup.*")):  # git may leave these out
+        return Note("its devel folder has no setup.bash; built again here", hint=AGAIN)
+    own = str(devel.resolve())
+    return _over(session, [each for each in below if os.path.realpath(each) != own])
+
+
+def _over(session: Session, below: Sequence[str]) -> Note | str:
+    """Return what is said of the folders that a workspace was built over. Raises Wrong.
+
+    One that is built over a ROS in /opt/ros is as such a ROS wants it; here it is built again.
+    """
+    suite = os.path.realpath(Path(session.order.underlay).parent)
+    if suite in map(os.path.realpath, below):
+        return "src and devel, on top of this suite"
+    if below and all(each.startswith("/opt/ros/") for each in below):
+        return Note(f"built over {', '.join(below)} alone; built again here, on top of this suite")
+    seen = f"devel was built over {', '.join(below) or 'nothing'}"
+    hint = "built in a terminal without ./tutorial shell:"
+    hint += " delete build and devel, then catkin_make in it"
+    for other in below[::-1]:  # the first counts
+        is_suite = any(os.path.isdir(f"{other}/share/{name}") for name in SUITE)
+        if is_suite or Path(other).parts[-2:] == ("lower", "devel"):  # it may be hidden here
+            seen = f"devel was built over another copy of the suite, {other}; this one is {suite}"
+            hint = f"{AGAIN} in the ./tutorial shell of this copy; or check with the ./tutorial"
+            hint += " (and TUTORIAL_WORKSPACE) of the other"
+    raise Wrong("a workspace built on top of this suite", seen, "devel", hint)
+
+
+def _check_names(session: Session) -> None:
+    """Raise Wrong for a package with the name of one that the exercises need."""
+    share = Path(session.order.underlay).parent / "share"
+    for each in session.packages:
+        is_suite = (share / each.name).is_dir() and not is_stand_in(each.name)
+        brings = (each.folder / "msg", each.folder / "src" / each.name)
+        is_ros = any(each.name in names for names in WANTED.values())
+        # A clone of the real one is no package that catkin_create_pkg made by mistake.
+        if is_suite or (is_ros and not any(map(Path.is_dir, brings))):
+            seen = f"a package {each.name}: it hides {'the suite' if is_suite else 'ROS'}'s own"
+            hint = "remove it from src. If catkin_create_pkg made it: its first word is the name"
+            hint += " of the new package, those after it what that depends on"
+            raise Wrong("packages of names of their own", seen, f"src/{each.inside}", hint)
+
+
+def _package(session: Session, name: str) -> Package:
+    packages, expected = session.packages, f"one package {session.task.shown(name)} in src"
+    own = session.task.named(name)
+    named = [each for each in packages if each.name == own]
+    broken = [each for each in packages if each.error and own in (each.name, each.folder.name)]
+    if broken:
+        raise unreadable(broken[0])
+    must_be_one(named)
+    if not named:
+        raise _missing(session, name, expected)
+    outer = [each for each in packages if each.folder in named[0].folder.parents]
+    if outer:
+        seen = f"it is within another package, {outer[0].inside}"
+        hint = "move it up: packages stand side by side in src"
+        raise Wrong(expected, seen, named[0].inside, hint)
+    return named[0]
+
+
+def _plain(name: str) -> str:
+    return re.sub(r"[^a-z0-9]", "", name.lower())
+
+
+def _missing(session: Session, name: str, expected: str) -> Wrong:
+    """Return the Wrong for a package that is not there, or is elsewhere, or has another name."""
+    own = session.task.named(name)
+    for beside in (each.inside for each in packages_beside(session.layout) if each.name == own):
+        hint = f"mv {session.whole(beside)} {session.whole('src')}"
+        return Wrong(expected, f"it is beside src: {beside}", beside, hint)
+    link = session.layout.source / own
+    leads_to = os.readlink(link) if link.is_symlink() and not link.exists() else ""
+    if leads_to:
+        seen = f"src/{own} is a link to {leads_to}, and leads nowhere here"
+        return Wrong(expected, seen, f"src/{own}", "put the folder itself into src, no link")
+    named = {_plain(word): p for p in session.packages for word in (p.name, p.folder.name)}
+    for near in difflib.get_close_matches(_plain(own), named, 1, 0.8):
+        similar = named[near]
+        hint = f"its name must be exactly {own}: lower case, with _ and without -;"
+        hint += " in package.xml, CMakeLists.txt and the folder"
+        seen, where = f"a package called {similar.name}", f"{similar.inside}/package.xml"
+        return Wrong(expected, seen, where, hint)
+    found = ", ".join(each.name for each in session.packages) or "no package at all"
+    hint = f"cd to src of your workspace; catkin_create_pkg {own} {' '.join(WANTED[name])}."
+    hint += " ./tutorial shell without --in has one of OURS"
+    return Wrong(expected, f"none; found: {found}", hint=hint)
+
+
+def _dependencies(session: Session, name: str) -> Package:
+    package, wanted = _package(session, name), WANTED[name]
+    where = f"{package.inside}/package.xml"
+    for odd in sorted(package.depends):
+        if not re.fullmatch(r"[a-z][a-z0-9_+-]*", odd, re.IGNORECASE):
+            hint = "between the dependencies stand spaces only, no commas:"
+            hint += " fix package.xml and CMakeLists.txt"
+            raise Wrong("names of packages", f"a dependency on {odd!r}", where, hint)
+    missing = [each for each in wanted if each not in package.depends]
+    others = sorted(package.depends - set(wanted))
+    # What is a package is not misspelt.
+    others_known = (packages_of_ros, is_lacking, lambda name: _is_known(session, name))
+    unknown = [name for name in others if not any(knows(name) for knows in others_known)]
+    if not missing:  # one kind of dependency may name it rightly
+        meant = (difflib.get_close_matches(each, wanted, 1, 0.8) for each in unknown)
+        missing = next(filter(None, meant), [])
+    if not missing:
+        return package
+    near = {each: difflib.get_close_matches(each, unknown, 1, 0.65) for each in missing}
+    seen = f"no {', '.join(missing)}"
+    if missing[0] in package.depends:
+        seen = f"{near[missing[0]][0]}, which is no package"
+    text = read(package.folder / "package.xml")
+    place = place_of(where, text, "exec_depend>", "run_depend>", "depend>", "</package>")
+    # Format 1 knows no <depend>.
+    kinds = ("build_depend", "run_depend") if package.format == 1 else ("depend",)
+    hint = "add " + " and ".join(f"<{k}>{each}</{k}>" for each in missing for k in kinds)
+    if "rospy" in missing and "roscpp" in others:
+        seen, hint = f"{seen}, but roscpp", f"the exercise asks for Python, not for C++: {hint}"
+    for each, (found,) in ((each, words) for each, words in near.items() if words):
+        seen += f" (but {found})" if each not in package.depends else ""
+        place = place_of(where, text, f">{found}<", found)
+        hint = f"correct {found} to {each}, in each line that has it"
+    raise Wrong(f"dependencies on {', '.join(wanted)}", seen, place, hint)
+
+
+@check("C2", "package beginner_tutorials", "2.1", look="rospack find beginner_tutorials",
+       timeless=True)  # fmt: skip
+def beginner(session: Session) -> Note | str | None:
+    return f"src/{_package(session, 'beginner_tutorials').inside}"
+
+
+@check("C3", "its dependencies", "2.1", "C2", look="rospack depends1 beginner_tutorials",
+       timeless=True)  # fmt: skip
+def beginner_dependencies(session: Session) -> None:
+    _dependencies(session, "beginner_tutorials")
+
+
+@check("C12", "package {n.package} and its dependencies", "4.3", look="rospack find {n.package}",
+       timeless=True)  # fmt: skip
+def joy2twist(session: Session) -> Note | str | None:
+    package = _dependencies(session, "joy2twist")
+    found = re.search(r"find_package\s*\(\s*catkin\b[^)]*\bCOMPONENTS\b([^)]*)\)", _cmake(package))
+    for name in found[1].split() if found else ():
+        if not _is_known(session, name) and name in missing_in(_printed(session)):
+            raise Wrong("packages that catkin can find", *not_found(session, name))
+    return f"src/{package.inside}"
+
+
+def _is_known(session: Session, name: str) -> bool:
+    """Return whether find_package surely finds a package; if not, only a build shows it, slowly."""
+    prefixes = session.underlay_environment.get("CMAKE_PREFIX_PATH", "").split(":")
+    if any(each.name == name for each in session.packages):
+        return True
+    file = f"cmake/{name}Config.cmake"
+    found = (Path(prefix, "share", name, file).is_file() for prefix in (*prefixes, "/usr"))
+    # Of a package with a library, as roscpp, Debian has it there.
+    return any(found) or any(Path("/usr/lib").glob(f"*/cmake/{name}/{name}Config.cmake"))
+
+
+def _cmake(package: Package) -> str:
+    """Return the text of a package's CMakeLists.txt without comments. Raises Wrong."""
+    if package.cmake is None:
+        expected, hint = "a package as catkin_create_pkg makes it", "take it from a new package"
+        raise Wrong(expected, "the file CMakeLists.txt is missing", package.inside, hint)
+    return package.cmake
+
+
+@check("C4", "catkin_make builds", "2.1", "C2", look="catkin_make")
+def build(session: Session) -> Note | None:
+    made = must_build(session)
+    listed = re.search(r"traversing \d+ packages?[^:]*:((?:\s*--\s+~~\s+- .*)+)", made.output)
+    names = re.findall(r"- (\S+)", listed[1]) if listed else []
+    if listed and "beginner_tutorials" not in names:
+        seen = f"it goes through {', '.join(names)}"
+        raise Wrong("catkin_make goes through beginner_tutorials", seen)
+    if not made.unbuilt:
+        return None
+    wrong = build_error(session, made.unbuilt)
+    seen = f"it builds what the exercises need; another package fails: {wrong.seen}"
+    hint = f"{wrong.hint}; or put an empty file CATKIN_IGNORE into that package"
+    return Note(seen, wrong.where, hint)
+
+
+def must_build(session: Session) -> Built:
+    """Return what catkin_make has built. Raises Wrong."""
+    for each in session.needed:
+        _cmake(each)
+    made = session.recording(built)
+    if made.code is None:
+        hint = "catkin_make in your workspace"
+        raise Wrong("catkin_make ends", "it runs for more than two minutes", hint=hint)
+    if made.code != 0:
+        wrong, own = build_error(session, made.output), build_error(session, _printed(session))
+        if (own.seen, own.where) != (wrong.seen, wrong.where):
+            place = f" ({wrong.where})" if wrong.where else ""
+            own.seen += f"; another package fails, too: {wrong.seen}{place}"
+        raise own
+    return made
+
+
+def _printed(session: Session) -> str:
+    """Return what catkin_make prints of the packages of the exercises, whatever others do."""
+    made = session.recording(built)
+    if not made.code or len(session.needed) == len(session.packages):
+        return made.output
+    return session.recording(own_built).output

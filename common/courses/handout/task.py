@@ -1,0 +1,107 @@
+"""What a variant of the handout's task changes: axes, buttons, topics, factors, names. Pure.
+
+Checks use the handout's axes and buttons: a Joy is rearranged as it is sent. In messages a Words
+stands for what a variant may change.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Mapping, Sequence, Tuple, TypeVar
+
+from tutorial_check.course.tasks import Task
+from tutorial_check.recording.order import Variant
+
+PACKAGE = "joy2twist"
+LB = 4  # the dead-man button of the handout's memo
+FIELDS = {"axis_linear": (1, "scale_linear"), "axis_angular": (0, "scale_angular")}
+AXES = 6
+TOPICS = {"joy": "/joy", "cmd_vel": "/cmd_vel"}
+
+T = TypeVar("T")
+Joy = Tuple[Tuple[float, ...], Tuple[int, ...]]  # (axes, buttons)
+
+
+@dataclass(frozen=True)
+class Words:
+    """What messages call the values of a task: by their names, or in hints as they are."""
+
+    joy: str
+    cmd_vel: str
+    package: str
+    lb: str
+    button: str  # LB in a program
+    axes: tuple[str, ...]  # in a program, each by its place in the handout's
+    sticks: tuple[str, ...]  # the same, elsewhere
+    rules: Mapping[int, str]  # what follows each of the two axes that drive
+
+
+def order(places: Mapping[int, int]) -> dict[int, int]:
+    """Return a rearrangement with these places, {from: to}, in which nothing gets lost."""
+    left = [each for each in places.values() if each not in places]
+    free = [each for each in places if each not in places.values()]
+    return {**places, **dict(zip(left, free))}
+
+
+def moved(values: Sequence[T], places: Mapping[int, int]) -> tuple[T, ...]:
+    found = {places.get(index, index): value for index, value in enumerate(values)}
+    return tuple(found[index] for index in range(len(values)))
+
+
+class JoystickTask(Task):
+    """A variant of the handout's task."""
+
+    def __init__(self, values: Variant) -> None:
+        """values: see course.yaml."""
+        super().__init__(values)
+        self.axes = order({index: values.get(name, index) for name, (index, _) in FIELDS.items()})
+        self.buttons = order({LB: values.get("enable_button", LB)})
+        self.topics = {TOPICS[key]: values[key] for key in TOPICS if key in values}
+        # Of linear.x and angular.z, by the index of the Twist's values; without one any is right.
+        given = (values.get(scale) for _, scale in FIELDS.values())
+        self.factors = {index: abs(each) for index, each in zip((0, 5), given) if each is not None}
+        # For a factor below 0 the axis is sent with the other sign: the checks see one above 0.
+        self.signs = {i: -1 if values.get(scale, 1) < 0 else 1 for i, scale in FIELDS.values()}
+        self.needs_button = "enable_button" in values
+        scales = [scale for _, scale in FIELDS.values()]
+        self.names = self._words({key: key if key in scales else f"<{key}>" for key in values})
+        self.answers = self._words(values)
+
+    def _words(self, said: Mapping[str, object]) -> Words:
+        """Return the Words for what is said of the given values: the value, or its name."""
+        axes = [f"axes[{self.axes.get(index, index)}]" for index in range(AXES)]
+        sticks, rules = [f"axis {index}" for index in range(AXES)], {}
+        for key, (index, scale) in FIELDS.items():
+            if isinstance(said.get(key), str):
+                axes[index] = sticks[index] = f"axes[{key}]"
+            rules[index] = f"{said[scale]} * {axes[index]}" if scale in said else axes[index]
+        number = said.get("enable_button", LB)
+        button = number if isinstance(number, str) else f"buttons[{number}]"
+        lb = button if "enable_button" in said else "LB"
+        plain = {**TOPICS, "package": PACKAGE}
+        joy, cmd_vel, package = (str(said.get(key, plain[key])) for key in plain)
+        return Words(joy, cmd_vel, package, lb, button, tuple(axes), tuple(sticks), rules)
+
+    def joy(self, joy: Joy) -> Joy:
+        """Return the (axes, buttons) that are to this program what a Joy is to the handout's."""
+        axes = [self.signs.get(index, 1) * value for index, value in enumerate(joy[0])]
+        return moved(axes, self.axes), moved(joy[1], self.buttons)
+
+    def product(self, factor: float, axis: int) -> str:
+        """Return what a program multiplies, in a message."""
+        return f"{self.signs.get(axis, 1) * factor:.2f} * {self.names.axes[axis]}"
+
+    def topic(self, name: str) -> str:
+        return self.topics.get(name, name)
+
+    def named(self, package: str) -> str:
+        return self.values.get("package", package) if package == PACKAGE else package
+
+    def shown(self, package: str) -> str:
+        return self.names.package if package == PACKAGE else package
+
+    def fill(self, text: str) -> str:
+        return text.format(n=self.names)
+
+
+HANDOUT = JoystickTask({})

@@ -1,0 +1,134 @@
+"""C35 to C37: the seventh lesson, ours: bumper, laser and wandering in a simulated room."""
+
+from __future__ import annotations
+
+import math
+import re
+from typing import Sequence
+
+from tutorial_check.checking.model import Wrong
+from tutorial_check.checking.programs import crash, program_of
+from tutorial_check.course.definition import check
+from tutorial_check.recording.data import Topics
+from tutorial_check.recording.simulated_robot import BUMPER, Sample, has_moved
+from tutorial_check.submission.session import Session
+
+from ..driving.record import CMD_VEL
+from ..talker_listener.record import PACKAGE
+from . import record
+from .record import LONGEST_PUSH_S, SIDES, WANDER_S
+
+WALL_X_M, RADIUS_M = 4.0, 0.178
+SPEEDS = (0.1, 0.3, 0.6)  # [m/s]
+LEAST_GAP_M, MOST_GAP_M = 0.3, 0.5
+LONGEST_STAND_S, STANDS_M = 20.0, 0.1  # within so few metres; a slow turn on the spot is shorter
+LEAST_WAY_M, LEAST_WIDTH_M = 3.0, 2.0
+
+
+@check("C35", "the bumper is read", "7", "C2", look="rosrun beginner_tutorials bumper.py")
+def reads_bumper(session: Session) -> str:
+    script = program_of(session, PACKAGE, "bumper.py")
+    seen = session.recording(record.presses, script)
+    if not seen.connected:
+        hint = "rospy.Subscriber('mobile_base/events/bumper', BumperEvent, callback)"
+        expected, kind = f"it subscribes to {BUMPER}, until Ctrl-C", "kobuki_msgs/BumperEvent"
+        wrong = crash(session, PACKAGE, seen.program, expected, hint)
+        raise _elsewhere(wrong, "subscribes to", BUMPER, kind, seen.subscribers, seen.types)
+    for number, (side, shown) in enumerate(zip(SIDES, seen.shown)):
+        # The paths of a traceback may have the number, too.
+        if not re.search(record.wanted(number), re.split("bad callback|Traceback", shown)[0]):
+            expected = f"the {side} bumper on the screen when it is pressed"
+            hint = f"event.bumper is {number} (BumperEvent.{side.upper()}), event.state 1"
+            if seen.program.ended or "Traceback" in shown:
+                raise crash(session, PACKAGE, seen.program, expected, hint)
+            raise Wrong(expected, shown or "nothing", script, hint)
+    if len(set(seen.shown)) < len(SIDES):
+        hint = "event.bumper says which one: BumperEvent.LEFT, CENTER or RIGHT"
+        expected = "a different line for each bumper"
+        raise Wrong(expected, f"for all: {seen.shown[0]}", script, hint)
+    return ", ".join(SIDES)
+
+
+def _elsewhere(
+    wrong: Wrong, does: str, topic: str, kind: str, topics: Topics, types: dict[str, str]
+) -> Wrong:
+    """Return the Wrong; where the program uses another topic of that type, that was seen."""
+    others = [one for one in topics if types.get(one) == kind and one != topic]
+    if others:
+        wrong.seen = f"it {does} {others[0]}, not {topic}"
+    return wrong
+
+
+@check("C36", "it stops before a wall", "7", "C2",
+       look="roslaunch fake_turtlebot_sim fake_turtlebot.launch world:=room;"
+       " rosrun beginner_tutorials stop_before_wall.py _speed:=0.3")  # fmt: skip
+def stops(session: Session) -> str:
+    script = program_of(session, PACKAGE, "stop_before_wall.py")
+    gaps = [_gap_m(session, script, speed) for speed in SPEEDS]
+    return ", ".join(f"{gap:.2f} m at {speed} m/s" for gap, speed in zip(gaps, SPEEDS))
+
+
+def _gap_m(session: Session, script: str, speed: float) -> float:
+    drive = session.recording(record.towards_the_wall, script, speed)
+    path = drive.path
+    if not has_moved(path):
+        expected = f"the robot drives towards the wall with _speed:={speed}"
+        hint = "it publishes on cmd_vel for each LaserScan on scan"
+        wrong, kind = crash(session, PACKAGE, drive.program, expected, hint), "geometry_msgs/Twist"
+        raise _elsewhere(wrong, "publishes on", CMD_VEL, kind, drive.publishers, drive.types)
+    fastest, gap_m = max(sample.v for sample in path), WALL_X_M - RADIUS_M - path[-1].x
+    expected = f"a stop {LEAST_GAP_M} to {MOST_GAP_M} m before the wall, with _speed:={speed}"
+    if drive.program.code:
+        raise crash(session, PACKAGE, drive.program, expected)
+    if abs(fastest - speed) > 0.2 * speed:
+        hint = 'rospy.get_param("~speed", 0.3) is the speed [m/s]'
+        raise Wrong(f"{speed} m/s with _speed:={speed}", f"{fastest:.2f} m/s", script, hint)
+    rests = not drive.bumps and not path[-1].v
+    if rests and LEAST_GAP_M <= gap_m <= MOST_GAP_M:
+        return gap_m
+    if rests and any(drive.last_twist or ()):
+        seen = f"{gap_m:.2f} m: no zero came, and the base stopped 0.6 s after the last velocity"
+        raise Wrong(expected, seen, script, "near the wall publish a Twist of zero")
+    seen = f"it still drives, {gap_m:.2f} m before it" if path[-1].v else f"{gap_m:.2f} m"
+    seen = "it drives into the wall" if drive.bumps else seen
+    hint = "ranges begin at the camera, 0.087 m behind the middle of the robot, whose radius is"
+    raise Wrong(expected, seen, script, f"{hint} {RADIUS_M} m; too near is -inf, or NaN")
+
+
+@check("C37", "it wanders", "7", "C2",
+       look="roslaunch fake_turtlebot_sim fake_turtlebot.launch world:=room;"
+       " rosrun beginner_tutorials wander.py")  # fmt: skip
+def wanders(session: Session) -> str:
+    script = program_of(session, PACKAGE, "wander.py")
+    drive = session.recording(record.wandering, script)
+    expected = f"it drives about for {WANDER_S:.0f} s"
+    expected += f" and never pushes for {LONGEST_PUSH_S:.0f} s or longer"
+    if drive.program.ended:
+        hint = "does it loop, or rospy.spin()?"
+        raise crash(session, PACKAGE, drive.program, expected, hint)
+    push_s = record.longest_push_s(drive.bumps, drive.ended_s)
+    if push_s > LONGEST_PUSH_S:
+        hint = "with BumperEvent.PRESSED go back: linear.x < 0; what is beside it no scan shows"
+        seen = f"it pushed for {push_s:.1f} s at ({drive.path[-1].x:.1f}, {drive.path[-1].y:.1f})"
+        raise Wrong(expected, seen, script, hint)
+    path = [(sample.x, sample.y) for sample in drive.path]
+    way_m = sum(math.dist(a, b) for a, b in zip(path, path[1:]))
+    width_m = max(max(places) - min(places) for places in zip(*path))
+    if way_m < LEAST_WAY_M or width_m < LEAST_WIDTH_M:
+        hint = "ahead while min(scan.ranges) is large enough, else turn until it is"
+        raise Wrong(expected, f"{way_m:.1f} m in a place {width_m:.1f} m wide", script, hint)
+    stand_s = longest_stand_s(drive.path)
+    if stand_s > LONGEST_STAND_S:
+        hint = "where nothing is free ahead, turn until min(scan.ranges) is large again"
+        raise Wrong(expected, f"it did not move for {stand_s:.0f} s", script, hint)
+    return f"{way_m:.1f} m"
+
+
+def longest_stand_s(samples: Sequence[Sample]) -> float:
+    """Return how long [s] the robot stayed within STANDS_M of a place, at most."""
+    longest_s, since = 0.0, samples[0]
+    for one in samples:
+        if math.dist((one.x, one.y), (since.x, since.y)) > STANDS_M:
+            since = one
+        longest_s = max(longest_s, one.at_s - since.at_s)
+    return longest_s

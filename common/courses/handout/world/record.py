@@ -1,0 +1,122 @@
+"""Lesson 7: bumper.py, stop_before_wall.py and wander.py at work in a simulated room."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import Dict, Optional, Sequence, Tuple
+
+from tutorial_check.processes.program import Program, Ran
+from tutorial_check.recording.data import Heard, Topics
+from tutorial_check.recording.ground import Ground
+from tutorial_check.recording.ros_session import Stage
+from tutorial_check.recording.simulated_robot import BUMPER, TRUTH, Sample, SimulatedRobot
+
+from ..driving.record import CMD_VEL
+from ..talker_listener.record import PACKAGE
+
+SIDES = ("left", "center", "right")  # kobuki_msgs/BumperEvent: 0, 1, 2
+ANSWER_S = 2.0  # for a line on the screen
+STAMP = re.compile(r"\[[^\]]*\]")  # what rospy.loginfo puts before a text
+# Towards the wall of the room at x = 4 m, from where 0.1 m/s takes some seconds.
+START_X_M = 2.9
+WANDER_S, LONGEST_PUSH_S = 60.0, 1.0
+
+
+@dataclass(frozen=True)
+class Presses:
+    """bumper.py, and each bumper pressed once, up to the first that it does not show."""
+
+    connected: bool
+    program: Ran
+    shown: Tuple[str, ...]  # what it displayed at each press
+    subscribers: Topics
+    types: Dict[str, str]
+
+
+@dataclass(frozen=True)
+class Drive:
+    """A program that drives the simulated robot in the room."""
+
+    program: Ran
+    path: Tuple[Sample, ...]
+    bumps: Tuple[Heard, ...]  # bumper and state of each event
+    ended_s: float  # when the last pose came, on the clock of the events
+    last_twist: Optional[Tuple[float, ...]]
+    publishers: Topics
+    types: Dict[str, str]
+
+
+def wanted(number: int) -> str:
+    """Return a regular expression for the line that shows the press of a bumper."""
+    return rf"(?i){SIDES[number]}|\b{number}\b" + "|centre" * (number == 1)
+
+
+def presses(ground: Ground, script: str) -> Presses:
+    shown: list[str] = []
+    with ground.stage() as stage:
+        stage.driver.advertise(BUMPER, "BumperEvent")
+        program = stage.start(PACKAGE, script)
+        connected = stage.meet(program, BUMPER) and not program.ended
+        subscribers, types = stage.driver.state()[1], stage.driver.types()
+        for number in range(len(SIDES)) if connected else ():
+            shown.append(_press(stage, program, number))
+            if not re.search(wanted(number), shown[-1]):
+                break
+    return Presses(connected, program.ran, tuple(shown), subscribers, types)
+
+
+def _press(stage: Stage, program: Program, number: int) -> str:
+    """Press a bumper; return what the program displays then."""
+    since = len(program.output)
+
+    def shown() -> str:
+        return STAMP.sub("", program.output[since:]).strip(": \n")
+
+    stage.driver.send(BUMPER, (number, 1))
+    stage.wait(lambda: program.ended or re.search(wanted(number), shown()), ANSWER_S)
+    return shown()
+
+
+def towards_the_wall(ground: Ground, script: str, speed: float) -> Drive:
+    """Let it drive until it rests. speed: its parameter ~speed [m/s]."""
+    return _driven(ground, script, f"_speed:={speed}")
+
+
+def wandering(ground: Ground, script: str) -> Drive:
+    """Let it drive for a minute, or until it pushes for too long."""
+    return _driven(ground, script)
+
+
+def _driven(ground: Ground, script: str, *arguments: str) -> Drive:
+    with ground.stage() as stage:
+        robot = SimulatedRobot(stage, "_world:=room", f"_initial_x:={START_X_M}")
+        stage.driver.listen(CMD_VEL, "Twist")
+        program = stage.start(PACKAGE, script, *arguments)
+
+        def now_s() -> float:
+            return stage.driver.received(TRUTH, -1)[0][0]
+
+        def pushes() -> bool:
+            return longest_push_s(stage.driver.received(BUMPER), now_s()) > LONGEST_PUSH_S
+
+        if arguments:
+            robot.drive(program)
+        else:
+            stage.wait(lambda: program.ended or pushes(), WANDER_S)
+        publishers, types = stage.driver.state()[0], stage.driver.types()
+        path, bumps, ended_s = robot.path, stage.driver.received(BUMPER), now_s()
+        last = stage.driver.received(CMD_VEL, -1)
+    twist = last[0][2] if last else None
+    return Drive(program.ran, path, tuple(bumps), ended_s, twist, publishers, types)
+
+
+def longest_push_s(events: Sequence[Heard], now_s: float) -> float:
+    """Return how long [s] a bumper was pressed at a time, at most."""
+    pressed: set[float] = set()
+    longest_s = began_s = 0.0
+    for when_s, _, (number, state) in [*events, (now_s, "", (-1, 0))]:
+        longest_s = max(longest_s, when_s - began_s if pressed else 0.0)
+        began_s = began_s if pressed else when_s
+        (pressed.add if state else pressed.discard)(number)
+    return longest_s

@@ -1,0 +1,69 @@
+"""The worked example of COURSES.md: a program that drives a square of 1 m, and rests."""
+
+import math
+from dataclasses import dataclass
+from typing import Tuple
+
+from tutorial_check.checking.model import Wrong
+from tutorial_check.checking.programs import crash, program_of
+from tutorial_check.course.definition import check
+from tutorial_check.processes.program import Ran
+from tutorial_check.recording.simulated_robot import Sample, SimulatedRobot, has_moved
+
+CORNERS = [(1, 0), (1, 1), (0, 1), (0, 0)]  # [m], to the left; to the right the y are negative
+NEAR_M = 0.1
+LONGEST_S = 25.0
+
+
+@dataclass(frozen=True)
+class Drive:
+    """What is written down: the program, and the path of the robot."""
+
+    program: Ran
+    path: Tuple[Sample, ...]
+
+
+def drive(ground, script) -> Drive:
+    """Record a drive."""
+    with ground.stage() as stage:
+        robot = SimulatedRobot(stage)
+        program = stage.start("square", script)
+        path = robot.drive(program, longest_s=LONGEST_S)
+    return Drive(program.ran, path)
+
+
+def path_of(session):
+    """Return the path of the robot; recorded once, for all checks."""
+    seen = session.recording(drive, program_of(session, "square", "square.py"))
+    if not has_moved(seen.path):
+        hint = "publish geometry_msgs/Twist on /cmd_vel"
+        raise crash(session, "square", seen.program, "the robot drives", hint)
+    return seen.path
+
+
+@check("S1", "it drives", "1", look="rosrun square square.py")
+def drives(session):
+    """Find the program, and look whether it drives."""
+    path = path_of(session)
+    return f"for {path[-1].at_s - path[0].at_s:.0f} s"
+
+
+@check("S2", "it passes the corners", "1", "S1", look="rostopic echo /odom")
+def passes_corners(session):
+    """Look for each corner on the way that is left."""
+    path = path_of(session)
+    side = 1 if max(path, key=lambda s: abs(s.y)).y > 0 else -1
+    for number, (x, y) in enumerate(CORNERS, 1):
+        gap, at = min((math.dist((s.x, s.y), (x, side * y)), k) for k, s in enumerate(path))
+        if gap > NEAR_M:
+            expected = f"corner {number}, ({x}, {side * y}), within {NEAR_M} m"
+            raise Wrong(expected, f"it comes within {gap:.2f} m", hint="angle = w * time")
+        path = path[at:]
+
+
+@check("S3", "it rests at the end", "1", "S1", look="rostopic echo /odom/twist")
+def rests(session):
+    """Look at the last sample."""
+    end = path_of(session)[-1]
+    if end.v or end.w:
+        raise Wrong("a robot at rest", f"{end.v:.2f} m/s", hint="publish Twist() at the end")

@@ -1,0 +1,119 @@
+"""Exercises 1 and 2: a message and a service, a server that adds, and a client that asks it."""
+
+import re
+
+from courses.handout.package.checks import must_build
+from tutorial_check.checking.files import File, recorded
+from tutorial_check.checking.model import Wrong
+from tutorial_check.checking.packages import package_of
+from tutorial_check.course.definition import check
+from tutorial_check.recording.client import Client, Seen
+
+from .turtles import PACKAGE, START_S
+
+FIELDS = {  # Others may stand beside them.
+    "msg/Num.msg": ["int64 num"],
+    "srv/AddTwoInts.srv": ["int64 a", "int64 b", "---", "int64 sum"],
+}
+CLIENT = "add_two_ints_client.py"
+SERVICE, KIND = "/add_two_ints", f"{PACKAGE}/AddTwoInts"
+ASKED, SUM = {"a": 2**40, "b": -7}, 2**40 - 7
+GIVEN, STRANGE = {"a": 31, "b": 12}, 4321  # for the client, and what our server responds
+
+
+def serve(ground, script) -> Seen:
+    """Ask the student's server."""
+    with ground.stage() as stage:
+        client = Client(stage)
+        program = stage.start(PACKAGE, script)
+        answer = client.ask(SERVICE, KIND, ASKED)
+        return client.seen(program, answers=[answer.values, answer.trouble])
+
+
+def ask(ground, script) -> Seen:
+    """Start the student's client, and our server only when it waits."""
+    with ground.stage() as stage:
+        client = Client(stage)
+        program = stage.start(PACKAGE, script, *map(str, GIVEN.values()))
+        stage.wait_for_start(lambda: program.ended)
+        client.serve(SERVICE, KIND, {"sum": STRANGE})
+        stage.wait(lambda: program.ended, START_S)
+        return client.seen(program, SERVICE)
+
+
+def check_fields(session, path):
+    """Look at the text of a type."""
+    folder, wanted = package_of(session, PACKAGE).folder, FIELDS[path]
+    if not (folder / path).is_file():
+        names = [str(each.relative_to(folder)) for each in folder.rglob(f"*{path[-4:]}")]
+        where, there = "".join(names[:1]), ", ".join(names) or "none"
+        raise Wrong(f"{PACKAGE}/{path}", there, where, "capitals count")
+    file = File(session, PACKAGE, path)
+    given = [" ".join(line.partition("#")[0].split()) for line in file.text.splitlines()]
+    missing = next((line for line in wanted if line not in given), wanted[-1])
+    is_right = [line for line in given if line in wanted] == wanted
+    words, hint = f"{missing.split()[-1]} int", f"write {missing}"
+    file.must(is_right, words, " / ".join(wanted), " / ".join(filter(None, given)), hint)
+
+
+@check("W1", "Num.msg", "1", look=f"rosmsg show {PACKAGE}/Num", timeless=True)
+def message(session):
+    check_fields(session, "msg/Num.msg")
+
+
+@check("W2", "AddTwoInts.srv", "1", look=f"rossrv show {PACKAGE}/AddTwoInts", timeless=True)
+def service(session):
+    check_fields(session, "srv/AddTwoInts.srv")
+
+
+@check("W3", "package.xml: message_generation, message_runtime", "1", timeless=True)
+def manifest(session):
+    depends, file = package_of(session, PACKAGE).depends, File(session, PACKAGE, "package.xml")
+    for name, kind in (("message_generation", "build"), ("message_runtime", "exec")):
+        hint = f"<{kind}_depend>{name}</{kind}_depend>, and not in a comment"
+        words = f"{name} message_ depend>"
+        file.must(name in depends, words, f"a dependency on {name}", "none", hint)
+
+
+@check("W4", "catkin_make builds", "1", "W1 W2", look="catkin_make")
+def builds(session):
+    must_build(session)
+
+
+@check("W5", "both are generated", "1", "W4", look=f"rosmsg show {PACKAGE}/Num")
+def are_generated(session):
+    file = File(session, PACKAGE, "CMakeLists.txt")
+    for path, macro in zip(FIELDS, ("add_message_files", "add_service_files")):
+        name = path.split("/")[1]
+        hint = f"{macro}(FILES {name})"
+        if name in package_of(session, PACKAGE).cmake:
+            hint = "generate_messages()"
+        is_made = re.search(rf"from .*{PACKAGE}/{name[:-4]}\b", must_build(session).output)
+        words = f"{name} {hint.partition('(')[0]} catkin_package"
+        file.must(is_made, words, f"{path} is generated", "it is not", hint)
+
+
+@check("W6", "the server adds", "2", "W5", look=f"rosservice call {SERVICE} 1 2")
+def server(session):
+    file, found = recorded(session, PACKAGE, "add_two_ints_server.py", serve)
+    values, trouble = found.answers
+    file.must_run(found.program, f"a server of {SERVICE}", may_end=bool(values))
+    hint = "look at the names in rospy.Service(...)"
+    file.must(values, "Service(", f"{SERVICE}, {KIND}", trouble, hint)
+    hint = "return AddTwoIntsResponse(request.a + request.b)"
+    file.must(values["sum"] == SUM, "return", f"{ASKED} make {SUM}", values["sum"], hint)
+
+
+@check("W7", "the client asks and prints", "2", "W5", look=f"rosrun {PACKAGE} {CLIENT} 4 5")
+def client(session):
+    file, found = recorded(session, PACKAGE, CLIENT, ask)
+    requests, output = found.heard[SERVICE], found.program.output
+    expected, hint = f"it waits for {SERVICE}", f"rospy.wait_for_service('{SERVICE[1:]}')"
+    file.must_run(found.program, expected, f"{hint} before the call", may_end=bool(requests))
+    words, hint = "ServiceProxy( wait_for_service(", "look at the name of the service"
+    file.must(requests, words, f"it calls {SERVICE}", "it does not", hint)
+    proxy = re.search(r"(\w+)\s*=\s*(?:rospy\.)?ServiceProxy", file.text)
+    words, hint = f"{proxy[1]}( argv" if proxy else "argv", "a is sys.argv[1], b is sys.argv[2]"
+    file.must(requests[0] == GIVEN, words, f"it asks {GIVEN}", requests[0], hint)
+    expected, there = f"it prints the response, here {STRANGE}", output[-80:].strip() or "nothing"
+    file.must(str(STRANGE) in output, "print", expected, there, "print response.sum")

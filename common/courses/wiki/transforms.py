@@ -1,0 +1,94 @@
+"""Exercise 7: turtle1 as a transform, and a second turtle that follows it."""
+
+import math
+
+from tutorial_check.checking.files import File, recorded
+from tutorial_check.checking.launches import Launch, launch_file
+from tutorial_check.checking.programs import program_of
+from tutorial_check.course.definition import check
+from tutorial_check.recording.client import Client, Seen
+
+from .turtles import KINDS, POSE, START_S, gap, turtles
+
+# Packages of the pages of tf2 and of tf, and how the names of their programs begin.
+PACKAGES = {"learning_tf2": "turtle_tf2", "learning_tf": "turtle_tf"}
+DEMO = "start_demo.launch"
+TELEPORT = "/turtle1/teleport_absolute", "turtlesim/TeleportAbsolute"
+PLACE = {"x": 8.0, "y": 6.0, "theta": 2.5}  # [m], [m], [rad]
+NEAR = 0.02  # [m], and of a quaternion
+SECOND, FOLLOWS_S, NEAR_M = "/turtle2/pose", 8.0, 1.5
+
+
+def names(session):
+    """Return the package, and the names of broadcaster and listener."""
+    package = next(filter(session.has, PACKAGES), "learning_tf2")
+    return package, *(f"{PACKAGES[package]}_{each}.py" for each in ("broadcaster", "listener"))
+
+
+def broadcast(ground, script, package) -> Seen:
+    """Move turtle1, and listen to transforms."""
+    with turtles(ground) as (stage, client):
+        client.listen("/tf", "tf2_msgs/TFMessage")
+        program = stage.start(package, script, "_turtle:=turtle1")
+        stage.wait_for_start(lambda: program.ended or client.count("/tf"))
+        client.ask(*TELEPORT, PLACE)
+        past = client.count("/tf") + 5
+        stage.wait_for_start(lambda: program.ended or client.count("/tf") > past)
+        return client.seen(program, "/tf")
+
+
+@check("W15", "the broadcaster", "7", look="rosrun tf tf_echo /world /turtle1")
+def broadcaster(session):
+    package, name, _ = names(session)
+    file, found = recorded(session, package, name, broadcast, package)
+    expected = "frames: turtle1 in world"
+    file.must_run(found.program, expected)
+    frames = found.heard["/tf"][-1]["transforms"] if found.heard["/tf"] else []
+    given = {f"{one['child_frame_id']} in {one['header']['frame_id']}": one for one in frames}
+    there, words = ", ".join(given) or "none", "frame_id" if frames else "Subscriber("
+    hint = "header.frame_id is world; child_frame_id is the turtle, as in the parameter turtle"
+    is_there = "turtle1 in world" in given
+    file.must(is_there, f"{words} sendTransform", expected, f"frames: {there}", hint)
+    parts = given["turtle1 in world"]["transform"].values()
+    place, turn = ([round(each, 2) for each in part.values()] for part in parts)
+    x, y, theta = PLACE.values()
+    words, hint = "translation sendTransform", "those of the pose"
+    file.must(math.dist(place, (x, y, 0.0)) < NEAR, words, f"at ({x}, {y}, 0)", place, hint)
+    wanted = [0.0, 0.0, round(math.sin(theta / 2), 2), round(math.cos(theta / 2), 2)]
+    is_right = abs(abs(sum(a * b for a, b in zip(turn, wanted))) - 1.0) < NEAR
+    words, hint = "rotation quaternion", "quaternion_from_euler(0, 0, theta)"
+    file.must(is_right, words, f"at {theta} rad: {wanted}", turn, hint)
+
+
+def follow(ground, path) -> Seen:
+    """Start the launch file, and move turtle1."""
+    with ground.stage() as stage:
+        client = Client(stage)
+        client.listen(SECOND, KINDS[POSE])
+        program = Launch(stage, path).program
+        stage.wait(lambda: program.ended or client.count(SECOND), 3 * START_S)
+        if client.count(SECOND):
+            client.ask(*TELEPORT, PLACE)
+            stage.wait(lambda: gap(client.heard(SECOND, -1)[0][2], PLACE) < NEAR_M, FOLLOWS_S)
+        return client.seen(program, SECOND)
+
+
+@check("W16", "turtle2 follows", "7", "W15", look=f"roslaunch learning_tf2 {DEMO}")
+def follows(session):
+    package, broadcaster, name = names(session)
+    listener = File(session, package, program_of(session, package, name))
+    launch = launch_file(session, package, DEMO)
+    found = session.recording(follow, launch.path)
+    apart_m = [gap(pose, PLACE) for pose in found.heard[SECOND][-1:]]
+    if apart_m and apart_m[0] < NEAR_M:
+        return
+    expected, started = "a turtle2, which comes near turtle1", [n["type"] for n in launch.nodes]
+    is_whole, there = started.count(broadcaster) > 1 and name in started, ", ".join(started)
+    hint = "a broadcaster for each turtle, each with its parameter turtle; and the listener"
+    launch.must(is_whole, f"{broadcaster} <launch", expected, f"only {there}", hint)
+    listener.must_run(found.program, expected)
+    words, there, hint = "spawn Spawn", "no turtle2", "call the service spawn"
+    if apart_m:
+        words, there = "lookup_transform lookupTransform", f"{apart_m[0]:.1f} m apart"
+        hint = "lookup_transform('turtle2', 'turtle1', ...)"
+    listener.must(False, words, expected, there, hint)

@@ -1,0 +1,151 @@
+"""What an error most often means, and what to do; which package has what is missing. Pure."""
+
+from __future__ import annotations
+
+import difflib
+import fnmatch
+import re
+from pathlib import Path
+from typing import Collection, Iterable
+
+import yaml
+
+from tutorial_check.submission.python_facts import PythonFacts
+
+FILE = Path(__file__).with_suffix(".txt")
+TABLES: dict[str, str] = yaml.safe_load(FILE.with_name("debian_packages.yaml").read_text())
+MODULES, DEV_PACKAGES = TABLES["MODULES"], TABLES["DEV_PACKAGES"]
+OTHER_MODULES, OTHER_PACKAGES = TABLES["OTHER_MODULES"], TABLES["OTHER_PACKAGES"]
+LACKING = {name for row in TABLES["LACKING"].splitlines() for name in row.partition(":")[0].split()}
+HOMES = dict(row.split(": ") for row in TABLES["HOMES"].splitlines())
+UNDEFINED = r"name '(\w+)' is not defined"
+NO_VECTOR = r"'(?:float|int)' object has no attribute '[xyz]'"  # where one should be
+ROW = re.compile(r"((?:\S.*\n)+)((?: .*\n)+)")  # of causes.txt: patterns, and what is said of each
+# Where a name is another module than was meant.
+NOT_MEANT = re.compile(
+    r"module '(\w+)[\w.]*' has no attribute|from (?:partially initialized module )?'(\w+)[\w.]*'"
+    r"|'(\w+)' is not a package"
+)
+# Modules that may have been meant by one that is not there.
+COMMON = [*MODULES.split(), *HOMES.values(), "nav_msgs", "rospy", "roslib", "math", "time", "numpy"]
+
+
+def _table() -> dict[str, list[tuple[str, list[str]]]]:
+    """Return {section: [(pattern, what is said)]} of causes.txt."""
+    text = FILE.read_text(encoding="utf-8").replace("MESSAGE", "|".join(HOMES))
+    parts = (part.partition("\n") for part in text.strip().split("\n\n")[1:])
+    return {
+        head[1 : head.index("]")]: [
+            (pattern, re.findall(r"\S.*", words))
+            for patterns, words in ROW.findall(f"{rows}\n")
+            for pattern in patterns.splitlines()
+        ]
+        for head, _, rows in parts
+    }
+
+
+TABLE = _table()
+
+
+def explained(section: str, text: str, file: str = "") -> list[str]:
+    """Return what is said of the first pattern of a section that is in a text; empty if none is."""
+    for pattern, words in TABLE[section]:
+        found = re.search(pattern, text)
+        if found:
+            about = {name: value for name, value in found.groupdict().items() if value}
+            home = HOMES.get(about.get("m", ""))
+            return [each.format(home=home, file=file, **about) for each in words]
+    return []
+
+
+def meant(name: str, known: Iterable[str], likeness: float, words: str = "is {} meant?") -> str:
+    """Return words about the one of those known that is most like a name; empty if none is."""
+    near = difflib.get_close_matches(name, known, 1, likeness)
+    return words.replace("{}", near[0]) if near else ""
+
+
+def explain(error: str, text: str = "", file: str = "FILE", section: str = "python") -> str:
+    """Return what an error most often means, in a line of a file; or "". section: or syntax."""
+    both = f"{error}\n{text}"
+    hint = "".join(explained("python2", both, file) or explained(section, both))
+    found = re.search(r"No module named '([^'.]+)'", error)
+    if hint or not found:
+        return hint
+    module = found[1]
+    hint = meant(module, COMMON, 0.75, f"there is no module {module}: is {{}} meant?")
+    other = f"there is no {module} here: hand in your own file with the program, or install it"
+    return advice(module, package_of_module(module)) or hint or other
+
+
+def with_import(line: str, message: str, facts: PythonFacts) -> str:
+    """Return what to write, with the import of the message where the program lacks that."""
+    lacks = message not in facts.names
+    return f"{line}, and at the top: from {HOMES[message]}.msg import {message}" if lacks else line
+
+
+def traced(error: str, line: int, facts: PythonFacts) -> tuple[int, str]:
+    """Return (line to blame, what to do) as far as the text shows it; line: of the error, or 0."""
+    for name, (place, value) in facts.attributes.items():
+        part = {"linear": "x", "angular": "z"}.get(name.rpartition(".")[2])
+        if part and not value.endswith("()") and re.search(NO_VECTOR, error):
+            return place, f"{name} has three parts: {name}.{part} = ..."
+    found = re.search(UNDEFINED, error)
+    if not found:
+        return line, ""
+    if found[1] in facts.inner_names and line in facts.loose:
+        return line, f"this line stands outside of {facts.loose[line]}: indent it as those within"
+    if f"self.{found[1]}" in facts.attributes:
+        return line, f"within a class it is self.{found[1]}"
+    name, known = found[1], facts.names
+    for near in difflib.get_close_matches(name, known, 3, 0.6):
+        if name not in known and name not in HOMES and near[0].lower() == name[0].lower():
+            return line, f"{near} in line {known[near]}, {name} here: one name for one thing"
+    return line, ""
+
+
+def hider(error: str, script: str, others: Collection[str]) -> tuple[str, str]:
+    """Return (file, what to do) if a file beside the script hides a package; else ("", "")."""
+    found = NOT_MEANT.search(error)
+    name = next(filter(None, found.groups()), "") if found else ""
+    beside = f"{script.rpartition('/')[0]}/{name}.py".lstrip("/")
+    if not name or beside not in others:
+        return "", ""
+    hint = f"{beside} hides the package {name}: Python looks beside the program first; "
+    if beside == script:
+        return "", f"{hint}give the program, or what it imports, another name"
+    return beside, f"{hint}rename it"
+
+
+def _found(table: str, name: str) -> str:
+    """Return what a table has after the first pattern that fits a name, its {} filled in; or ""."""
+    for row in table.strip().splitlines():
+        names, _, words = row.partition(": ")
+        if any(fnmatch.fnmatchcase(name, each) for each in names.split()):
+            return words.replace("{}", name.lower().replace("_", "-"))
+    return ""
+
+
+def package_of_module(module: str) -> str:
+    """Return the Debian package that has a Python module, or ""."""
+    top = module.partition(".")[0]
+    return _found(f"{top}: python3-{{}}" if top in MODULES.split() else OTHER_MODULES, top)
+
+
+def packages_of_ros(name: str) -> str:
+    """Return the Debian packages, with blanks between, that have a ROS package; or ""."""
+    table = f"{name}: lib{{}}-dev" if name in DEV_PACKAGES.split() else OTHER_PACKAGES
+    return _found(table, name) or package_of_module(name)
+
+
+def is_lacking(name: str) -> bool:
+    """Return whether this is the name of a ROS package that Debian lacks, and not misspelt."""
+    return name in LACKING or name in TABLES["REAL"].split()
+
+
+def advice(name: str, packages: str) -> str:
+    """Return what to do about what is not installed, and is in these Debian packages; or ""."""
+    other = _found(TABLES["LACKING"], name)
+    if not other and is_lacking(name):
+        other = "its sources, cloned into src, may build"
+    lacks = f"Debian lacks {name}; {other}" if other else ""
+    return f"Debian has it: sudo apt install {packages}" if packages else lacks

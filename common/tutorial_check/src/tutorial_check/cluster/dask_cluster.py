@@ -1,0 +1,251 @@
+"""--cluster: checks on the workers of a Dask scheduler, each a ./tutorial worker on its machine.
+
+What a student handed in is sent as an archive; a worker needs the same version of this suite, and
+no shared folder. Dask does the rest: distribution, TLS, and another try if a worker exits.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import importlib
+import io
+import logging
+import os
+import shutil
+import socket
+import subprocess
+import sys
+import tarfile
+import tempfile
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, Mapping, NoReturn
+from urllib.parse import urlsplit
+
+from node_kit.arguments import Parser
+from tutorial_check.checking.examination import examine
+from tutorial_check.checking.model import CannotCheck, Outcome
+from tutorial_check.course.definition import read_course
+from tutorial_check.recording.order import Order
+from tutorial_check.report.memory import digest_of_checks
+from tutorial_check.sandbox import bubblewrap, landlock, privileges
+from tutorial_check.submission.workspace import IGNORED, MOST_BYTES
+
+MOST_AT_ONCE = 1000  # submissions that the scheduler knows of
+TRIES = 2  # a submission that ends so many workers is abandoned
+PORT = 8786  # Dask scheduler
+CONNECT_S = 10.0
+# Who has this file is let in: certificate, authority and private key of all.
+CONFIG = os.environ.get("XDG_CONFIG_HOME") or "~/.config"
+KEY = Path(CONFIG, "ros1_tutorial/cluster.pem").expanduser()
+OPENSSL = """openssl req -x509 -newkey rsa:3072 -nodes -days 3650 -subj /CN=ros1_tutorial
+-addext keyUsage=critical,keyCertSign,digitalSignature,keyEncipherment"""
+# Even without a dashboard Dask listens for those who ask for pages about it: for nobody, with none.
+NO_PAGES = {f"DASK_DISTRIBUTED__{one}__HTTP__ROUTES": "[]" for one in ("SCHEDULER", "WORKER")}
+LOCAL = ("--no-dashboard", "--dashboard-address", "127.0.0.1:0")
+INSISTS = "TUTORIAL_NOT_ISOLATED"  # variable of a worker of --not-isolated
+
+
+class Gone(CannotCheck):
+    """The scheduler is gone, and no other student can be checked."""
+
+
+def _dask() -> Any:
+    try:
+        return importlib.import_module("distributed")
+    except ImportError:
+        raise CannotCheck("no Dask here; ./tutorial installs it with --cluster") from None
+
+
+def _key_of(address: str) -> str:
+    """Return the key's file, readable by this user alone; empty without TLS. Raises CannotCheck."""
+    if not address.startswith("tls://"):
+        return ""
+    try:
+        KEY.chmod(0o600)
+    except OSError as error:
+        why = f"{error.strerror}; copy it from the machine of ./tutorial scheduler"
+        raise CannotCheck(f"key {KEY}: {why}") from None
+    return str(KEY)
+
+
+def _connect(address: str) -> str:
+    """Return our address on the way to a scheduler. Raises CannotCheck if nothing listens there."""
+    try:
+        place = urlsplit(address if "//" in address else f"//{address}")
+        there = place.hostname or "", place.port or PORT
+        with socket.create_connection(there, CONNECT_S) as connection:
+            return str(connection.getsockname()[0])
+    except (OSError, ValueError) as error:
+        why = getattr(error, "strerror", None) or error
+        raise CannotCheck(f"no Dask scheduler at {address}: {why}") from None
+
+
+class Cluster:
+    """A connection to a scheduler. Its methods may be called by many threads at once."""
+
+    def __init__(self, address: str) -> None:
+        """Connect. Raises CannotCheck."""
+        self._dask, self._address = _dask(), address
+        key = _key_of(address)
+        names = [f"tls_{name}" for name in ("ca_file", "client_cert", "client_key") if key]
+        keys = self._dask.Security(**dict.fromkeys(names, key), require_encryption=bool(key))
+        _connect(address)
+        logging.disable(logging.CRITICAL)  # a lost connection is one line of ours, not Dask's many
+        try:
+            self._client = self._dask.Client(
+                address, timeout=CONNECT_S, set_as_default=False, security=keys
+            )
+            self._client.run_on_scheduler(_prepare)
+        except Exception as error:  # also of a server that is no scheduler, or of a certificate
+            raise CannotCheck(f"no Dask scheduler at {address}: {error or 'no answer'}") from None
+        if not self._client.nthreads():
+            print(f"no worker yet; on each machine: ./tutorial worker {address}", flush=True)
+
+    def examine(self, order: Order) -> list[Outcome]:
+        """Return the Outcomes of a submission, as launcher.examine. Raises CannotCheck, or Gone."""
+        version = _version(order, order.course)
+        parts = {"submission": order.workspace, f"course/{order.course.name}": order.course}
+        about = _packed(parts), order, version
+        try:
+            return self._client.submit(_examine, *about, pure=False).result()
+        except self._dask.KilledWorker:
+            why = f"abandoned: {TRIES} workers have ended while they checked it"
+            raise CannotCheck(why) from None
+        except CannotCheck:
+            raise
+        except BaseException as error:
+            with contextlib.suppress(CannotCheck):
+                _connect(self._address)
+                if self._client.status == "running":
+                    raise
+            why = f"the scheduler at {self._address} is gone; call again, and it goes on from here"
+            raise Gone(why) from error
+
+    def close(self) -> None:
+        """Give up what was not checked yet."""
+        self._client.close()
+
+
+def _prepare(dask_scheduler: Any) -> None:
+    """Give a worker one task at a time, so that only that task can have ended it."""
+    dask_scheduler.allowed_failures = TRIES - 1
+    dask_scheduler.WORKER_SATURATION = 1.0
+
+
+_prepare.__module__ = "__main__"  # sent as it is: a scheduler need not have this suite
+
+
+def _packed(parts: Mapping[str, Path]) -> bytes:
+    """Return an archive of folders or files, without what catkin builds and what is no file."""
+    data, left = io.BytesIO(), MOST_BYTES
+
+    def kept(member: tarfile.TarInfo) -> tarfile.TarInfo | None:
+        nonlocal left
+        left -= member.size
+        if left < 0:
+            raise CannotCheck(f"more than {MOST_BYTES >> 20} MB")
+        archive.inodes.clear()  # type: ignore[attr-defined]  # a hard link is a file as any other
+        is_kept = not (member.isdir() and Path(member.name).name in IGNORED)
+        return member if is_kept and (member.isfile() or member.isdir() or member.issym()) else None
+
+    with tarfile.open(fileobj=data, mode="w:gz", format=tarfile.PAX_FORMAT) as archive:
+        for name, path in parts.items():
+            archive.add(path, f"{name}{path.suffix if path.is_file() else ''}", filter=kept)
+    return data.getvalue()
+
+
+def _version(order: Order, course: Path) -> str:
+    return digest_of_checks(read_course(course), order.exercises, 2)
+
+
+def _examine(packed: bytes, order: Order, version: str) -> list[Outcome]:
+    _must_isolate()
+    with tempfile.TemporaryDirectory(prefix="tutorial_worker_") as folder:
+        with tarfile.open(fileobj=io.BytesIO(packed)) as archive:
+            # With links that lead out, which Python 3.14 refuses: a worker runs anything anyway.
+            archive.extraction_filter = lambda member, _: member
+            archive.extractall(folder)
+        (submission,) = Path(folder).glob("submission*")
+        (course,) = Path(folder, "course").iterdir()
+        underlay = os.environ["TUTORIAL_UNDERLAY"]
+        if _version(order, course) != version:
+            raise CannotCheck(f"worker {socket.gethostname()} has another version of this suite")
+        return examine(replace(order, workspace=submission, course=course, underlay=underlay))
+
+
+def _must_isolate() -> None:
+    """Raise CannotCheck where a student's program could reach the scheduler, unless allowed."""
+    if bubblewrap.instead() and INSISTS not in os.environ:
+        why = f"{bubblewrap.granted().why}: a student's program could reach the scheduler"
+        todo = "fix that, or ./tutorial worker --not-isolated"
+        raise CannotCheck(f"worker {socket.gethostname()} cannot isolate programs: {why}; {todo}")
+
+
+def _work(address: str, jobs: int, insists: bool) -> NoReturn:
+    """Make this process a worker. insists: even without isolated programs. Raises CannotCheck."""
+    if insists and bubblewrap.instead():
+        if not address.startswith("tls://") or (os.geteuid() and not landlock.version()):
+            why = "else a student's program reaches the scheduler, or reads the key"
+            raise CannotCheck(f"--not-isolated needs tls://, and root or Linux 6.2: {why}")
+        os.environ[INSISTS] = "1"
+    _must_isolate()
+    host = _connect(address)
+    folder, cleaner = privileges.folder_until_end("tutorial_worker_")
+    os.chmod(folder, 0o711)  # programs of another user pass through
+    assert cleaner.stdin
+    os.set_inheritable(cleaner.stdin.fileno(), True)
+    os.environ["TMPDIR"] = folder
+    words = ["--host", host, "--nworkers", jobs, "--nthreads", 1, "--memory-limit", 0]
+    words += ["--local-directory", folder, "--death-timeout", 60]
+    _become("worker", address, address, *words)
+
+
+def _schedule(host: str) -> NoReturn:
+    """Make this process a scheduler, with a new key if there is none. Raises CannotCheck."""
+    if not KEY.exists():
+        KEY.parent.mkdir(parents=True, exist_ok=True)
+        os.umask(0o077)
+        words = [*OPENSSL.split(), "-keyout", str(KEY), "-out", str(KEY)]
+        subprocess.run(words, check=True, stderr=subprocess.DEVNULL)
+    print(f"workers and check --cluster: tls://{host}:{PORT}, with a copy of {KEY}", flush=True)
+    _become("scheduler", "tls://", "--host", f"tls://{host}", "--port", PORT)
+
+
+def _become(program: str, address: str, *words: object) -> NoReturn:
+    _dask()
+    key = _key_of(address)
+    keys = [f"--tls-{name}={key}" for name in ("ca-file", "cert", "key") if key]
+    os.environ.update(NO_PAGES)
+    python = shutil.which("python3", path="/usr/bin") or "python3"
+    module = f"distributed.cli.dask_{program}"
+    os.execv(python, [python, "-m", module, *map(str, words), *keys, *LOCAL])
+
+
+def main() -> None:
+    """./tutorial worker ADDRESS, ./tutorial scheduler: work until Ctrl-C."""
+    word = sys.argv[1]
+    is_worker = word == "worker"
+    what = f"A Dask {word}, for ./tutorial check --all FOLDER --cluster."
+    parser = Parser(prog=f"./tutorial {word}", description=what)
+    add = parser.add_argument
+    if is_worker:
+        add("address", metavar="ADDRESS", help="of the scheduler, as tls://HOST:8786")
+        what = "submissions at a time (one for each two processors)"
+        default = max(1, (os.cpu_count() or 1) // 2)
+        add("--jobs", type=int, default=default, metavar="N", help=what)
+        what = "also where bubblewrap cannot isolate programs; each result says so"
+        add("--not-isolated", action="store_true", help=what)
+    else:
+        add("--host", default="127.0.0.1", help="address on which to listen (127.0.0.1)")
+    options = parser.parse_args(sys.argv[2:])
+    try:
+        if is_worker:
+            _work(options.address, max(1, options.jobs), options.not_isolated)
+        _schedule(options.host)
+    except (CannotCheck, OSError, subprocess.SubprocessError) as error:
+        sys.exit(f"{word}: {error}")
+
+
+if __name__ == "__main__":
+    main()

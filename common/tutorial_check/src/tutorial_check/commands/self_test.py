@@ -1,0 +1,110 @@
+"""--self-test: each right solution of a course passes, each wrong one fails at the named check."""
+
+from __future__ import annotations
+
+import re
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import Iterator
+
+from tutorial_check.checking.examination import examine
+from tutorial_check.checking.model import UNREACHED, WRONG, CannotCheck, Outcome
+from tutorial_check.course.definition import SOLUTIONS, Course, checks_of
+from tutorial_check.recording.order import Order
+from tutorial_check.sandbox.environment import copy_tree
+
+RIGHT, WRONG_OF, PATCH = "right", "wrong_", ".patch"
+GONE = "/dev/null"
+FILES = re.compile(r"^--- (\S+).*\n\+\+\+ (\S+).*\n((?:(?!--- ).*\n)*)", re.MULTILINE)
+HUNK = re.compile(r"^@@.*\n((?:[ +-].*\n|\n)*)", re.MULTILINE)
+
+
+def solutions(course: Course) -> Iterator[tuple[str, str, list[Path]]]:
+    """Yield (name, the check that it fails at or "", what is put one over the other).
+
+    solutions/right, and right_WHAT, are packages; wrong_CHECK_WHAT are files or a .patch of right.
+    """
+    folder = course.folder / SOLUTIONS
+    right = folder / RIGHT
+    if not right.is_dir():
+        raise CannotCheck(f"{right}: no such folder; a self-test needs a right solution")
+    paths = (each for each in folder.iterdir() if each.is_dir() or each.suffix == PATCH)
+    for path in sorted(paths):
+        if path.name.startswith(WRONG_OF):
+            yield path.stem, path.stem.split("_")[1], [right, path]
+        elif path.name.startswith(RIGHT):
+            yield path.stem, "", [path] if path.is_dir() else [right, path]
+        else:
+            raise CannotCheck(f"{path}: call it {RIGHT}_WHAT, or {WRONG_OF}CHECK_WHAT")
+
+
+def self_test(course: Course, underlay: str, jobs: int) -> int:
+    """Check all solutions of a course, a line each; return 0 if all come to what they should."""
+    failed, every = 0, list(solutions(course))
+    with ThreadPoolExecutor(jobs) as pool:
+        examined = pool.map(lambda one: _examined(course, underlay, *one[1:]), every)
+        for (name, check, _), outcomes in zip(every, examined):
+            complaint = complaint_of(check, outcomes)
+            failed += bool(complaint)
+            wrong = (one for outcome in outcomes for one in outcome.wrong if one.id == check)
+            causes = [": ".join(filter(None, (one.where, one.seen))) for one in wrong]
+            word = "FAILED" if complaint else "ok"
+            print(f"{word:<7}{name}: {complaint or [*causes, 'passes'][0]}", flush=True)
+    print(f"{failed} of the solutions failed" if failed else f"all solutions of {course.title}")
+    return int(bool(failed))
+
+
+def _examined(course: Course, underlay: str, check: str, layers: list[Path]) -> list[Outcome]:
+    """Check a solution: a right one in all exercises, a wrong one in that of its check."""
+    exercises = [one.exercise for one in checks_of(course) if one.id == check]
+    with tempfile.TemporaryDirectory() as scratch:
+        for layer in layers:
+            try:
+                if layer.is_dir():
+                    copy_tree(layer, Path(scratch))
+                else:
+                    patch(Path(scratch), layer)
+            except CannotCheck as why:
+                return [Outcome(check, trouble=str(why))]
+        wanted = tuple(exercises or course.exercises)
+        return examine(Order(Path(scratch), underlay, wanted, bool(check), False, course.folder))
+
+
+def patch(folder: Path, file: Path) -> None:
+    """Change files as a unified diff of git says, at any line. Raises CannotCheck."""
+    for before, after, hunks in FILES.findall(file.read_text(encoding="utf-8")):
+        path = folder / re.sub(r"^(\.\./)*[^/]*/", "", before if after == GONE else after)
+        if ".." in path.parts or (before != GONE and not path.is_file()):
+            raise CannotCheck(f"{file}: there is no {path.relative_to(folder)}")
+        if after == GONE:
+            path.unlink()
+            continue
+        done, text = "", path.read_text(encoding="utf-8") if path.exists() else ""
+        for hunk in HUNK.findall(hunks):
+            lines = [each if each != "\n" else " \n" for each in hunk.splitlines(keepends=True)]
+            old, new = ("".join(each[1:] for each in lines if each[0] != sign) for sign in "+-")
+            if text and text.count(old) != 1:
+                count, first = text.count(old), old.split("\n", 1)[0]
+                raise CannotCheck(f"{file}: {path.name} has {count} places for: {first} ...")
+            above, text = text.split(old) if old else ("", "")
+            done += above + new
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(done + text, encoding="utf-8")
+        path.chmod(0o755 if done.startswith("#!") else path.stat().st_mode)
+
+
+def complaint_of(check: str, outcomes: list[Outcome]) -> str:
+    """Return what is wrong with the outcomes of a solution that must fail at a check, or ""."""
+    for one in outcomes:
+        if one.trouble:
+            return f"could not be checked: {one.id}: {one.trouble}"
+    results = [result for outcome in outcomes for result in outcome.results]
+    first = next((one for one in results if one.status == WRONG), None)
+    if first is None:
+        missed = (f"; {one.id} was not reached" for one in results if one.status == UNREACHED)
+        return check and f"{check} should be wrong, and nothing is{next(missed, '')}"
+    if not check:
+        return f"{first.id} is wrong: {first.seen}; hint: {first.hint}"
+    seen = f"{check} should be the first that is wrong, and {first.id} is: {first.seen}"
+    return "" if first.id == check else seen

@@ -1,0 +1,245 @@
+"""A course: a folder with course.yaml and Python files, whose functions @check makes checks."""
+
+from __future__ import annotations
+
+import functools
+import importlib.util
+import pkgutil
+import re
+import shutil
+import sys
+import threading
+import traceback
+import types
+from dataclasses import dataclass, field, fields, replace
+from pathlib import Path
+from typing import Any, Callable, TypeVar
+
+import yaml
+
+from tutorial_check.checking.model import CannotCheck, Check
+
+FILE = "course.yaml"
+SOLUTIONS = "solutions"  # folder of a course; what is in it is for the self-test
+SUITE = Path(__file__).resolve().parents[5]
+SHIPPED = SUITE / "common" / "courses"  # a folder in it is also known by its name
+HANDOUT = SHIPPED / "handout"
+# The modules of a course, which may be anywhere, are below courses.NAME, by the folder's name.
+COURSES = "courses"
+
+# Of what YAML gives, by the type of a field; of others anything.
+KINDS: dict[str, tuple[type, ...]] = {
+    "str": (str,), "bool": (bool,), "float": (int, float), "tuple": (list,), "dict": (dict,)
+}  # fmt: skip
+
+_Function = TypeVar("_Function", bound=Callable[..., Any])
+_checks: list[Check] = []  # all loaded courses
+_loading = threading.Lock()
+
+
+@dataclass(frozen=True)
+class Exercise:
+    """One exercise. document: of its sections. points: of all of it; 0: one a check."""
+
+    title: str
+    document: str = ""
+    points: float = 0.0
+    by_default: bool = True  # checked if no exercise is named
+    solution: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Value:
+    """A value that a task may have in place of the course's; see common/doc/COURSES.md.
+
+    about: its line of the task sheet. allowed: [lowest, highest], a list of these, or what a text
+    has to fit. draw: from what a seed draws it. unlike: another value, from which it differs.
+    """
+
+    about: str
+    allowed: Any
+    draw: tuple[Any, ...]
+    default: Any = None
+    unlike: str = ""
+
+
+@dataclass(frozen=True)
+class Course:
+    """What course.yaml says. exercises: in their order, by the number that the student knows.
+
+    packages: {name: what else catkin_create_pkg is given}.
+    """
+
+    folder: Path
+    title: str = ""
+    document: str = "task"
+    sheet: str = ""  # what a task sheet is made from, if not variants.SHEET
+    exercises: dict[str, Exercise] = field(default_factory=dict, hash=False)
+    variants: dict[str, Value] = field(default_factory=dict, hash=False)
+    packages: dict[str, str] = field(default_factory=dict, hash=False)
+
+    @property
+    def by_default(self) -> list[str]:
+        return [name for name, exercise in self.exercises.items() if exercise.by_default]
+
+    def meant(self, word: str) -> list[str]:
+        """Return the exercises of a word: 4 is 4.2 to 4.5, and 5.1, a section of it, is 5."""
+        section = f"{word.rstrip('.')}."
+        inner = [each for each in self.exercises if each.startswith(section)]
+        whole = [each for each in self.exercises if section.startswith(f"{each}.")]
+        return inner or whole or [word]
+
+
+def check(
+    name: str,
+    title: str,
+    section: str,
+    needs: str = "",
+    *,
+    look: str = "",
+    timeless: bool = False,
+    eager: bool = False,
+) -> Callable[[_Function], _Function]:
+    """Make a function of a session a check: one line of the report. See model.Check."""
+    one = Check(name, "", title, section, tuple(needs.split()), look, timeless, eager)
+
+    def keep(function: _Function) -> _Function:
+        _checks.append(replace(one, function=function))
+        return function
+
+    return keep
+
+
+def package_of(course: Course) -> str:
+    """Return the name of the package that a course's modules are in."""
+    name = re.sub(r"\W", "_", course.folder.name)
+    return f"{COURSES}.{name}"
+
+
+def sources_of(folder: Path) -> list[Path]:
+    """Return course.yaml and the Python files of a course, without its solutions."""
+    inside = sorted(path.relative_to(folder) for path in folder.rglob("*.py"))
+    return [folder / FILE, *(folder / path for path in inside if path.parts[0] != SOLUTIONS)]
+
+
+def copy_sources(folder: Path, target: Path) -> None:
+    """Copy what a worker needs of a course, with the bytecode: a worker then compiles nothing."""
+    for source in sources_of(folder):
+        copied = target / source.relative_to(folder)
+        copied.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy2(source, copied)
+        compiled = Path(importlib.util.cache_from_source(str(source)))
+        if source.suffix == ".py" and compiled.is_file():
+            (copied.parent / compiled.parent.name).mkdir(exist_ok=True)
+            shutil.copy2(compiled, copied.parent / compiled.parent.name)
+
+
+def read_yaml(file: str | Path, what: str = "") -> object:
+    """Return what a YAML file says. Raises CannotCheck; what: added where there is no such file."""
+    try:
+        return yaml.safe_load(Path(file).read_text(encoding="utf-8"))
+    except OSError as error:
+        raise CannotCheck(f"{file}: {error.strerror}{what}") from None
+    except (UnicodeDecodeError, yaml.YAMLError) as error:
+        raise CannotCheck(f"{file}: no YAML: {' '.join(str(error).split())}") from None
+
+
+@functools.lru_cache(maxsize=None)
+def read_course(folder: str | Path = HANDOUT) -> Course:
+    """Return the Course of a folder, or of the name of one that is shipped. Raises CannotCheck."""
+    file = Path(folder).resolve() / FILE
+    shipped = {each.parent.name: each for each in sorted(SHIPPED.glob(f"*/{FILE}"))}
+    if str(folder) in shipped and not file.exists():
+        file = shipped[str(folder)]
+    names = f"; a course is a folder with {FILE}, or one of {', '.join(shipped)}"
+    given = read_yaml(file, names)
+    try:
+        about = _known(Course, given)
+        named, varied = about.pop("exercises", None), about.pop("variants", {})
+        if not named:
+            raise ValueError('exercises: {"1": TITLE, ...} is missing')
+        course = Course(folder=file.parent, **about)
+        for number, what in named.items():
+            if not isinstance(number, str):
+                raise ValueError(f'exercise {number}: write "{number}", in quotes')
+            words = _known(Exercise, what if isinstance(what, dict) else {"title": what})
+            if not 0 <= words.get("points", 0) <= 10**6:  # nor is .nan
+                raise ValueError(f"exercise {number}: points: 0 to 1000000")
+            course.exercises[number] = Exercise(**{"document": course.document, **words})
+        for name, what in varied.items():
+            course.variants[name] = Value(**_known(Value, what))
+    except (TypeError, ValueError) as error:
+        raise CannotCheck(f"{file}: {error}") from None
+    return course
+
+
+def _known(kind: type, given: Any) -> dict[str, Any]:
+    """Return the fields of a dataclass that are given. Raises ValueError."""
+    known = {one.name: str(one.type).partition("[")[0] for one in fields(kind)}
+    known.pop("folder", None)  # where the file itself is
+    if not isinstance(given, dict):
+        raise ValueError(f"a map of {', '.join(known)} is wanted, and not {given!r}")
+    for name, value in given.items():
+        if name not in known:
+            raise ValueError(f"{name} is not known; known are {', '.join(known)}")
+        kinds = KINDS.get(known[name], ())
+        if kinds and type(value) not in kinds:
+            raise ValueError(f"{name}: {value!r} is no {kinds[-1].__name__}")
+    return given
+
+
+def checks_of(course: Course) -> list[Check]:
+    """Load the files of a course, once; return their checks, in its order. Raises CannotCheck."""
+    with _loading:  # several threads may ask
+        return _load(course)
+
+
+@functools.lru_cache(maxsize=8)
+def _load(course: Course) -> list[Check]:
+    package = package_of(course)
+    _make_package(package, course.folder)
+    try:
+        found = pkgutil.walk_packages([str(course.folder)], f"{package}.")
+        names = {importlib.import_module(one.name).__name__ for one in found}
+    except Exception as error:
+        raise CannotCheck(f"{_place(error, course.folder)}: {error}") from None
+    order = list(course.exercises)
+    checks: dict[str, Check] = {}
+    for one in (each for each in _checks if each.function.__module__ in names):
+        inside = [each for each in order if f"{one.section}.".startswith(f"{each}.")]
+        if not inside:
+            raise CannotCheck(f"{one.id}: section {one.section} is of no exercise of {FILE}")
+        if one.id in checks:
+            raise CannotCheck(f"two checks are {one.id}; each needs a name of its own")
+        exercise = max(inside, key=len)
+        document = f"{course.exercises[exercise].document} {one.section}"
+        checks[one.id] = replace(one, exercise=exercise, section=document)
+    for one in checks.values():
+        lost = set(one.needs) - checks.keys()
+        if lost:
+            raise CannotCheck(f"{one.id} needs {', '.join(sorted(lost))}, which is no check")
+    numbers = {name: int(re.sub(r"\D", "", name) or 0) for name in checks}  # 12 of C12
+    return sorted(checks.values(), key=lambda one: (order.index(one.exercise), numbers[one.id]))
+
+
+def _make_package(package: str, folder: Path) -> None:
+    """Let a package be a folder; what another folder of that name has left is forgotten."""
+    if package in sys.modules and [*sys.modules[package].__path__] == [str(folder)]:
+        return
+    for name in [each for each in sys.modules if f"{each}.".startswith(f"{package}.")]:
+        del sys.modules[name]
+    inside = f"{package}."
+    _checks[:] = [one for one in _checks if not one.function.__module__.startswith(inside)]
+    for name, path in ((COURSES, SHIPPED), (package, folder)):
+        if name not in sys.modules:
+            sys.modules[name] = types.ModuleType(name)
+            sys.modules[name].__path__ = [str(path)]
+
+
+def _place(error: Exception, folder: Path) -> str:
+    """Return FILE:LINE of a course where an exception came from."""
+    if isinstance(error, SyntaxError):
+        return f"{Path(error.filename or '').name}:{error.lineno}"
+    frames = traceback.extract_tb(error.__traceback__)
+    own = [frame for frame in frames if Path(frame.filename).parent == folder]
+    return f"{Path(own[-1].filename).name}:{own[-1].lineno}" if own else type(error).__name__

@@ -1,0 +1,121 @@
+"""Variants: what a student's task has in place of what the course says, from a file or a seed."""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+import re
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any, Mapping
+
+import yaml
+
+from tutorial_check.checking.model import CannotCheck
+from tutorial_check.course.definition import Course, Value, package_of, read_yaml
+from tutorial_check.recording.order import Variant
+
+SHEET = (
+    "# {title}: the task of {name}\n\n{tasks}\n\n"
+    "To check it yourself keep this as variant.yaml:\n\n{file}"
+)
+
+
+class Task:
+    """What a variant changes for the checker; a course that changes more has a subclass."""
+
+    # {name that the checks have for a topic: that of the student's programs}
+    topics: Mapping[str, str] = MappingProxyType({})
+
+    def __init__(self, values: Variant) -> None:
+        """values: those that are given."""
+        self.values = values
+
+    def named(self, package: str) -> str:
+        """Return the name that the student's files have for a package that the checks name."""
+        return package
+
+    def shown(self, package: str) -> str:
+        """Return what stands for that name in messages that are no hints."""
+        return package
+
+    def fill(self, text: str) -> str:
+        """Return the title of a check, or its command, as of this task, and with no value of it."""
+        return text
+
+
+def task_of(course: Course) -> type[Task]:
+    """Return the Task of a course whose checks are loaded."""
+    package = f"{package_of(course)}."
+    own = [each for each in Task.__subclasses__() if each.__module__.startswith(package)]
+    return own[-1] if own else Task
+
+
+def read_variant(course: Course, file: str | Path) -> Variant:
+    """Return the Variant of a file. Raises CannotCheck."""
+    values = read_yaml(file)
+    known = ", ".join(course.variants) or "none in this course"
+    if not isinstance(values, dict):
+        raise CannotCheck(f"{file}: a map of values is wanted; known are: {known}")
+    for name, value in values.items():
+        if name not in course.variants:
+            raise CannotCheck(f"{file}: {name} is not known; known are: {known}")
+        allowed = _misses(value, course.variants[name])
+        if allowed:
+            raise CannotCheck(f"{file}: {name}: {value!r}; allowed is {allowed}")
+    whole = {name: values.get(name, one.default) for name, one in course.variants.items()}
+    for name, one in course.variants.items():
+        if one.unlike and whole[name] == whole[one.unlike]:
+            both = f"{name} and {one.unlike} are both {whole[name]!r}"
+            raise CannotCheck(f"{file}: {both}: name both")
+    return values
+
+
+def _misses(value: Any, one: Value) -> str:
+    """Return what is allowed in place of a value; empty if it is allowed."""
+    if isinstance(one.allowed, str):
+        fits = isinstance(value, str) and re.fullmatch(one.allowed, value)
+        return "" if fits else f"what fits {one.allowed}"
+    ranges = one.allowed if isinstance(one.allowed[0], list) else [one.allowed]
+    kinds = (int,) if isinstance(ranges[0][0], int) else (int, float)
+    if type(value) in kinds and any(lowest <= value <= highest for lowest, highest in ranges):
+        return ""
+    return " or ".join(f"{lowest} to {highest}" for lowest, highest in ranges)
+
+
+def drawn(course: Course, seed: str, name: str) -> Variant:
+    """Return the Variant that a seed gives a student: the same on every machine."""
+    values: Variant = {}
+    for key, one in course.variants.items():
+        choices = [each for each in one.draw if each != values.get(one.unlike)]
+        digest = hashlib.sha256("\0".join((seed, name, key)).encode("utf-8", "replace")).digest()
+        values[key] = choices[int.from_bytes(digest, "big") % len(choices)]
+    return values
+
+
+def variant_of(course: Course, options: argparse.Namespace, name: str) -> Variant:
+    """Return a student's Variant: from NAME.yaml of a folder, drawn, or from the file for all."""
+    given = Path(options.variant) if options.variant else None
+    own = given / f"{name}.yaml" if given and given.is_dir() else None
+    if own and own.is_symlink():
+        raise CannotCheck(f"{own}: a link is not followed: put the file itself here")
+    if own and own.exists():
+        return read_variant(course, own)
+    if options.variants is not None:
+        return drawn(course, options.variants, name)
+    return read_variant(course, given) if given and not own else {}
+
+
+def sheet(course: Course, values: Variant, name: str) -> str:
+    """Return the task sheet of a student. Raises CannotCheck if nothing differs from the course."""
+    if not values:
+        raise CannotCheck(f"no variant of {name}: --variant FILE, or --variants SEED")
+    words = {"title": course.title, "file": yaml.safe_dump(values, sort_keys=False).rstrip()}
+    lines = [_filled(course.variants[key].about, {"is_": values[key]}) for key in values]
+    words.update(tasks="\n".join(f"- {line}" for line in lines), name=name)
+    return _filled(course.sheet or SHEET, words)
+
+
+def _filled(text: str, words: Mapping[str, Any]) -> str:
+    """Return a text with words for {names}. str.format would take a width, of a gigabyte."""
+    return re.sub(r"\{(\w+)\}", lambda found: str(words.get(found[1], found[0])), text)

@@ -1,0 +1,193 @@
+"""Programs of others: started with limits, read with a limit, and always ended.
+
+One thread does it all: each wait also reads what the programs print, so that none blocks on its
+output, and endless output costs only the reading.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import selectors
+import signal
+import subprocess
+import sys
+import time
+from subprocess import DEVNULL, PIPE, STDOUT
+from typing import Callable, Iterable, Iterator, Mapping, Sequence, TypeVar
+
+from tutorial_check.checking.model import MULTIPLIES, CutShort
+from tutorial_check.processes.cpu_clock import CpuClock, fields_of
+from tutorial_check.processes.program import Program
+from tutorial_check.sandbox import landlock, privileges
+
+GRACE_S = 3.0  # after Ctrl-C a program has this long to end by itself
+IDLE_S = 2.0  # programs idle for so long wait for what does not come; a talker may be for 1 s
+MOST_PROCESSES = 100  # a launch file's are a dozen
+ENDED = (b"Z", b"X")  # states of processes that are no more than a number
+Value = TypeVar("Value")
+
+
+class Runner:
+    """All programs of one check of one workspace."""
+
+    def __init__(
+        self, environment: Mapping[str, str], alone: bool, reader: int, ruleset: int | None
+    ) -> None:
+        """alone: in a PID namespace of their own. reader: a socket whose other end waits for what
+        is found. ruleset: see landlock.
+        """
+        self.environment = environment
+        self._alone, self._ruleset = alone, ruleset
+        self._limits = privileges.limits_of_programs()
+        self._open: list[Program] = []
+        # Left alone: ours, and those that we start, which lead sessions of their own.
+        self.trusted = {os.getsid(0), os.getpid()}
+        self.clock = CpuClock(self.trusted)
+        self._selector = selectors.PollSelector()  # what programs print
+        self._selector.register(reader, selectors.EVENT_READ)
+
+    def start(
+        self,
+        command: Sequence[str],
+        environment: Mapping[str, str] | None = None,
+        trusted: bool = False,
+        stdin: int = DEVNULL,
+    ) -> Program:
+        """Start a program. stdin: a descriptor. Raises OSError if there is nothing to start."""
+        process = subprocess.Popen(
+            command,
+            bufsize=0,
+            stdin=stdin,
+            stdout=PIPE,
+            stderr=STDOUT,
+            cwd=self.environment["HOME"],
+            env={**self.environment, **(environment or {})},
+            start_new_session=True,  # with a group that Ctrl-C reaches, as in a terminal
+            preexec_fn=None if trusted else self._restrict,  # noqa: PLW1509  one thread
+        )
+        if trusted:
+            self.trusted.add(process.pid)
+        program = Program(process, os.path.basename(command[0]))
+        self._open.append(program)
+        os.set_blocking(program.pipe.fileno(), False)
+        self._selector.register(program.pipe, selectors.EVENT_READ, program)
+        return program
+
+    def _restrict(self) -> None:
+        """In the child, before the student's program: its limits and rights."""
+        for number in (signal.SIGINT, signal.SIGHUP, signal.SIGTERM):
+            signal.signal(number, signal.SIG_DFL)
+        privileges.limit(self._limits)
+        privileges.give_up_rights()
+        if self._ruleset is not None:
+            landlock.confine(self._ruleset)
+        elif self._alone:
+            landlock.confine_sockets()
+
+    def wait(
+        self, condition: Callable[[], Value], deadline_s: float, or_idle: bool = False
+    ) -> Value:
+        """Return the first true value of condition(), or its value at the deadline, by CpuClock.
+
+        or_idle: or when the programs have done nothing for IDLE_S. Raises CutShort for one that
+        multiplies without end, SystemExit when nobody waits; clear() ends what was started.
+        """
+        began_s = self.clock.now()
+        while True:
+            waited_s = self.clock.now() - began_s
+            is_over = waited_s > deadline_s and not self.clock.starved()
+            if or_idle and waited_s > IDLE_S:
+                is_over = is_over or self.clock.idle_s() > IDLE_S
+            asked_s = time.monotonic()
+            value = condition()
+            if value or is_over:
+                return value
+            if self._alone and self.clock.crowd() > MOST_PROCESSES:
+                self._reap()  # those that have ended do not count
+                if len(self._strays()) > MOST_PROCESSES:
+                    raise CutShort(MULTIPLIES, f"more than {MOST_PROCESSES} processes")
+            # Asking takes others' time.
+            for key, _ in self._selector.select(max(0.01, 2 * (time.monotonic() - asked_s))):
+                if key.data is None:  # no question comes before the answer
+                    sys.exit("the checker has ended")
+                self._read(key.data)
+
+    def _read(self, program: Program, is_last: bool = False) -> None:
+        if not program.pipe.closed and (not program.read() or is_last):
+            self._selector.unregister(program.pipe)
+            program.pipe.close()
+
+    def end(self, program: Program, grace_s: float = GRACE_S) -> float | None:
+        """End a program; return how long it took after Ctrl-C [s], or None if it was killed."""
+        return self.end_all([program], grace_s)[0]
+
+    def end_all(self, programs: Sequence[Program], grace_s: float = GRACE_S) -> list[float | None]:
+        """End several at once; return how long each took."""
+        began_s = time.monotonic()
+        took_s: dict[Program, float] = {}
+        for program in programs:
+            program.stop(signal.SIGINT)
+
+        def all_ended() -> bool:
+            for program in programs:
+                if program.ended:
+                    took_s.setdefault(program, time.monotonic() - began_s)
+            return len(took_s) == len(programs)
+
+        self.wait(all_ended, grace_s)
+        for program in programs:  # with what one that has ended left behind in its group
+            program.signal(signal.SIGKILL)
+            program.process.wait()
+            self._read(program)  # at most a pipe's size is left, which is read at once
+        return [took_s.get(program) for program in programs]
+
+    def clear(self) -> None:
+        """End all that is left, whatever it is called and whatever started it."""
+        for program in self._open:
+            program.stop(signal.SIGKILL)
+        for _ in range(100):
+            stopped: set[int] = set()
+            # One that forks without end comes to the limit of its processes.
+            while new := set(self._strays()) - stopped:
+                _signal(new, signal.SIGSTOP)
+                stopped |= new
+            if not stopped:
+                break
+            _signal(stopped, signal.SIGKILL)
+        for program in self._open:
+            program.process.wait()
+            self._read(program, is_last=True)
+        self._open.clear()
+        self._reap()
+
+    def _reap(self) -> None:
+        """Reap orphans that have ended: until then they count against the user's limit."""
+        known = {program.process.pid for program in self._open} | self.trusted
+        for pid, state, parent, _ in processes():
+            if state in ENDED and parent == os.getpid() and pid not in known:
+                with contextlib.suppress(ChildProcessError):
+                    os.waitpid(pid, os.WNOHANG)
+
+    def _strays(self) -> list[int]:
+        """Return the ids of the living below this process, whose children orphans become."""
+        found, ours = list(processes()), {os.getpid()}
+        below: set[int] = set()
+        while more := {pid for pid, _, parent, _ in found if parent in below | ours} - below:
+            below |= more
+        living = [one for one in found if one[0] in below and one[1] not in ENDED]
+        return [pid for pid, _, _, session in living if session not in self.trusted]
+
+
+def _signal(pids: Iterable[int], number: int) -> None:
+    for pid in pids:
+        with contextlib.suppress(ProcessLookupError, PermissionError):
+            os.kill(pid, number)
+
+
+def processes() -> Iterator[tuple[int, bytes, int, int]]:
+    """Yield id, state, parent, session of each visible process."""
+    for pid in filter(str.isdigit, os.listdir("/proc")):
+        with contextlib.suppress(OSError):  # ended meanwhile
+            state, parent, _, session = fields_of(f"/proc/{pid}/stat")[:4]
+            yield int(pid), state, int(parent), int(session)

@@ -1,0 +1,23 @@
+"""What catkin_make makes of a workspace."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from tutorial_check.recording.builder import Builder, Built
+
+
+@dataclass(frozen=True)
+class Installed:
+    """Whether catkin has made a program that rosrun finds."""
+
+    installed: bool
+
+
+def built(ground: Builder) -> Built:
+    return ground.built
+
+
+def installed(ground: Builder, package: str, script: str) -> Installed:
+    """Look for a program in devel. script: its path within the package."""
+    return Installed("/devel/lib/" in ground.command(package, script)[0])

@@ -1,0 +1,105 @@
+"""A workspace that can be built, and whose programs have an environment to run in."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Optional
+
+from tutorial_check.checking.model import CannotCheck
+from tutorial_check.course.tasks import Task
+from tutorial_check.processes.program import Program
+from tutorial_check.processes.runner import Runner
+from tutorial_check.recording.order import Order
+from tutorial_check.sandbox.environment import environment_of
+from tutorial_check.submission import student_files
+from tutorial_check.submission.manifests import is_stand_in
+from tutorial_check.submission.session import Session
+
+SLOW_S = 120  # [s] for what needs a second, when the machine is very busy
+
+
+@dataclass(frozen=True)
+class Built:
+    """A build of all, or of what the exercises need if all cannot be built."""
+
+    code: Optional[int]  # catkin_make's exit code; None: it did not end
+    output: str
+    unbuilt: str = ""  # what it printed of packages that the exercises do not need
+
+
+class Builder(Session):
+    """A Session whose programs can be built."""
+
+    def __init__(self, order: Order, task: Task, runner: Runner) -> None:
+        super().__init__(order, task)
+        self.runner, self.underlay_environment = runner, runner.environment
+        self._siblings = 0
+
+    def sibling(self, package: str, script: str, text: str) -> str:
+        """Write a changed copy of a script beside it, so that its imports work; return its path."""
+        original = self.package(package).folder / script
+        self._siblings += 1
+        changed = original.with_name(f"checked_{self._siblings}_{original.name}")
+        student_files.put(self.folder, changed, text, 0o755)
+        return str(Path(script).with_name(changed.name))
+
+    def _ended(self, *command: str) -> tuple[Program, bool]:
+        """Return a program that was run, and whether it ended by itself."""
+        program = self.runner.start(command)
+        ended = self.runner.wait(lambda: program.ended, SLOW_S)
+        self.runner.end(program)
+        return program, ended
+
+    @cached_property
+    def built(self) -> Built:
+        """Build all, or if that fails what exercises need: others may need what Debian lacks."""
+        code, output = self._made()
+        names = [each.name for each in self.needed]
+        if code == 0 or len(names) == len(self.packages):
+            return Built(code, output)
+        found, printed = self._made(f"-DCATKIN_WHITELIST_PACKAGES={';'.join(names)}")
+        if found != 0:
+            return Built(code, output)
+        for each in self.packages:  # the suite's own takes the place of such a one
+            if is_stand_in(each.name):
+                student_files.put(self.folder, each.folder / "CATKIN_IGNORE", "")
+        return Built(found, printed, output or " ")
+
+    def _made(self, *words: str) -> tuple[int | None, str]:
+        python = "-DPYTHON_EXECUTABLE=/usr/bin/python3"
+        program, ended = self._ended("catkin_make", "-C", str(self.folder / "ws"), python, *words)
+        return (program.process.returncode if ended else None), program.output
+
+    @cached_property
+    def environment(self) -> dict[str, str]:
+        """In which the student's programs find their packages before all others."""
+        if self.needs_build() and self.built.code == 0:
+            found = self._sourced(self.folder / "ws" / "devel" / "setup.bash")
+        else:
+            found = dict(self.underlay_environment)
+            own = {"CMAKE_PREFIX_PATH": self.folder / "devel", "ROS_PACKAGE_PATH": self.source}
+            for name, path in own.items():
+                found[name] = f"{path}:{found.get(name, '')}".rstrip(":")
+        found["CMAKE_PREFIX_PATH"] = f"{self.folder / 'view'}:{found['CMAKE_PREFIX_PATH']}"
+        return found
+
+    def _sourced(self, setup: Path) -> dict[str, str]:
+        """Return the environment after a setup.bash, which runs like a program of the student's."""
+        # What is printed before the first \0 is no variable.
+        source = '. "$1" >/dev/null && printf "\\0" && env -0'
+        program, _ = self._ended("bash", "-c", source, "bash", str(setup))
+        printed, *variables = program.output.split("\0")
+        if program.process.returncode != 0 or not variables:
+            raise CannotCheck(f"{setup} cannot be sourced: {' '.join(printed[-200:].split())}")
+        return environment_of(variables)
+
+    def command(self, package: str, script: str) -> list[str]:
+        """Return the command that starts a script as rosrun does: catkin's own copy, if any."""
+        own_name = self.task.named(package)
+        installed = self.folder / "ws" / "devel" / "lib" / own_name / Path(script).name
+        self.environment  # noqa: B018  builds, if need be
+        if installed.exists() and not Path(script).name.startswith("checked_"):
+            return [str(installed)]
+        return [str(self.package(package).folder / script)]

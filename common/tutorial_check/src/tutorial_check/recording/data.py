@@ -1,0 +1,107 @@
+"""What recorders write down, as JSON and back. Pure.
+
+A recording is a frozen dataclass. Its fields are texts, numbers, truth values, None, other such
+dataclasses, paths, or tuples and maps of these, as their annotations say.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import inspect
+from pathlib import Path
+from typing import (
+    Any,
+    Callable,
+    Dict,
+    List,
+    Tuple,
+    Type,
+    TypeVar,
+    Union,
+    cast,
+    get_args,
+    get_origin,
+    get_type_hints,
+)
+
+from tutorial_check.checking.model import CannotCheck
+
+VERSION = 1  # raised by each change that an older judge could not read
+Recording = TypeVar("Recording")
+Heard = Tuple[float, str, Tuple[float, ...]]  # (when it came [s], from which node, its numbers)
+HeardText = Tuple[float, str, str]
+Topics = Dict[str, Tuple[str, ...]]  # {topic: nodes}
+
+
+def as_json(value: object) -> object:
+    """Return a recording, or a part of it, as what json.dumps takes."""
+    if dataclasses.is_dataclass(value):
+        names = (field.name for field in dataclasses.fields(value))
+        return {name: as_json(getattr(value, name)) for name in names}
+    if isinstance(value, dict):
+        return {str(key): as_json(each) for key, each in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [as_json(each) for each in value]
+    return str(value) if isinstance(value, Path) else value
+
+
+def from_json(kind: type[Recording], value: object) -> Recording:
+    """Return the recording of a type that as_json() has made. Raises ValueError if it is none."""
+    try:
+        found: Recording = _from_json(kind, value)
+        return found
+    except (AttributeError, KeyError, TypeError) as error:
+        raise ValueError(f"no {getattr(kind, '__name__', kind)}: {error}") from None
+
+
+def _from_json(kind: Any, value: Any) -> Any:
+    origin: Any = getattr(kind, "__origin__", None)
+    inner: Any = getattr(kind, "__args__", ())
+    if dataclasses.is_dataclass(kind):
+        kinds, make = get_type_hints(kind), cast(Any, kind)
+        return make(**{name: _from_json(kinds[name], each) for name, each in value.items()})
+    if origin is Union:  # Optional
+        return None if value is None else _from_json(inner[0], value)
+    if origin in (tuple, Tuple):
+        if inner[-1] is Ellipsis:
+            return tuple(_from_json(inner[0], each) for each in value)
+        return tuple(_from_json(one, each) for one, each in zip(inner, value))
+    if origin in (dict, Dict):
+        return {key: _from_json(inner[1], each) for key, each in value.items()}
+    if origin in (list, List):
+        return [_from_json(inner[0], each) for each in value]
+    return kind(value) if kind in (float, Path) else value
+
+
+def recorded_by(recorder: Callable[..., Recording]) -> type[Recording]:
+    """Return the type of what a recorder returns. Raises TypeError if it does not name it."""
+    kind: Any = get_type_hints(recorder).get("return")
+    if not dataclasses.is_dataclass(kind):
+        raise TypeError(f"{recorder.__name__}() has to name the dataclass that it returns: ->")
+    return cast(Type[Recording], kind)
+
+
+def arguments_of(recorder: Callable[..., object], values: List[object]) -> List[object]:
+    """Return the arguments of a recorder, after the ground, that as_json() has made."""
+    kinds, names = get_type_hints(recorder), list(inspect.signature(recorder).parameters.values())
+    found = []
+    for number, value in enumerate(values, 1):
+        one = names[min(number, len(names) - 1)]  # the last may be *arguments
+        found.append(_from_json(kinds.get(one.name, Any), value))
+    return found
+
+
+def must_be_whole(recorded: type) -> None:
+    """Raise CannotCheck for a recording with a list or map in it that does not say of what."""
+    kinds: list[Any] = [recorded]
+    for kind in kinds:
+        for name, hint in get_type_hints(kind).items():
+            parts = [hint]
+            for part in parts:
+                if (get_origin(part) or part) in (list, tuple, dict) and not get_args(part):
+                    how = "its type has to say what is in it, as Tuple[float, ...]"
+                    raise CannotCheck(f"{kind.__name__}.{name}: {how}")
+                parts += get_args(part)
+            kinds += [
+                each for each in parts if dataclasses.is_dataclass(each) and each not in kinds
+            ]

@@ -1,0 +1,31 @@
+"""What is to be checked: what was asked for, and what the launcher adds for the worker."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Dict, Tuple
+
+from tutorial_check.course.definition import HANDOUT
+from tutorial_check.submission.workspace import Layout
+
+Variant = Dict[str, Any]  # {name of a value: what it is}; what is not named is as the course has it
+Line = Dict[str, Any]  # of JSON, between the two
+
+
+@dataclass(frozen=True)
+class Order:
+    """One workspace to be checked. What follows the variant is from launcher.prepared()."""
+
+    workspace: Path  # or a zip
+    underlay: str  # setup.bash of the devel space with what students use and never write
+    exercises: Tuple[str, ...]
+    only_first: bool = False  # end at the first check that is wrong
+    own: bool = True  # the caller's own workspace, whose links may lead into the home folder
+    course: Path = HANDOUT
+    variant: Variant = field(default_factory=dict)  # The student's task names it.
+    folder: Path = Path()  # for this order alone; the copy of the workspace is in it
+    layout: Layout = field(default_factory=Layout)  # Messages name places as they were handed in.
+    environment: Dict[str, str] = field(default_factory=dict)  # A shell with the underlay has it.
+    shown: Tuple[Path, ...] = ()  # what the student's programs may read
+    apart: bool = False  # in namespaces of its own, by bubblewrap

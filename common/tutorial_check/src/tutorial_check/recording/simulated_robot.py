@@ -1,0 +1,76 @@
+"""The simulated TurtleBot on a stage: started by the checker, driven by a student's program."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Sequence
+
+from tutorial_check.checking.model import CannotCheck
+from tutorial_check.processes.program import Program
+from tutorial_check.recording.ros_session import START_S, Stage
+
+BUMPER, TRUTH = "/mobile_base/events/bumper", "/base_pose_ground_truth"
+ODOM = "/odom"  # in an empty plane there is no other truth
+LONGEST_DRIVE_S = 20.0
+NEWEST = 50  # samples, of a second
+
+
+@dataclass(frozen=True)
+class Sample:
+    """Where the robot was: stamp [s], pose in the world [m, rad], velocity [m/s, rad/s]."""
+
+    at_s: float
+    x: float
+    y: float
+    yaw: float
+    v: float
+    w: float
+
+
+class SimulatedRobot:
+    """A robot that drives as /cmd_vel says, and what it did."""
+
+    def __init__(self, stage: Stage, *arguments: str) -> None:
+        """Start it, with parameters such as _world:=room or _initial_x:=1.0. Raises CannotCheck."""
+        self._stage = stage
+        self._poses = TRUTH if any("_world:=" in each for each in arguments) else ODOM
+        stage.driver.listen(self._poses, "Odometry")
+        stage.driver.listen(BUMPER, "BumperEvent")
+        robot = stage.start_ours("fake_turtlebot_sim", "fake_turtlebot.py", *arguments)
+        stage.wait(lambda: robot.ended or stage.driver.count(self._poses), START_S)
+        if robot.ended or not stage.driver.count(self._poses):
+            raise CannotCheck(f"the simulated robot does not start: {robot.output[-200:]}")
+
+    @property
+    def path(self) -> tuple[Sample, ...]:
+        """All that it did so far, 50 samples a second."""
+        return tuple(map(_sample, self._stage.driver.received(self._poses)))
+
+    @property
+    def moves(self) -> bool:
+        """Whether it moved within the last second."""
+        count = self._stage.driver.count(self._poses)
+        newest = self._stage.driver.received(self._poses, max(0, count - NEWEST))
+        return any(one.v or one.w for one in map(_sample, newest))
+
+    @property
+    def bumps(self) -> int:
+        """How often a bumper was pressed or released."""
+        return int(self._stage.driver.count(BUMPER))
+
+    def drive(self, program: Program, longest_s: float = LONGEST_DRIVE_S) -> tuple[Sample, ...]:
+        """Return its path until it has moved and rests for a second, or for longest_s."""
+        self._stage.wait(lambda: program.ended or self.moves, START_S)
+        if self.moves:
+            self._stage.wait(lambda: not self.moves, longest_s)
+        return self.path
+
+
+def has_moved(path: Sequence[Sample]) -> bool:
+    return any(one.v or one.w for one in path)
+
+
+def _sample(received: tuple[float, str, Sequence[float]]) -> Sample:
+    at_s, x, y, sine, cosine, v, w = received[2]
+    return Sample(at_s, x, y, 2.0 * math.atan2(sine, cosine), v, w)

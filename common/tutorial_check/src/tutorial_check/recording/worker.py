@@ -1,0 +1,107 @@
+"""Records in isolation: python3 -m tutorial_check.recording.worker.
+
+Standard output is a socket, which, unlike a pipe, is opened by no path in /proc. Its first line is
+the order, and answered by {"ready": true}. Each other one asks for a recording,
+{"recorder": "MODULE:NAME", "arguments": [...]}, and is answered by a line: {"recording": {...}},
+{"cut_short": {"kind", "seen"}} (see model.CutShort), or {"cannot": "why"}; each also says whether
+the machine kept the programs waiting, and has the version of recordings.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import importlib
+import json
+import os
+import shutil
+import signal
+import socket
+import traceback
+from pathlib import Path
+from typing import Iterable, Iterator
+
+from tutorial_check.checking.model import CannotCheck, CutShort, fault
+from tutorial_check.course.definition import checks_of, read_course
+from tutorial_check.course.tasks import task_of
+from tutorial_check.processes.runner import Runner
+from tutorial_check.recording.data import VERSION, arguments_of, as_json, from_json
+from tutorial_check.recording.ground import Ground
+from tutorial_check.recording.order import Line, Order
+from tutorial_check.sandbox import bubblewrap, environment, landlock, privileges
+from tutorial_check.submission import workspace
+
+
+def main() -> None:
+    """Read the order, then record what is asked for until nobody asks any more."""
+    privileges.keep_to_itself()
+    line = socket.socket(fileno=os.dup(1))
+    line.set_inheritable(False)
+    os.dup2(2, 1)  # nothing else gets into the answers
+    lines = line.makefile()
+    order = from_json(Order, json.loads(next(lines)))
+    if order.apart:
+        privileges.prctl(privileges.PR_SET_PDEATHSIG, signal.SIGKILL)  # ends with bwrap
+    else:  # its runner notices that the reader has ended, and ends what was started
+        signal.signal(signal.SIGTERM, signal.SIG_IGN)
+        # In a container no other process may reap.
+        privileges.prctl(privileges.PR_SET_CHILD_SUBREAPER, 1)
+    try:
+        for answer in _answers(order, line.fileno(), map(json.loads, lines)):
+            with contextlib.suppress(OSError):  # nobody listens
+                line.sendall(json.dumps(answer).encode() + b"\n")
+    finally:  # the process that made the folder may have been killed
+        shutil.rmtree(order.folder, ignore_errors=True)
+
+
+def _answers(order: Order, reader: int, questions: Iterable[Line]) -> Iterator[Line]:
+    """Yield that it is ready, then the answer to each question. reader: see Runner."""
+    try:
+        ground = _prepared(order, reader)
+    except Exception as error:
+        yield _cannot(error)
+        return
+    try:
+        yield {"ready": True}
+        yield from (answer(ground, each) for each in questions)
+    finally:
+        ground.runner.clear()  # a build, too, is ended; without a namespace nothing else ends it
+
+
+def answer(ground: Ground, asked: Line) -> Line:
+    """Return the answer to a question; both as above."""
+    module, _, name = asked["recorder"].partition(":")
+    try:
+        recorder = getattr(importlib.import_module(module), name)
+        recorded = recorder(ground, *arguments_of(recorder, asked["arguments"]))
+        found: Line = {"recording": as_json(recorded)}
+    except CutShort as end:
+        found = {"cut_short": {"kind": end.kind, "seen": end.seen}}
+    except Exception as error:
+        found = _cannot(error)
+    clock = ground.runner.clock
+    return {"version": VERSION, **found, "strained": clock.strained(), "hopeless": clock.hopeless()}
+
+
+def _cannot(error: Exception) -> Line:
+    """Return the answer for what is not the student's fault, whatever it is."""
+    if not isinstance(error, CannotCheck):
+        traceback.print_exc()
+    return {"cannot": fault(error)}
+
+
+def _prepared(order: Order, reader: int) -> Ground:
+    scratch = order.folder
+    shutil.copytree(scratch / workspace.COPY, scratch / "ws" / "src", symlinks=True)
+    environment.prepare(scratch)
+    variables = environment.variables(scratch, order.environment)
+    shown: list[str | Path] = [scratch, *order.shown, *bubblewrap.SYSTEM, "/proc"]
+    own = [scratch / name for name in environment.OWN]
+    ruleset = landlock.ruleset(shown, own) if landlock.version() and not order.apart else None
+    course = read_course(order.course)
+    checks_of(course)  # its recorders
+    runner = Runner(variables, order.apart, reader, ruleset)
+    return Ground(order, task_of(course)(order.variant), runner)
+
+
+if __name__ == "__main__":
+    main()

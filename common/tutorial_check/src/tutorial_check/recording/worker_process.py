@@ -1,0 +1,138 @@
+"""The worker's process, which records in isolation: started, asked, ended."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import select
+import signal
+import socket
+import subprocess
+import tempfile
+import threading
+import time
+from pathlib import Path
+from typing import cast
+
+from tutorial_check.checking.model import CannotCheck
+from tutorial_check.recording.data import as_json
+from tutorial_check.recording.order import Line, Order
+from tutorial_check.sandbox import bubblewrap, privileges
+from tutorial_check.submission.workspace import COPY
+
+# All exercises take 90 s on two quiet processors. Ten times that is enough: if programs have less
+# than a seventh of the time, there is no verdict anyway (cpu_clock.HOPELESS), and a student waits.
+LONGEST_S = 900.0
+MOST_BYTES = 1 << 26  # of an answer; what the handout's programs are recorded to do takes 1 MB
+END_S = 10.0  # a worker whose result is not wanted has this long to end what it started
+# Set to end the workers of all threads, and those that have just started; each raises CannotCheck.
+no_more = threading.Event()
+
+
+class Ended(BaseException):
+    """The worker answers no more; the text says why. No check may go on."""
+
+
+class Worker:
+    """The process that records in isolation."""
+
+    def __init__(self, order: Order, wrapper: list[str]) -> None:
+        """Start it. wrapper: the words before its command that isolate it."""
+        if not order.apart:
+            privileges.keep_to_itself()  # and the end of the socket
+        environment = {**order.environment, "LANG": os.environ.get("LANG", "C.UTF-8")}
+        # ROS reads these as it loads.
+        own = str(order.folder / "ours")
+        environment.update(HOME=own, ROS_HOME=own, ROS_LOG_DIR=own, ROS_IP="127.0.0.1")
+        environment.update(PATH="/usr/bin:/bin:/usr/sbin:/sbin", PYTHONDONTWRITEBYTECODE="1")
+        self._order, self._buffer = order, b""
+        self._end_s = time.monotonic() + LONGEST_S
+        self._log = tempfile.TemporaryFile("w+")  # noqa: SIM115  closed by __exit__
+        # No pipe, which a path in /proc would open: a program could plant a link to that.
+        self._line, theirs = socket.socketpair()
+        self._line.settimeout(END_S)  # for a worker that reads no question
+        self._process = subprocess.Popen(
+            # -s: without what pip put into the home folder, which may be shown nowhere
+            [*wrapper, "/usr/bin/python3", "-s", "-m", "tutorial_check.recording.worker"],
+            stdin=subprocess.DEVNULL,
+            stdout=theirs.fileno(),
+            stderr=self._log,
+            env=environment,
+            start_new_session=True,
+            pass_fds=bubblewrap.granted().descriptors if order.apart else (),
+            cwd="/",
+        )
+        theirs.close()
+
+    def __enter__(self) -> Worker:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        try:
+            self.end()
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                self._process.wait(END_S)
+        finally:
+            self._kill()
+            self._process.wait()
+            self._line.close()
+            self._log.close()
+
+    def end(self) -> None:
+        """Let it answer no more: who waits for an answer gets Ended."""
+        with contextlib.suppress(OSError):  # it has ended
+            self._line.shutdown(socket.SHUT_RDWR)
+        if self._order.apart:
+            self._kill()
+
+    def _kill(self) -> None:
+        if self._process.poll() is None:
+            # With it all of its namespaces. Its group: bubblewrap's child, until it may go on,
+            # would wait without end for a parent that is gone.
+            os.killpg(self._process.pid, signal.SIGKILL)
+
+    def begin(self) -> None:
+        """Give it the order; wait until it can record. Raises CannotCheck, or Ended."""
+        answer = self.ask(cast(Line, as_json(self._order)))
+        if "cannot" in answer:
+            raise CannotCheck(str(answer["cannot"]))
+
+    def ask(self, question: Line) -> Line:
+        """Return the answer to a question; see worker. Raises Ended."""
+        try:
+            self._line.sendall(json.dumps(question).encode() + b"\n")
+            while b"\n" not in self._buffer:
+                self._read()
+        except (EOFError, OSError):
+            raise Ended(self._last_words()) from None
+        line, _, self._buffer = self._buffer.partition(b"\n")
+        # Programs run in ws, a copy of what was handed in.
+        text, folder = line.decode(errors="replace"), self._order.folder
+        text = text.replace(f"{folder}/ws/", f"{folder}/{Path(COPY).parent}/")
+        try:
+            return dict(json.loads(text))
+        except (ValueError, TypeError, RecursionError):  # whatever has written it
+            raise Ended(f"the worker's answer is no recording: {text[:60]!r}") from None
+
+    def _read(self) -> None:
+        """Read what has come. Raises Ended; EOFError or OSError if the worker has ended."""
+        if no_more.is_set():
+            raise Ended("it was ended")
+        if time.monotonic() > self._end_s:
+            why = "the machine has too much else to do"
+            raise Ended(f"the check took longer than {LONGEST_S:.0f} s: {why}")
+        if select.select([self._line], [], [], 0.2)[0]:
+            data = self._line.recv(1 << 20)
+            if not data:
+                raise EOFError
+            self._buffer += data
+            if len(self._buffer) > MOST_BYTES:
+                raise Ended(f"the worker's answer is longer than {MOST_BYTES:,} bytes")
+
+    def _last_words(self) -> str:
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            self._process.wait(END_S)
+        self._log.seek(0)
+        last = ["", *filter(str.strip, self._log.read()[-2000:].splitlines())][-1]
+        return f"the worker exited without a result: {last}"

@@ -1,0 +1,127 @@
+"""All that the checks of one workspace share: what its files say, and the recordings."""
+
+from __future__ import annotations
+
+import os
+import re
+import shlex
+from functools import cached_property
+from pathlib import Path
+from typing import Any, Callable, Iterator, Mapping, TypeVar
+
+from tutorial_check.course.tasks import Task
+from tutorial_check.recording.order import Order
+from tutorial_check.submission import student_files
+from tutorial_check.submission.manifests import first_broken, must_be_launchable, unreadable
+from tutorial_check.submission.python_facts import PythonFacts
+from tutorial_check.submission.workspace import SOLUTIONS, Package, packages_below
+
+# What of CMakeLists.txt makes a build necessary before anything can run.
+NEEDS_BUILD = re.compile(
+    r"^[ \t]*(catkin_python_setup|add_message_files|add_service_files|generate_messages"
+    r"|add_executable|catkin_install_python)\s*\(",
+    re.MULTILINE | re.IGNORECASE,
+)
+Recorded = TypeVar("Recorded")
+Value = TypeVar("Value")
+Recorder = Callable[..., Recorded]  # called with a ground.Ground and arguments
+
+
+class Session:
+    """One workspace: what its files say, and what its programs were recorded to do."""
+
+    def __init__(self, order: Order, task: Task) -> None:
+        """task: of this student."""
+        self.order, self.folder, self.layout = order, order.folder, order.layout
+        self.task: Any = task  # the course's own
+        self.source = self.folder / "ws" / "src"
+        self.underlay_environment: Mapping[str, str] = order.environment
+        self._memory: dict[object, Any] = {}
+        self._visible = [Path("/")]  # what the student's programs may see, with all below it
+
+    def is_own(self, path: str | Path) -> bool:
+        """Return whether a path is within src. One in a recording may be made up, with .. in it."""
+        return Path(os.path.realpath(self.source)) in Path(os.path.realpath(path)).parents
+
+    def may_see(self, path: str | Path) -> bool:
+        """Return whether the student's programs may see what is at a path, so that we may, too."""
+        real = Path(os.path.realpath(path))
+        return any(each == real or each in real.parents for each in self._visible)
+
+    def memo(self, key: object, make: Callable[[], Value]) -> Value:
+        """Return make(), called once. For facts, which do not change."""
+        if key not in self._memory:
+            self._memory[key] = make()
+        found: Value = self._memory[key]
+        return found
+
+    def recording(self, recorder: Recorder[Recorded], *arguments: object) -> Recorded:
+        """Return what a recorder writes down; recorded once, unless it is looked at again."""
+        raise NotImplementedError
+
+    @cached_property
+    def broken(self) -> Package | None:
+        """A package whose package.xml keeps every node from starting."""
+        return first_broken(self.source, self.packages)
+
+    def must_be_launchable(self) -> None:
+        """Raise Wrong for a package.xml that keeps roslaunch from starting anything."""
+        if self.broken:
+            raise unreadable(self.broken)
+        must_be_launchable(self.packages)
+
+    @cached_property
+    def packages(self) -> list[Package]:
+        """In the order of their paths."""
+        return packages_below(self.source)
+
+    def has(self, name: str) -> bool:
+        """Return whether there is the package that the checks know by a name."""
+        return any(each.name == self.task.named(name) for each in self.packages)
+
+    def package(self, name: str) -> Package:
+        """Return that package. Raises LookupError."""
+        return {each.name: each for each in reversed(self.packages)}[self.task.named(name)]
+
+    def scripts(self, name: str) -> dict[str, PythonFacts]:
+        """Return {path within the package: PythonFacts} of the Python programs of a package."""
+        return self.memo(("scripts", name), lambda: dict(self._programs(self.package(name))))
+
+    def _programs(self, package: Package) -> Iterator[tuple[str, PythonFacts]]:
+        for path in sorted(package.folder.rglob("*")):
+            inside = path.relative_to(package.folder)
+            # What editors and file managers keep for themselves is hidden.
+            if not path.is_file() or any(part.startswith(".") for part in inside.parts):
+                continue
+            is_python = path.suffix == ".py"
+            if not path.suffix:
+                with path.open("rb") as file:
+                    is_python = file.read(2) == b"#!" and b"python" in file.readline()
+            if is_python and path.name not in ("setup.py", "__init__.py"):
+                yield str(inside), PythonFacts(self.read(path))
+
+    def read(self, path: Path) -> str:
+        """Return the text of a file or program of the student's. Raises CannotCheck."""
+        return student_files.read(self.folder, path).decode(errors="replace")
+
+    def text(self, package: str, script: str) -> str:
+        """Return the text of a script, its line ends as they are."""
+        return self.read(self.package(package).folder / script)
+
+    def whole(self, path: str | Path, package: str = "") -> str:
+        """Return a path, here, for a shell; Case.as_sent makes it the student's own."""
+        own = self.package(package).folder if package else self.source.parent
+        return shlex.quote(str(own / path))
+
+    @property
+    def needed(self) -> list[Package]:
+        """The packages of the exercises, and those of the workspace that they depend on."""
+        found, names = [], set(map(self.task.named, SOLUTIONS))
+        for _ in self.packages:
+            found = [each for each in self.packages if each.name in names]
+            names |= {name for each in found for name in each.depends}
+        return found or self.packages
+
+    def needs_build(self) -> bool:
+        """Return whether something has to be made before a program can run."""
+        return any(NEEDS_BUILD.search(each.cmake or "") for each in self.packages)

@@ -1,0 +1,70 @@
+"""A student's files: so much of them is read, and no link that a program planted is followed."""
+
+import contextlib
+import os
+import stat
+from pathlib import Path
+from typing import Iterator, Tuple
+
+from tutorial_check.checking.model import CannotCheck, Wrong
+
+# A program, launch file or manifest of the exercises has some 2 kB; what is said of one must not
+# take the time and memory that a hundred times as much takes.
+MOST_BYTES = 256 << 10
+TOO_LARGE = f"larger than {MOST_BYTES >> 10} kB"
+
+
+def is_too_large(path: Path) -> bool:
+    """Return whether a text file is larger than any that is written by hand."""
+    return path.stat().st_size > MOST_BYTES
+
+
+def text_of_file(path: Path) -> str:
+    """Return what a text file holds. Raises Wrong for one that is too large."""
+    if is_too_large(path):
+        hint = "nobody writes so much by hand: what made it?"
+        raise Wrong("a file of a few kB", f"{path.name} is {TOO_LARGE}", path.name, hint, sure=True)
+    return path.read_text(errors="replace")
+
+
+def put(base: Path, path: Path, text: str, mode: int = 0o644) -> None:
+    """Make a new file below a folder; what is there is removed. Raises CannotCheck."""
+    with _folder_of(base, path) as (folder, name):
+        with contextlib.suppress(FileNotFoundError):
+            os.unlink(name, dir_fd=folder)
+        flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW
+        with open(os.open(name, flags, mode, dir_fd=folder), "w", encoding="utf-8") as file:
+            os.fchmod(file.fileno(), mode)
+            file.write(text)
+
+
+def read(base: Path, path: Path) -> bytes:
+    """Return what a file below a folder holds, of one that is TOO_LARGE a byte more than it may.
+
+    Raises CannotCheck, also for a pipe or a device.
+    """
+    with _folder_of(base, path) as (folder, name):
+        flags = os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK
+        with open(os.open(name, flags, dir_fd=folder), "rb") as file:
+            if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
+                raise OSError("no regular file")
+            return file.read(MOST_BYTES + 1)
+
+
+@contextlib.contextmanager
+def _folder_of(base: Path, path: Path) -> Iterator[Tuple[int, str]]:
+    """Yield (descriptor of the folder that a file is in, its name there)."""
+    wanted = os.path.normpath(os.path.realpath(base) / path.parent.relative_to(base))
+    try:
+        if ".." in path.parts:  # a recording may be made up
+            raise OSError("its path leads elsewhere")
+        folder = os.open(path.parent, os.O_RDONLY | os.O_DIRECTORY)
+        try:
+            if os.readlink(f"/proc/self/fd/{folder}") != wanted:
+                raise OSError("its folder is a link")
+            yield folder, path.name
+        finally:
+            os.close(folder)
+    except OSError as error:
+        why = error.strerror or error
+        raise CannotCheck(f"{path} is not as it was: a program changed it: {why}") from None

@@ -1,0 +1,300 @@
+"""The student's workspace: found, unpacked, copied. Needs no ROS but catkin_pkg."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import re
+import shutil
+import stat
+import zipfile
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Iterator
+from xml.etree import ElementTree
+
+from catkin_pkg.package import InvalidPackage, parse_package
+
+from tutorial_check.checking.model import CannotCheck
+from tutorial_check.submission.student_files import TOO_LARGE, is_too_large, text_of_file
+
+MOST_BYTES = 300 << 20  # sources of a workspace, including bags
+MOST_FILES = 20_000
+MOST_DEPTH = 100  # Folders in folders: Python calls a function in itself for each.
+SOLUTIONS = {"beginner_tutorials", "joy2twist"}  # the packages of the exercises
+COPY = "handed_in/src"  # the copy of what was handed in, as in a workspace
+# The words of a launch file, and in one of them what a node of the exercises reads.
+BETWEEN_WORDS, WHOLE_PATH = re.compile(r"[\s\"'<>$]+"), re.compile(r"/.+\.(?:bag|rviz)\b")
+IGNORED = {"build", "devel", ".git", "__pycache__"}  # folders that no student writes
+LEFT_OUT = {*IGNORED, "install", ".catkin_tools", "logs"}  # not sources of a workspace
+
+
+@dataclass
+class Package:
+    """A folder with a package.xml."""
+
+    folder: Path  # in the copy
+    inside: str  # its path within the workspace, for the student
+    name: str = ""
+    error: str = ""  # why catkin cannot read package.xml
+    malformed: bool = False  # so that it is no XML at all
+    format: int = 2
+    depends: set[str] = field(default_factory=set)  # for building or running
+
+    @property
+    def cmake(self) -> str | None:
+        """The text of its CMakeLists.txt without comments; None if there is none. Raises Wrong."""
+        path = self.folder / "CMakeLists.txt"
+        return re.sub(r"#.*", "", text_of_file(path)) if path.is_file() else None
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Where the sources of a workspace are."""
+
+    root: Path = Path()  # what the student handed in
+    source: Path = Path()  # its src folder, or the folder of packages itself
+    is_workspace: bool = False  # there is a src
+    place: str = ""  # root within what was handed in, if another folder
+
+
+def hand_in(given: str | Path, folder: Path) -> tuple[Layout, Path]:
+    """Return the Layout, and its folder, of a workspace or zip, which is unpacked in a folder.
+
+    A folder with nothing but a zip, as Moodle has it, is that zip. Raises CannotCheck.
+    """
+    given = archive = Path(given)
+    if not os.path.isfile(given):
+        layout = find_layout(given)
+        # A link may lead to what is not the student's.
+        zips = [p for p in given.glob("*.[zZ][iI][pP]") if p.is_file() and not p.is_symlink()]
+        if layout.source.is_dir() or len(zips) != 1:
+            return layout, given
+        archive = zips[0]
+    unpack(archive, folder / "unpacked")
+    return find_layout(folder / "unpacked"), folder / "unpacked"
+
+
+def unpack(archive: Path, folder: Path) -> None:
+    """Unpack a zip into a folder. Raises CannotCheck, also for one with a path outside."""
+    try:
+        with zipfile.ZipFile(archive) as opened:
+            members = opened.infolist()
+            size = sum(member.file_size for member in members)
+            if size > MOST_BYTES or len(members) > MOST_FILES:
+                raise CannotCheck(f"{archive}: unpacked it is larger than {MOST_BYTES >> 20} MB")
+            for member in members:
+                # Of an older PowerShell, whose zips have them against the rule.
+                member.filename = member.filename.replace("\\", "/")
+                path, mode = Path(member.filename), member.external_attr >> 16
+                if path.is_absolute() or ".." in path.parts:
+                    raise CannotCheck(f"{archive}: has a path outside of itself: {member.filename}")
+                target = folder if stat.S_ISLNK(mode) else Path(opened.extract(member, folder))
+                if target.is_file():
+                    # One made on Windows knows no rights; then chmod +x cannot be judged.
+                    target.chmod((mode & 0o777 or 0o755) | 0o600)
+    except CannotCheck:
+        raise
+    except Exception as error:  # each way to pack has errors of its own for broken bytes
+        raise CannotCheck(f"{archive}: cannot be unpacked: {error}") from None
+
+
+def find_layout(folder: str | Path) -> Layout:
+    """Return the Layout of a workspace, its src, a folder of packages, or a package, at any depth.
+
+    Of several that with the exercises' packages. A home folder is not searched: it may have others.
+    """
+    folder = Path(folder)
+    if not folder.exists():
+        hint = "./tutorial shell --in FOLDER makes a workspace"
+        raise CannotCheck(f"{folder}: no such folder or zip; {hint}")
+    if not folder.is_dir():
+        raise CannotCheck(f"{folder}: neither a folder nor a zip")
+    home = Path(os.path.expanduser("~")).resolve()
+    found: dict[Layout, set[str]] = {}
+    try:
+        os.listdir(folder)
+        for here, folders, _ in _walk(folder):
+            layout = _layout_of(Path(here))
+            inside = [*packages_below(layout.source), *packages_beside(layout)] if layout else []
+            if layout and (inside or not found):
+                found[layout] = {each.name for each in inside}
+            is_end = inside or folder.resolve() in (home, *home.parents)
+            folders[:] = [] if is_end else sorted({*folders} - LEFT_OUT)
+            folders[:] = [each for each in folders if each[0] != "." and each != "__MACOSX"]
+    except PermissionError as error:
+        raise CannotCheck(f"{error.filename}: may not be read") from None
+    if not found:
+        return Layout(folder, folder / "src", True)
+    ranked = [each for each in found if found[each]] or list(found)
+    ranked.sort(key=lambda one: (-len(found[one] & SOLUTIONS), len(one.root.parts), one.root))
+    best, place = ranked[0], ", not ".join(os.path.relpath(one.root, folder) for one in ranked[:4])
+    return replace(best, place="" if best.root in (folder, folder.parent) else place)
+
+
+def _layout_of(folder: Path) -> Layout | None:
+    is_package = (folder / "package.xml").exists()
+    if (folder / "src").is_dir() and not is_package:
+        return Layout(folder, folder / "src", True)
+    if any(folder.glob("*/package.xml")):
+        return Layout(folder, folder, False)
+    return Layout(folder.parent, folder, False) if is_package else None
+
+
+def must_be_ones_own(layout: Layout, suite: Path) -> None:
+    """Raise CannotCheck if a package, or what it is a link to, is one of the suite's solutions."""
+    solutions = {os.path.realpath(suite / name) for name in SOLUTIONS}
+    for each in (layout.source, *sorted(layout.source.glob("*"))):
+        if os.path.realpath(each) in solutions:
+            raise CannotCheck(f"{each} is this suite's solution, not yours: name YOUR workspace")
+
+
+def copy(layout: Layout, target: Path, inside: str | Path | None = None) -> Path:
+    """Copy sources to a folder; return it. Raises CannotCheck if they are unreadable or too large.
+
+    inside: follow only links that lead to something in this folder; None: all.
+    """
+    target.mkdir(parents=True)
+    source = layout.source
+    if source.is_dir():
+        copying = _Copying(str(target.resolve()), os.path.realpath(inside) if inside else None)
+        is_package = (source / "package.xml").exists()
+        copying.copy(source, target / source.name if is_package else target, frozenset())
+    # Of the student's catkin; git without links, zip and Windows make a file of that link.
+    toplevel = target / "CMakeLists.txt"
+    if toplevel.is_file() and b"toplevel" in toplevel.read_bytes():
+        toplevel.unlink()
+    return target
+
+
+@dataclass
+class _Copying:
+    """What is at a path may change meanwhile: it is first held, then looked at, then opened."""
+
+    target: str
+    inside: str | None
+    size: int = 0
+    count: int = 0
+
+    def copy(self, source: Path, target: Path, seen: frozenset[str]) -> None:
+        """Copy a file, or what is in a folder; nothing else, and nothing that is outside."""
+        with contextlib.ExitStack() as stack:
+            try:
+                held = os.open(source, os.O_PATH | os.O_CLOEXEC)
+                stack.callback(os.close, held)
+                about, real = os.fstat(held), os.readlink(f"/proc/self/fd/{held}")
+                is_folder = stat.S_ISDIR(about.st_mode)
+                if self.inside and not f"{real}/".startswith(f"{self.inside}/"):
+                    return
+                if not is_folder and not stat.S_ISREG(about.st_mode):
+                    return
+                opened = os.open(f"/proc/self/fd/{held}", os.O_RDONLY | os.O_CLOEXEC)
+                stack.callback(os.close, opened)
+            except PermissionError:
+                raise CannotCheck(f"{source}: may not be read; chmod -R u+rX would help") from None
+            except OSError:  # a link to nowhere, or to itself
+                return
+            if not is_folder:
+                self._copy_file(opened, about, source, target)
+            elif len(seen) > MOST_DEPTH:
+                raise CannotCheck(_too_deep(source.parents[MOST_DEPTH]))
+            elif real not in seen and real != self.target:  # no link to a folder above
+                target.mkdir(exist_ok=True)
+                for name in sorted(set(os.listdir(opened)) - LEFT_OUT):
+                    self.copy(source / name, target / name, seen | {real})
+
+    def _copy_file(self, opened: int, about: os.stat_result, source: Path, target: Path) -> None:
+        self.size += about.st_size
+        self.count += 1
+        if self.size > MOST_BYTES or self.count > MOST_FILES:
+            most = f"{MOST_BYTES >> 20} MB or {MOST_FILES} files"
+            raise CannotCheck(f"{source.parent}: more than {most}")
+        with open(opened, "rb", closefd=False) as file, target.open("wb") as copied:
+            shutil.copyfileobj(file, copied)
+        target.chmod((about.st_mode & 0o777) | 0o400)
+        os.utime(target, ns=(about.st_atime_ns, about.st_mtime_ns))
+
+
+def named_outside(source: Path) -> list[str]:
+    """Return the recordings and RViz views that exist and that launch files name by whole paths."""
+    files = [each for each in source.rglob("*.launch") if each.is_file()]
+    files = [each for each in files if not is_too_large(each)]
+    texts = [each.read_text(errors="replace") for each in files]
+    words = {word for text in texts for word in BETWEEN_WORDS.split(text)}
+    # A path, or a parameter's as _file:=/a/path.
+    named = (WHOLE_PATH.match(one, 0 if one[:1] == "/" else one.find("=/") + 1) for one in words)
+    return sorted({each[0] for each in named if each and os.path.isfile(each[0])})
+
+
+def _walk(top: str | Path) -> Iterator[tuple[str, list[str], list[str]]]:
+    """Yield what os.walk does, which may be changed as there. Raises CannotCheck."""
+    for here, folders, files in os.walk(top):
+        if len(Path(here).parts) - len(Path(top).parts) > MOST_DEPTH:
+            raise CannotCheck(_too_deep(top))
+        yield here, folders, files
+
+
+def _too_deep(folder: str | Path) -> str:
+    return f"{folder}: folders in folders, more than {MOST_DEPTH} deep"
+
+
+def all_below(folder: str | Path) -> Iterator[str]:
+    """Yield the path of all that is in a folder, in order, without what is IGNORED."""
+    for here, folders, files in _walk(folder):
+        folders[:] = sorted(set(folders) - IGNORED)
+        # A folder may be a link.
+        yield from (os.path.join(here, name) for name in sorted((*files, *folders)))
+
+
+def packages_below(folder: str | Path) -> list[Package]:
+    """Return every package in a folder, with what is wrong with it, in the order of their paths."""
+    found = []
+    for here, folders, files in _walk(folder):
+        folders[:] = sorted(each for each in {*folders} - LEFT_OUT if each[0] != ".")
+        if "CATKIN_IGNORE" in files:
+            folders.clear()
+        elif "package.xml" in files and os.path.isfile(f"{here}/package.xml"):
+            found.append(read_package(Path(here), folder))
+    return found
+
+
+def packages_beside(layout: Layout) -> list[Package]:
+    """Return the packages right beside the src of a workspace; deeper may be another student's."""
+    manifests = sorted(layout.root.glob("*/package.xml")) if layout.is_workspace else []
+    beside = (each.parent for each in manifests if each.is_file())
+    return [read_package(each, layout.root) for each in beside if each != layout.source]
+
+
+def read_package(place: Path, root: str | Path) -> Package:
+    package = Package(place, os.path.relpath(place, root))
+    if is_too_large(place / "package.xml"):
+        package.name, package.error, package.malformed = place.name, TOO_LARGE, True
+        return package
+    try:
+        parsed = parse_package(str(place), warnings=[])
+        parsed.evaluate_conditions({"ROS_PYTHON_VERSION": "3", "ROS_VERSION": "1"})
+    # An AssertionError is catkin's word for a format that is yet to come.
+    except (InvalidPackage, AssertionError, OSError, ValueError) as error:
+        package.error = " ".join(str(error).split())
+        try:
+            name = ElementTree.parse(place / "package.xml").findtext("name") or ""
+        except (ElementTree.ParseError, OSError, ValueError, LookupError):
+            name, package.malformed = "", True
+        package.name = name.strip() or place.name
+        return package
+    package.name, package.format = parsed.name, parsed.package_format
+    depends = (*parsed.build_depends, *parsed.exec_depends, *parsed.build_export_depends)
+    package.depends = {each.name for each in depends}
+    return package
+
+
+def underlays(devel: str | Path) -> tuple[str, list[str] | None]:
+    """Return (the folder a devel space was made for, or ""; what it was laid over, or None)."""
+    files = [Path(devel) / name for name in ("_setup_util.py", "setup.sh")]
+    # A pipe would never be read to its end.
+    text, setup = (each.read_text(errors="replace") if each.is_file() else "" for each in files)
+    # The first of its assignments, written by catkin: CMAKE_PREFIX_PATH = r'/a;/b'.split(';')
+    found = re.search(r"^\s*CMAKE_PREFIX_PATH = r?(['\"])(.*)\1\.split\(", text, re.MULTILINE)
+    made_for = re.search(r"_CATKIN_SETUP_DIR:=(.*)", setup)
+    below = [each for each in found[2].split(";") if each] if found else None
+    return made_for[1].rstrip("} \t") if made_for else "", below
