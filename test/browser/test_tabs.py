@@ -34,6 +34,13 @@ def test_robot_shows_odometry_joy2twist_and_a_kobuki(world, page, ros):
     page.wait_for_text("#kobuki [data-value=led2]", "orange")
     ros("rostopic", "pub", "-1", f"{commands}/sound", "kobuki_msgs/Sound", "value: 4")
     page.wait_for_text("#kobuki [data-value=sound]", "error")
+    core = "{battery: 131, charger: 22, buttons: 5, wheel_drop: 1}"
+    topic = "/mobile_base/sensors/core"
+    with world.run("rostopic", "pub", "-r", "20", topic, "kobuki_msgs/SensorState", core):
+        for name, words in (("battery", "13.1"), ("charger", "adapter, charging"),
+                            ("buttons", "0, 2"), ("wheel_drops", "right")):  # fmt: skip
+            page.wait_for_text(f"#kobuki [data-value={name}]", words)
+    page.wait_for_text("#kobuki [data-value=battery]", "–")
 
 
 def test_bag_shows_the_values_at_its_slider_and_publishes_until_it_is_paused(world, page, ros):

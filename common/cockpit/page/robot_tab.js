@@ -9,7 +9,9 @@ const ODOMETRY = [ // name, title, unit, digits
   ["x", "x", " m", 2], ["y", "y", " m", 2], ["yaw", "heading", "°", 1],
   ["v", "speed", " m/s", 2], ["w", "turning", " rad/s", 2], ["covered", "covered", " m", 2],
 ];
-const KOBUKI = [ // name, title, unit, before its first command
+const KOBUKI = [ // name, title, unit, while it is not known
+  ["battery", "battery", " V", "–"], ["charger", "charger", "", "–"],
+  ["buttons", "pressed buttons", "", "–"], ["wheel_drops", "dropped wheels", "", "–"],
   ["led1", "LED 1", "", "off"], ["led2", "LED 2", "", "off"], ["sound", "last sound", "", "none"],
 ];
 

@@ -4,6 +4,7 @@ from math import inf, nan
 from types import SimpleNamespace
 
 import pytest
+from kobuki_msgs.msg import SensorState
 from nav_msgs.msg import Odometry
 
 from cockpit_server.graph import JOY, ODOMETRY, Graph, topic_of
@@ -89,6 +90,52 @@ def test_a_robot_has_its_place_in_the_map_and_its_pressed_bumpers():
     for data, pressed in [(b"\1\1", [1]), *malformed, (b"\0\1", [0, 1]), (b"\1\0", [0])]:
         seen.hear(bumper, data)
         assert seen.look()["ada"]["bumpers"] == pressed
+
+
+CORE = "/ada/mobile_base/sensors/core"
+
+
+def with_core():
+    """A page that looks at ada, which has the sensors of a Kobuki, beside bob, which has too."""
+    cores = {CORE: "kobuki_msgs/SensorState", CORE.replace("ada", "bob"): "kobuki_msgs/SensorState"}
+    both = graph("ada", "bob")
+    seen = Seen(Graph({**both.publishers, **dict.fromkeys(cores, {"/base"})}, both.subscribers,
+                      types={**both.types, **cores}))  # fmt: skip
+    seen.page = page(robots=True, floor=True, look="ada")
+    return seen
+
+
+@pytest.mark.parametrize(
+    ("core", "words"),
+    [
+        ((0, 0, 0, 164), ("16.4", "none", "none", "none")),
+        ((5, 1, 22, 131), ("13.1", "adapter, charging", "0, 2", "right")),
+        ((2, 3, 6, 140), ("14.0", "dock, charging", "1", "left, right")),
+        ((0, 2, 18, 165), ("16.5", "adapter, charged", "none", "left")),
+        ((0, 0, 9, 0), ("0.0", "unknown (9)", "none", "none")),
+    ],
+)
+def test_the_chosen_robot_shows_battery_charger_buttons_and_wheel_drops(monkeypatch, core, words):
+    monkeypatch.setattr("cockpit_server.sources.robots.time.monotonic", lambda: 100.0)
+    seen = with_core()
+    look(seen.robots, seen.page, now=100.0)
+    assert CORE.replace("ada", "bob") not in seen.handlers  # nobody looks at it
+    buttons, drops, charger, battery = core
+    message = SensorState(buttons=buttons, wheel_drop=drops, charger=charger, battery=battery)
+    seen.hear(CORE, message)
+    names = ("battery", "charger", "buttons", "wheel_drops")
+    for now, expected in ((101.9, words), (102.0, (None,) * 4)):  # silent for 2 s, it is not known
+        [[newest]] = look(seen.robots, seen.page, now=now)
+        assert tuple(newest["robots"]["ada"].get(name) for name in names) == expected
+
+
+def test_malformed_sensors_show_nothing(monkeypatch):
+    monkeypatch.setattr("cockpit_server.sources.robots.time.monotonic", lambda: 100.0)
+    seen = with_core()
+    look(seen.robots, seen.page, now=100.0)
+    seen.hear(CORE, b"no sensors")
+    [[newest]] = look(seen.robots, seen.page, now=100.0)
+    assert newest["robots"]["ada"] == {}
 
 
 def test_a_page_whose_floor_is_hidden_gets_the_speed_of_its_robot_alone():

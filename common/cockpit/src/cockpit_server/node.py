@@ -44,7 +44,8 @@ class Cockpit:
 
     Subscribes: what pages look at: odom (nav_msgs/Odometry), joy (sensor_msgs/Joy), scan
         (sensor_msgs/LaserScan), base_pose_ground_truth (nav_msgs/Odometry) and
-        mobile_base/events/bumper, commands/led1, led2, sound (kobuki_msgs), any topic;
+        mobile_base/events/bumper, sensors/core, commands/led1, led2, sound (kobuki_msgs), any
+        topic;
         /map (nav_msgs/OccupancyGrid), /tf_static (tf2_msgs/TFMessage),
         /diagnostics (diagnostic_msgs/DiagnosticArray), /rosout (rosgraph_msgs/Log)
     Publishes: joy (sensor_msgs/Joy) of a robot that is driven; what a driver writes into a form

@@ -6,12 +6,14 @@ import time
 from math import isfinite
 from typing import Any, ClassVar, Sequence
 
+from kobuki_msgs.msg import SensorState
 from nav_msgs.msg import Odometry
 
 from cockpit_server.clients import Client, Source, encoded
 from cockpit_server.feeds import Feeds, Raw, read
 from cockpit_server.graph import ODOMETRY, topic_of
 from cockpit_server.graph_watch import GraphWatch
+from cockpit_server.kobuki import core_shown
 from cockpit_server.motion import FARTHEST_M, Motion, covered, motion
 from cockpit_server.schema import switch
 
@@ -24,8 +26,10 @@ KOBUKI = {  # what a robot's commands of these types ask for, by their value
     ),
 }  # fmt: skip
 BASE, BUMPER, TRUTH = "/mobile_base/", "events/bumper", "base_pose_ground_truth"
+CORE, CORE_TYPE = "mobile_base/sensors/core", "kobuki_msgs/SensorState"
 BUMPERS, BUMPER_BYTES = 3, 2  # bytes of an event: which bumper, and whether it is pressed
 SPEED, SPEED_S = ("v", "w", "age"), 0.25  # How often these are sent to a page without the floor.
+CORE_FRESH_S = 2.0  # older values of its sensors are not shown
 FRESH_S, LEAST_SPEED = 1.0, 0.01  # [s], [m/s, rad/s]: newer and faster odometry is motion
 
 
@@ -60,15 +64,22 @@ class Robots(Source):
         truths = {topic_of(robot, TRUTH) for robot in known} & set(graph.published)
         topics = {topic_of(robot, "odom") for robot in known}
         topics |= {topic for topic in truths if graph.types.get(topic) == ODOMETRY}
+        seen = {client.watch.look for client in clients if client.watch.floor} & {*graph.robots()}
+        cores = {robot: topic_of(robot, CORE) for robot in seen}
+        topics |= {topic for topic in cores.values() if graph.types.get(topic) == CORE_TYPE}
         self._feeds.set_subscriptions(self, dict.fromkeys(topics, self._hear), every=False)
         if not watched:
             self._states, self._text = {}, ""
             return
         for robot in known:
             self._read(robot)
+        sensed = {robot: self._core(topic, now) for robot, topic in cores.items()}
         states = {r: shown(*state, now) for r, state in self._states.items() if r in known}
         self._names = sorted(graph.robots())
-        robots = {r: {**states.get(r, {}), **self._kobukis.get(r, {})} for r in self._names}
+        kobukis = self._kobukis
+        robots = {
+            r: {**states.get(r, {}), **kobukis.get(r, {}), **sensed.get(r, {})} for r in self._names
+        }
         speeds = {r: {name: state.get(name) for name in SPEED} for r, state in states.items()}
         self._speeds = speeds
         self._text = encoded("robots", robots=robots)
@@ -102,6 +113,12 @@ class Robots(Source):
             state["bumpers"] = sorted(others | ({data[0]} if data[1] else set()))
         elif len(data) == 1 and data[0] < len(names):
             state[part.rpartition("/")[2]] = names[data[0]]
+
+    def _core(self, topic: str, now: float) -> dict[str, str]:
+        """Return what pages show of a Kobuki's sensors; {} if these are silent."""
+        data, came = self._newest.get(topic, (b"", 0.0))
+        core = read(SensorState, data) if now - came < CORE_FRESH_S else None
+        return core_shown(core) if core else {}
 
     def _read(self, robot: str) -> None:
         data, came = self._newest.pop(topic_of(robot, "odom"), (b"", 0.0))
