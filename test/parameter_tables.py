@@ -10,13 +10,22 @@ import sys
 from pathlib import Path
 
 REPOSITORY = Path(__file__).resolve().parents[1]
-SOURCES = ["common/node_kit/src", "common/gamepad/src", "fake_turtlebot_sim/src", "joy2twist/src"]
+SOURCES = [
+    "common/node_kit/src", "common/gamepad/src", "common/kobuki_protocol/src",
+    "fake_turtlebot_sim/src", "joy2twist/src",
+]  # fmt: skip
 TABLES = [  # README, module, dataclass; what stands before each name
     ("joy2twist/README.md", "joy_to_twist.parameters", "Parameters", "~"),
     ("fake_turtlebot_sim/README.md", "fake_turtlebot_sim.simulator.parameters", "Parameters", "~"),
     ("fake_turtlebot_sim/README.md", "fake_turtlebot_sim.mux.parameters", "MuxParameters", "~"),
     ("fake_turtlebot_sim/README.md", "fake_turtlebot_sim.mux.parameters", "Input", ""),
     ("fake_turtlebot_sim/README.md", "fake_turtlebot_sim.safety.parameters", "Parameters", "~"),
+    (
+        "common/doc/SERIAL_KOBUKI.md",
+        "fake_turtlebot_sim.serial_kobuki.parameters",
+        "Parameters",
+        "~",
+    ),
     ("common/gamepad/README.md", "gamepad.driver.parameters", "DriverParameters", "~"),
 ]
 

@@ -40,7 +40,7 @@ def test_robot_shows_odometry_joy2twist_and_a_kobuki(world, page, ros):
         for name, words in (("battery", "13.1"), ("charger", "adapter, charging"),
                             ("buttons", "0, 2"), ("wheel_drops", "right")):  # fmt: skip
             page.wait_for_text(f"#kobuki [data-value={name}]", words)
-    page.wait_for_text("#kobuki [data-value=battery]", "–")
+    page.wait_for_text("#kobuki [data-value=battery]", "\N{EN DASH}")
 
 
 def test_bag_shows_the_values_at_its_slider_and_publishes_until_it_is_paused(world, page, ros):

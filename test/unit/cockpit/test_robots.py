@@ -99,8 +99,8 @@ def with_core():
     """A page that looks at ada, which has the sensors of a Kobuki, beside bob, which has too."""
     cores = {CORE: "kobuki_msgs/SensorState", CORE.replace("ada", "bob"): "kobuki_msgs/SensorState"}
     both = graph("ada", "bob")
-    seen = Seen(Graph({**both.publishers, **dict.fromkeys(cores, {"/base"})}, both.subscribers,
-                      types={**both.types, **cores}))  # fmt: skip
+    publishers = {**both.publishers, **{topic: {"/base"} for topic in cores}}
+    seen = Seen(Graph(publishers, both.subscribers, types={**both.types, **cores}))
     seen.page = page(robots=True, floor=True, look="ada")
     return seen
 

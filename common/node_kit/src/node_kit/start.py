@@ -80,6 +80,14 @@ def run(
     return 0
 
 
+def private_parameters(name: str) -> dict[str, Any]:
+    """Return the private parameters of the command line, and under them those of a master, if any.
+
+    For a program that needs no master. Raises StartError or ValueError, one line.
+    """
+    return _parameters(full_name(name))[0]
+
+
 def as_callback(function: Callable[..., object]) -> Callable[..., None]:
     """Return it for rospy's threads: that the end of the node closes its topics is no error."""
 

@@ -10,7 +10,16 @@ from typing import Any, Mapping
 from fake_turtlebot_sim.simulator.differential_drive import Pose
 from fake_turtlebot_sim.simulator.world import FARTHEST_PLACE_M, World
 from fake_turtlebot_sim.simulator.world_files import find_world, read_world
-from node_kit.parameters import checked, is_number, number, parameter, switch, text, whole_number
+from node_kit.parameters import (
+    checked,
+    declared,
+    is_number,
+    number,
+    parameter,
+    switch,
+    text,
+    whole_number,
+)
 
 MOST_ROBOTS = 1000
 
@@ -165,6 +174,13 @@ class Parameters:
         initial = self.initial_x, self.initial_y, self.initial_yaw
         x, y, yaw = (float(value or 0.0) for value in initial)
         return self.robots or {"": (x, y, yaw) if set(initial) != {""} else None}
+
+
+def simulated(name: str) -> Any:
+    """Declare a parameter of another program that is one of the simulator's."""
+    declaration = declared(Parameters)[name]
+    meta = declaration.metadata
+    return parameter(declaration.default, meta["check"], meta["meaning"], meta["default"])
 
 
 def parse_parameters(given: Mapping[str, Any]) -> Parameters:

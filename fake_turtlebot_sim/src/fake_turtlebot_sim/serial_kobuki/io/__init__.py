@@ -1,0 +1,1 @@
+"""The pseudo terminal, the process beside it, and the loop that serves both."""

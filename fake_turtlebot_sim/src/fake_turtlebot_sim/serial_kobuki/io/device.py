@@ -1,0 +1,155 @@
+"""The device: the firmware, the line and the process beside it, in real time."""
+
+from __future__ import annotations
+
+import select
+import time
+from functools import partial
+from typing import Callable
+
+from fake_turtlebot_sim.serial_kobuki.damage import Damage
+from fake_turtlebot_sim.serial_kobuki.firmware import DOCK_CHARGING, Firmware
+from fake_turtlebot_sim.serial_kobuki.io.beside import Beside
+from fake_turtlebot_sim.serial_kobuki.io.serial_line import SerialLine
+from fake_turtlebot_sim.serial_kobuki.parameters import Parameters
+from fake_turtlebot_sim.simulator.clock import PhaseLock
+from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
+
+PERIOD_NS = 20_000_000
+UNPLUGGED_S = 2.0  # by ~unplug_after
+
+
+class Device:
+    """A Kobuki on a serial line."""
+
+    def __init__(
+        self, parameters: Parameters, beside: Beside | None, report: Callable[[str], None]
+    ) -> None:
+        """Plug it in. beside: what shows it to a master. Raises ValueError, one line."""
+        p = parameters
+        self._link, self._report, self._beside = p.link, report, beside
+        self._robot = SimulatedRobot(p.simulation(), p.start_pose())
+        self._firmware = Firmware(self._robot, p.equipment())
+        self._timeout_s = p.base_control_timeout
+        self._damage = Damage(p.drop, p.corrupt, p.stall, p.seed)
+        self._sends_garbage = self._has_reported_damage = self._has_fallen = False
+        self._plan: list[tuple[float, Callable[[], None]]] = []  # [s] and what happens then
+        if p.reboot_after:
+            self._plan.append((p.reboot_after, self._reboot))
+        if p.unplug_after:
+            self._plan.append((p.unplug_after, partial(self._plug_in, False)))
+            self._plan.append((p.unplug_after + UNPLUGGED_S, partial(self._plug_in, True)))
+        self._wishes: dict[str, Callable[..., None]] = {
+            "press": self._firmware.press,
+            "reset": self._robot.reset,
+            "reboot": self._reboot,
+            "switch_on": self._switch_on,
+            "plug_in": self._plug_in,
+            "charge": self._charge,
+            "send_garbage": self._send_garbage,
+        }
+        self._line: SerialLine | None = None
+        self._begin_ns = time.monotonic_ns()
+        self._plug_in(True)
+        self.is_ending = False
+
+    def spin(self) -> None:
+        """Be a robot until is_ending."""
+        schedule = PhaseLock(PERIOD_NS, self._now_ns())
+        while not self.is_ending:
+            now_ns = self._now_ns()
+            if now_ns >= schedule.deadline_ns:
+                self._cycle(now_ns)
+                schedule.complete(now_ns)
+            self._wait((schedule.deadline_ns - self._now_ns()) * 1e-9)
+
+    def close(self) -> None:
+        """Unplug it for good."""
+        if self._line:
+            self._line.unplug()
+        if self._beside:
+            self._beside.close()
+
+    def _now_ns(self) -> int:
+        return time.monotonic_ns() - self._begin_ns
+
+    def _cycle(self, now_ns: int) -> None:
+        """Move to the present, send a packet, and show where the robot is."""
+        now_s = now_ns * 1e-9
+        for at_s, happen in self._plan:
+            if at_s <= now_s:
+                happen()
+        self._plan = [(at_s, happen) for at_s, happen in self._plan if at_s > now_s]
+        self._read()
+        stamp_ns = time.time_ns()
+        if self._robot.advance(now_ns):
+            self._report(f"no base control for {self._timeout_s:g} s: the wheels stop")
+        packet = self._firmware.feedback(now_ns)
+        if packet and self._sends_garbage:
+            packet = self._damage.garbage()
+        if self._line:
+            self._line.write(self._damage.delay(self._damage.spoil(packet), now_s))
+        self._look_at_robot()
+        if self._beside:
+            truth = self._robot.true_state()
+            self._beside.show({"stamp_ns": stamp_ns, "truth": truth[:5]})
+
+    def _look_at_robot(self) -> None:
+        has_fallen = any(self._robot.sensed().wheels)
+        if has_fallen and not self._has_fallen:
+            x, y, _ = self._robot.true_pose
+            self._report(f"fell over an edge at ({x:.2f}, {y:.2f}): lift it with the service reset")
+        self._has_fallen = has_fallen
+
+    def _wait(self, longest_s: float) -> None:
+        """Wait for a command or a wish, but not longer [s]; obey it."""
+        sources = [self._line.descriptor] if self._line and self._line.is_open else []
+        sources += [self._beside.descriptor] if self._beside else []
+        ready, _, _ = select.select(sources, [], [], max(0.0, longest_s))
+        if self._line and self._line.descriptor in ready:
+            self._read()
+        if self._beside and self._beside.descriptor in ready:
+            self._obey(self._beside)
+
+    def _read(self) -> None:
+        """Obey what the driver has sent."""
+        data = self._damage.spoil(self._line.read()) if self._line else b""
+        if not data or self._sends_garbage:
+            return
+        for line in self._firmware.receive(data, self._now_ns()):
+            self._report(line)
+        if self._firmware.damaged and not self._has_reported_damage:
+            self._has_reported_damage = True
+            self._report("damaged commands come; they are ignored")
+
+    def _obey(self, beside: Beside) -> None:
+        for name, *values in beside.wishes():
+            self._robot.advance(self._now_ns())
+            self._wishes[name](*values)
+        if beside.has_ended:
+            self.is_ending = self.is_ending or beside.was_asked_to_end
+            self._beside = None
+
+    def _reboot(self) -> None:
+        self._report("switched off and on")
+        self._firmware.switch(True, self._now_ns())
+
+    def _switch_on(self, is_on: bool) -> None:
+        self._report(f"switched {'on' if is_on else 'off'}")
+        self._firmware.switch(is_on, self._now_ns())
+
+    def _charge(self, is_charging: bool) -> None:
+        self._firmware.charger = DOCK_CHARGING if is_charging else 0
+
+    def _send_garbage(self, is_sent: bool) -> None:
+        self._sends_garbage = is_sent
+
+    def _plug_in(self, is_in: bool) -> None:
+        if is_in and not self._line:
+            self._line = SerialLine(self._link)
+            linked = f" ({self._link})" if self._link else ""
+            self._report(f"plugged in at {self._line.path}{linked}")
+        elif self._line and not is_in:
+            self._line.unplug()
+            self._line = None
+            self._report("the cable is out")

@@ -1,0 +1,1 @@
+"""What a master sees of the Kobuki on a pseudo terminal."""
