@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from tutorial_check.checking.model import NOTE, OK, UNREACHED, WRONG, Outcome, Result
+from tutorial_check.checking.results import NOTE, OK, UNREACHED, WRONG, Outcome, Result
 from tutorial_check.course.definition import read_course
 from tutorial_check.report.class_page import Student, table_html
 from tutorial_testing.cockpit.accessibility import violations

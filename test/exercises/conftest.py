@@ -11,7 +11,7 @@ import stored
 from edits import literal  # noqa: F401
 
 from tutorial_check.checking.examination import examine
-from tutorial_check.recording.order import Order
+from tutorial_check.submission.order import Order
 
 HERE = Path(__file__).resolve().parent
 REPOSITORY = HERE.parents[1]

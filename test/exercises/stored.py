@@ -14,7 +14,7 @@ from pathlib import Path
 
 from tutorial_check.checking.launcher import HANDED_IN, judge, prepared
 from tutorial_check.course.definition import read_course
-from tutorial_check.recording.order import Order
+from tutorial_check.submission.order import Order
 
 FOLDER = Path(__file__).resolve().parent / "recordings"
 REPOSITORY = FOLDER.parents[2]

@@ -13,9 +13,9 @@ from test_awkward import PYTHONPATH, check, command
 from test_hostile import processes_like
 
 from tutorial_check.checking.launcher import prepared
-from tutorial_check.recording.order import Order
 from tutorial_check.recording.worker_process import Worker
 from tutorial_check.sandbox import bubblewrap
+from tutorial_check.submission.order import Order
 from tutorial_testing.processes import Program, command_line, descendants, lives
 from tutorial_testing.waiting import wait_for
 

@@ -7,8 +7,8 @@ import pytest
 from edits import LAUNCH_BAG, TALKER, J, built, put
 
 from tutorial_check.checking.examination import examine
-from tutorial_check.recording.order import Order
 from tutorial_check.sandbox import bubblewrap
+from tutorial_check.submission.order import Order
 
 pytestmark = pytest.mark.skipif(
     not bubblewrap.granted().options, reason="no isolation here: nothing is hidden"

@@ -10,9 +10,9 @@ import pytest
 from edits import JOY2TWIST, TALKER, put, write
 
 from tutorial_check.checking.examination import examine
-from tutorial_check.recording.order import Order
 from tutorial_check.report.text import lines_of
 from tutorial_check.sandbox import bubblewrap
+from tutorial_check.submission.order import Order
 from tutorial_testing.processes import command_line
 
 FIRST = "#!/usr/bin/env python3\nimport os\n"

@@ -10,9 +10,9 @@ import pytest
 from edits import write
 
 from tutorial_check.checking.examination import examine
-from tutorial_check.checking.model import CannotCheck
-from tutorial_check.recording.order import Order
+from tutorial_check.processes.errors import CannotCheck
 from tutorial_check.sandbox.privileges import MOST_CPU_S, MOST_MB
+from tutorial_check.submission.order import Order
 
 # Stands for bubblewrap and the worker in it: each build prints what is in a file beside it.
 WORKER = """#!/usr/bin/python3 -IS

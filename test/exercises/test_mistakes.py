@@ -10,8 +10,8 @@ from edits import apply
 
 from tutorial_check.checking.examination import examine
 from tutorial_check.course.definition import read_course
-from tutorial_check.recording.order import Order
 from tutorial_check.report.text import lines_of
+from tutorial_check.submission.order import Order
 
 OF_HANDOUT = mistakes_packages.ROWS + mistakes_nodes.ROWS + mistakes_launch.ROWS + grammar.WRONG
 ROWS = OF_HANDOUT + mistakes_world.ROWS

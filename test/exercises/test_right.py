@@ -9,10 +9,11 @@ import variants
 from edits import *
 from test_mistakes import is_reported
 
+from tutorial_check.checking.checks import checks_of
 from tutorial_check.checking.examination import examine
-from tutorial_check.course.definition import checks_of, read_course
-from tutorial_check.recording.order import Order
+from tutorial_check.course.definition import read_course
 from tutorial_check.report.text import lines_of
+from tutorial_check.submission.order import Order
 from tutorial_testing.processes import REPOSITORY
 
 CHECKS = checks_of(read_course())

@@ -4,9 +4,9 @@ import math
 from dataclasses import dataclass
 from typing import Tuple
 
-from tutorial_check.checking.model import Wrong
+from tutorial_check.checking.checks import check
 from tutorial_check.checking.programs import crash, program_of
-from tutorial_check.course.definition import check
+from tutorial_check.checking.results import Wrong
 from tutorial_check.processes.program import Ran
 from tutorial_check.recording.simulated_robot import Sample, SimulatedRobot, has_moved
 

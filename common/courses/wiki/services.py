@@ -3,10 +3,10 @@
 import re
 
 from courses.handout.package.checks import must_build
+from tutorial_check.checking.checks import check
 from tutorial_check.checking.files import File, recorded
-from tutorial_check.checking.model import Wrong
 from tutorial_check.checking.packages import package_of
-from tutorial_check.course.definition import check
+from tutorial_check.checking.results import Wrong
 from tutorial_check.recording.client import Client, Seen
 
 from .turtles import PACKAGE, START_S

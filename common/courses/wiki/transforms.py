@@ -2,10 +2,10 @@
 
 import math
 
+from tutorial_check.checking.checks import check
 from tutorial_check.checking.files import File, recorded
 from tutorial_check.checking.launches import Launch, launch_file
 from tutorial_check.checking.programs import program_of
-from tutorial_check.course.definition import check
 from tutorial_check.recording.client import Client, Seen
 
 from .turtles import KINDS, POSE, START_S, gap, turtles

@@ -3,11 +3,12 @@
 import math
 from contextlib import contextmanager
 
+from tutorial_check.checking.checks import check
 from tutorial_check.checking.files import recorded
 from tutorial_check.checking.launches import Launch, launch_file
-from tutorial_check.checking.model import CannotCheck, Wrong
 from tutorial_check.checking.packages import package_of
-from tutorial_check.course.definition import check
+from tutorial_check.checking.results import Wrong
+from tutorial_check.processes.errors import CannotCheck
 from tutorial_check.recording.client import Client, Seen
 from tutorial_check.submission.tracebacks import last_lines
 

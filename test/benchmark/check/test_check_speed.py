@@ -6,7 +6,7 @@ import time
 
 from tutorial_check.checking.examination import examine
 from tutorial_check.course.definition import read_course
-from tutorial_check.recording.order import Order
+from tutorial_check.submission.order import Order
 from tutorial_testing.processes import REPOSITORY
 
 ONE_S, ALL_S = 15.0, 90.0  # on two processors with nothing else to do

@@ -10,8 +10,13 @@ from edits import literal  # noqa: F401
 
 from courses.handout.task import JoystickTask
 from tutorial_check.recording.ground import Ground
-from tutorial_check.recording.order import Order
-from tutorial_check.submission.workspace import Layout
+from tutorial_check.submission.order import Order
+from tutorial_check.submission.packages import Layout
+
+MANIFEST = (
+    "<package><name>{}</name><version>0.0.0</version><description>x</description>"
+    "<maintainer email='s@u.example'>s</maintainer><license>x</license></package>"
+)
 
 
 @pytest.fixture
@@ -21,7 +26,7 @@ def make_session(tmp_path, order):
     def make(package, exercise):
         folder = tmp_path / "ws/src" / package
         folder.mkdir(parents=True)
-        (folder / "package.xml").write_text(f"<package><name>{package}</name></package>")
+        (folder / "package.xml").write_text(MANIFEST.format(package))
         runner = SimpleNamespace(environment={"PATH": ""})
         return Ground(replace(order, exercises=(exercise,)), JoystickTask({}), runner)
 

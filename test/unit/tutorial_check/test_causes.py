@@ -7,7 +7,7 @@ import sys
 import pytest
 
 from tutorial_check.checking.causes import TABLES, advice, explain, explained, is_lacking
-from tutorial_check.submission.launch_xml import package_hint
+from tutorial_check.checking.launch_errors import package_hint
 from tutorial_check.submission.python_facts import PythonFacts
 from tutorial_check.submission.tracebacks import first_traceback
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from tutorial_check.checking.model import NOTE, OK, UNREACHED, WRONG, Outcome, Result
+from tutorial_check.checking.results import NOTE, OK, UNREACHED, WRONG, Outcome, Result
 from tutorial_check.report import class_page
 from tutorial_check.report.class_page import POLICY, Student, table_csv, table_html
 

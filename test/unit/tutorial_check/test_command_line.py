@@ -5,9 +5,10 @@ from types import SimpleNamespace
 
 import pytest
 
-from tutorial_check.checking.model import OK, UNREACHED, WRONG, CannotCheck, Outcome, Result
+from tutorial_check.checking.results import OK, UNREACHED, WRONG, Outcome, Result
 from tutorial_check.commands import check as command_line
 from tutorial_check.commands.check import parse, stamps, watch
+from tutorial_check.processes.errors import CannotCheck
 from tutorial_check.report.formats import FORMATS
 
 UNDERLAY = ["--underlay", "setup.bash"]

@@ -4,14 +4,16 @@ from dataclasses import replace
 
 import pytest
 
-from tutorial_check.checking.model import UNREACHED, CannotCheck, Outcome, Result, Wrong
+from tutorial_check.checking.checks import checks_of
 from tutorial_check.checking.packages import package_of
+from tutorial_check.checking.results import UNREACHED, Outcome, Result, Wrong
 from tutorial_check.commands.self_test import complaint_of, patch
-from tutorial_check.course.definition import checks_of, read_course
+from tutorial_check.course.definition import read_course
+from tutorial_check.processes.errors import CannotCheck
 
 YAML = 'title: T\ndocument: sheet\nexercises: {"2": two, "1": {title: one, points: 3}}\n'
 CHECKS = """
-from tutorial_check.course.definition import check
+from tutorial_check.checking.checks import check
 from .other import WORD
 @check("S2", "b", "1.1", "S1")
 def b(session): return WORD

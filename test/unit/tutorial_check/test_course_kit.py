@@ -12,7 +12,8 @@ from roslaunch.loader import Loader
 
 from tutorial_check.checking.files import File
 from tutorial_check.checking.launches import Launch, launch_file
-from tutorial_check.checking.model import CannotCheck, CutShort, Wrong
+from tutorial_check.checking.results import Wrong
+from tutorial_check.processes.errors import CannotCheck, CutShort
 from tutorial_check.recording import client_node
 from tutorial_check.recording.client import Answer, Client, Seen, Transform
 from tutorial_check.recording.launch_facts import facts_of

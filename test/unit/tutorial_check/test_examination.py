@@ -7,9 +7,9 @@ import threading
 import pytest
 
 from tutorial_check.checking import examination, launcher
-from tutorial_check.checking.model import CannotCheck
+from tutorial_check.processes.errors import CannotCheck
 from tutorial_check.recording import worker_process
-from tutorial_check.recording.order import Order
+from tutorial_check.submission.order import Order
 from tutorial_testing.waiting import wait_for
 
 # In place of the launcher's examine(); Linux counts the time of a processor in whole seconds.

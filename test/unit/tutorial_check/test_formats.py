@@ -5,7 +5,7 @@ import xml.etree.ElementTree as ET
 
 import pytest
 
-from tutorial_check.checking.model import NOTE, OK, UNREACHED, WRONG, Outcome, Result
+from tutorial_check.checking.results import NOTE, OK, UNREACHED, WRONG, Outcome, Result
 from tutorial_check.report.formats import as_classroom, as_gradescope, as_json, as_junit
 from tutorial_check.report.text import summary
 

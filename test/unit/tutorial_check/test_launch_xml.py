@@ -5,7 +5,8 @@ from xml.parsers import expat
 
 import pytest
 
-from tutorial_check.submission.launch_xml import QUOTES, Fault, not_xml, parse_error
+from tutorial_check.checking.launch_errors import QUOTES, not_xml, parse_error
+from tutorial_check.submission.launch_xml import Fault
 
 ENCODING = 'Python cannot read the encoding of its first line: write encoding="utf-8"'
 NODE = '  <node pkg="rosbag" type="play" name="x" args="--loop a.bag"/>\n'

@@ -10,10 +10,11 @@ import pytest
 
 from tutorial_check.checking import launcher
 from tutorial_check.checking.ask_once import AskOnce
-from tutorial_check.checking.model import CannotCheck, Check
+from tutorial_check.checking.checks import Check
+from tutorial_check.processes.errors import CannotCheck
 from tutorial_check.recording import worker_process
-from tutorial_check.recording.order import Order
 from tutorial_check.sandbox import bubblewrap
+from tutorial_check.submission.order import Order
 
 READY = json.dumps({"ready": True})
 SEEN = json.dumps({"recording": {"number": 1}, "strained": False, "hopeless": False})

@@ -4,18 +4,10 @@ from dataclasses import replace
 
 import pytest
 
-from tutorial_check.checking.model import (
-    OK,
-    UNREACHED,
-    WRONG,
-    CannotCheck,
-    Check,
-    Note,
-    Outcome,
-    Run,
-    Wrong,
-)
-from tutorial_check.course.definition import checks_of, read_course
+from tutorial_check.checking.checks import Check, Run, checks_of
+from tutorial_check.checking.results import OK, UNREACHED, WRONG, Note, Outcome, Wrong
+from tutorial_check.course.definition import read_course
+from tutorial_check.processes.errors import CannotCheck
 
 NEEDS = {"A": ("1", ()), "B": ("1", ("A",)), "C": ("2", ("B",)), "D": ("2", ())}
 CHECKS = [Check(name, one, name, one, needs) for name, (one, needs) in NEEDS.items()]

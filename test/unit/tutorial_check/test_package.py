@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 import yaml
 
-from tutorial_check.checking.model import CannotCheck
 from tutorial_check.commands.package import package
 from tutorial_check.course.definition import read_course
+from tutorial_check.processes.errors import CannotCheck
 
 SQUARE = Path(__file__).resolve().parents[3] / "common/courses/square"
 

@@ -10,8 +10,9 @@ from typing import Tuple
 import pytest
 
 from tutorial_check.checking.launcher import Case, must_start_programs
-from tutorial_check.checking.model import CannotCheck, Wrong
+from tutorial_check.checking.results import Wrong
 from tutorial_check.course.tasks import Task
+from tutorial_check.processes.errors import CannotCheck
 
 
 def test_a_folder_in_which_nothing_can_be_started_is_named(order, monkeypatch):

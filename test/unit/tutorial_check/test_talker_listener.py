@@ -6,7 +6,7 @@ import pytest
 
 from courses.handout.talker_listener import checks as judge
 from courses.handout.talker_listener.record import PACKAGE, STRINGS, Talk
-from tutorial_check.checking.model import Wrong
+from tutorial_check.checking.results import Wrong
 from tutorial_check.processes.program import Ran
 
 LISTENER = """from std_msgs.msg import String

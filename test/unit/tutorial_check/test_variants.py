@@ -10,9 +10,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from courses.handout.task import JoystickTask
-from tutorial_check.checking.model import CannotCheck
 from tutorial_check.course.definition import read_course
 from tutorial_check.course.tasks import drawn, read_variant, sheet, variant_of
+from tutorial_check.processes.errors import CannotCheck
 
 COURSE = read_course()
 ALL = yaml.safe_load(

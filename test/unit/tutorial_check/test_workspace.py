@@ -7,17 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from tutorial_check.checking.model import CannotCheck
-from tutorial_check.submission import session, workspace
-from tutorial_check.submission.manifests import unreadable
-from tutorial_check.submission.workspace import (
-    Layout,
-    copy,
-    find_layout,
-    hand_in,
-    packages_below,
-    unpack,
-)
+from tutorial_check.checking.manifest_errors import unreadable
+from tutorial_check.processes.errors import CannotCheck
+from tutorial_check.submission import files, packages, workspace
+from tutorial_check.submission.packages import Layout, packages_below
+from tutorial_check.submission.workspace import copy, find_layout, hand_in, unpack
 
 XML = """<package format="2"><name>{}</name><version>0.0.0</version><description>x</description>
 <maintainer email="a@b.example">a</maintainer><license>x</license>
@@ -207,7 +201,7 @@ def test_a_launch_file_or_cmakelists_of_any_text_is_read_at_once(tmp_path, text)
     (tmp_path / "a.launch").write_text(text * 99_999)
     began_s = time.process_time()
     assert workspace.named_outside(tmp_path) == []
-    assert not session.NEEDS_BUILD.search(text * 99_999)
+    assert not files.NEEDS_BUILD.search(text * 99_999)
     assert time.process_time() - began_s < 60.0
 
 
@@ -216,7 +210,7 @@ def test_a_launch_file_or_cmakelists_of_any_text_is_read_at_once(tmp_path, text)
 )
 def test_folders_in_folders_without_end_are_one_line(tmp_path, reads):
     top = tmp_path / "handed_in"
-    top.joinpath(*["d"] * (workspace.MOST_DEPTH + 5)).mkdir(parents=True)
+    top.joinpath(*["d"] * (packages.MOST_DEPTH + 5)).mkdir(parents=True)
     with pytest.raises(CannotCheck, match="folders in folders") as caught:
         reads(top)
     assert str(caught.value).startswith(f"{top}:")

@@ -6,11 +6,12 @@ import re
 import statistics
 from dataclasses import replace
 
-from tutorial_check.checking.model import MASTER_GONE, CutShort, Note, Wrong
+from tutorial_check.checking.checks import check
 from tutorial_check.checking.programs import check_end, check_file, find_script, odd_node
+from tutorial_check.checking.results import Note, Wrong, wrong_of
 from tutorial_check.checking.rows import Row, demand, find
-from tutorial_check.course.definition import check
-from tutorial_check.submission.session import Session
+from tutorial_check.processes.errors import MASTER_GONE, CutShort
+from tutorial_check.submission.files import Session
 
 from ..driving.probes import ROUNDED, SILENCES
 from ..driving.record import COUNT, drive, found, loaded
@@ -36,7 +37,8 @@ CRASHED = Row(lambda c: c.seen.trouble, lambda c: c.crash())
 HIDDEN = Row(lambda c: c.hidden_crash, lambda c: c.hidden_crash)
 ENDED = Row(lambda c: c.seen.ended_early, lambda c: c.end())
 CONNECTED = (
-    Row(lambda c: not c.seen.master_alive, lambda c: CutShort(MASTER_GONE).as_wrong(c.seen.script)),
+    Row(lambda c: not c.seen.master_alive,
+        lambda c: wrong_of(CutShort(MASTER_GONE), c.seen.script)),
     Row(lambda c: not c.seen.connected and c.a.joy in c.seen.subscribers,
         "it wants {f.wanted} on {f.n.joy}", "{f.line[Joy]}", "{f.at[Subscriber]}"),
     Row(lambda c: not (c.seen.samples or c.seen.shown) and c.facts.without_callback,

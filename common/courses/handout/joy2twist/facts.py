@@ -9,11 +9,11 @@ import re
 from typing import Sequence
 
 from tutorial_check.checking.causes import with_import
-from tutorial_check.checking.model import Wrong
 from tutorial_check.checking.programs import check_file, crash, ended
+from tutorial_check.checking.results import Wrong
+from tutorial_check.submission.files import Session
 from tutorial_check.submission.python_facts import shows
 from tutorial_check.submission.python_text import unmasked
-from tutorial_check.submission.session import Session
 from tutorial_check.submission.tracebacks import first_traceback
 
 from ..driving import probes

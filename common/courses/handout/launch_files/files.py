@@ -9,16 +9,18 @@ import shlex
 from pathlib import Path
 from typing import Any
 
+from tutorial_check.checking import launch_errors
 from tutorial_check.checking.causes import meant
-from tutorial_check.checking.model import Note, Wrong
+from tutorial_check.checking.checks import check
+from tutorial_check.checking.manifest_errors import must_be_launchable
 from tutorial_check.checking.programs import find_script
-from tutorial_check.course.definition import check
+from tutorial_check.checking.results import Note, Wrong
+from tutorial_check.checking.texts import Lines, read, text_of_file
 from tutorial_check.recording.launch_facts import Node
 from tutorial_check.submission import launch_xml
-from tutorial_check.submission.launch_xml import Lines, line_of, place_of, read
+from tutorial_check.submission.files import Session
+from tutorial_check.submission.launch_xml import line_of, place_of
 from tutorial_check.submission.manifests import is_stand_in
-from tutorial_check.submission.session import Session
-from tutorial_check.submission.student_files import text_of_file
 
 from ..joy2twist.checks import NAME
 from ..task import PACKAGE
@@ -121,7 +123,7 @@ def find_launch(session: Session, name: str) -> Path:
 
 def _read(session: Session) -> dict[str, dict[str, Any]]:
     """Return {name: facts} of those of the four that are there."""
-    session.must_be_launchable()
+    must_be_launchable(session)
     folder = session.package(PACKAGE).folder
     files = (path for name in ALL for path in sorted(folder.rglob(name))[::-1] if path.is_file())
     paths = {path.name: os.path.relpath(path, session.source) for path in files}  # the first ones
@@ -169,11 +171,11 @@ def _check_text(file: LaunchFile) -> None:
 def _fault(file: LaunchFile, fault: launch_xml.Fault) -> Wrong:
     """Return the Wrong for what roslaunch cannot read, in this file or in an included one."""
     session = file.session
-    path, line = launch_xml.blamed(fault, session.is_own)
+    path, line = launch_errors.blamed(fault, session.is_own)
     text = text_of_file(Path(path))
-    wrong = launch_xml.parse_error(fault, shown(session, path), line, text, session.may_see)
+    wrong = launch_errors.parse_error(fault, shown(session, path), line, text, session.may_see)
     inner, number = fault.places[-1]
-    if not session.is_own(inner) and fault.kind != launch_xml.UNSET:
+    if not session.is_own(inner) and fault.kind != launch_errors.UNSET:
         wrong.seen += f" (in {inner}:{number})"
     hiding = (each for each in session.packages if each.folder in Path(path).parents)
     for name in (each.name for each in hiding if is_stand_in(each.name)):
@@ -212,7 +214,7 @@ def _check_node(file: LaunchFile, node: Node) -> None:
     session, seen = file.session, f"Cannot locate node of type [{kind}]"
     if package != file.package:
         hint = "look at pkg= and type=: rosrun PACKAGE and Tab twice lists its programs"
-        hint = launch_xml.package_hint(package) if node["found"] is None else hint
+        hint = launch_errors.package_hint(package) if node["found"] is None else hint
         if difflib.get_close_matches(kind, ["joy_node"], 1, 0.8):
             hint = JOY_HINT
         raise Wrong("nodes that exist", f"{seen} in package [{package}]", place, hint)

@@ -5,12 +5,13 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from tutorial_check.checking.model import Note, Wrong
+from tutorial_check.checking.checks import check
+from tutorial_check.checking.manifest_errors import must_be_launchable
 from tutorial_check.checking.programs import cause_of, check_file, crash, must_be_one
-from tutorial_check.course.definition import check
+from tutorial_check.checking.results import Note, Wrong
+from tutorial_check.submission.files import Session
 from tutorial_check.submission.python_facts import ClassFacts, PythonFacts, with_bases
 from tutorial_check.submission.python_text import without_name
-from tutorial_check.submission.session import Session
 from tutorial_check.submission.tracebacks import first_traceback, last_lines
 
 from ..joy2twist import checks as judge
@@ -134,7 +135,7 @@ def behaves(session: Session) -> Note | str | None:
 
 
 def _endings(session: Session) -> Endings:
-    session.must_be_launchable()
+    must_be_launchable(session)
     found = session.recording(endings, program(session)[0])
     if found.program:
         how = "by a launch file" if found.failed == LAUNCH else "under another name"

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Dict, Optional
 
-from tutorial_check.checking.model import CannotCheck
+from tutorial_check.processes.errors import CannotCheck
 from tutorial_check.processes.program import Program, Ran
 from tutorial_check.recording.data import Heard
 from tutorial_check.recording.ground import Ground

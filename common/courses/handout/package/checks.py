@@ -10,15 +10,17 @@ from typing import Sequence
 
 from tutorial_check.checking.build_errors import build_error, missing_in, not_found
 from tutorial_check.checking.causes import is_lacking, packages_of_ros
-from tutorial_check.checking.model import Note, Wrong
-from tutorial_check.course.definition import check
+from tutorial_check.checking.checks import check
+from tutorial_check.checking.manifest_errors import must_be_one, unreadable
+from tutorial_check.checking.results import Note, Wrong
+from tutorial_check.checking.texts import read
 from tutorial_check.recording.build import built
 from tutorial_check.recording.builder import Built
 from tutorial_check.recording.own_build import own_built
-from tutorial_check.submission.launch_xml import place_of, read
-from tutorial_check.submission.manifests import is_stand_in, must_be_one, unreadable
-from tutorial_check.submission.session import Session
-from tutorial_check.submission.workspace import Package, packages_beside, underlays
+from tutorial_check.submission.files import Session
+from tutorial_check.submission.launch_xml import place_of
+from tutorial_check.submission.manifests import is_stand_in
+from tutorial_check.submission.packages import Package, packages_beside, underlays
 
 from .wanted import WANTED
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 from dataclasses import replace
 
-from tutorial_check.checking.model import Wrong
-from tutorial_check.course.definition import check
-from tutorial_check.submission.session import Session
+from tutorial_check.checking.checks import check
+from tutorial_check.checking.results import Wrong
+from tutorial_check.submission.files import Session
 from tutorial_check.submission.tracebacks import last_lines
 
 from ..driving.record import CMD_VEL, JOY

@@ -6,7 +6,7 @@ import re
 from dataclasses import dataclass
 from typing import Tuple
 
-from tutorial_check.checking.model import CannotCheck
+from tutorial_check.processes.errors import CannotCheck
 from tutorial_check.recording.data import Topics
 from tutorial_check.recording.ground import Ground
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import shlex
 
-from tutorial_check.checking.model import Note, Wrong
+from tutorial_check.checking.checks import check
 from tutorial_check.checking.programs import crash
-from tutorial_check.course.definition import check
-from tutorial_check.submission.session import Session
+from tutorial_check.checking.results import Note, Wrong
+from tutorial_check.submission.files import Session
 
 from ..driving.evidence import ANGULAR, LINEAR
 from ..joy2twist.checks import main_script

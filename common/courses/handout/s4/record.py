@@ -8,12 +8,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Optional, Tuple
 
-from tutorial_check.checking.model import CannotCheck
+from tutorial_check.processes.errors import CannotCheck
 from tutorial_check.processes.program import Program, Ran
 from tutorial_check.recording.ground import Ground
 from tutorial_check.recording.ros_session import START_S, Stage
 from tutorial_check.recording.simulated_robot import ODOM, SimulatedRobot
-from tutorial_check.submission.session import Session
+from tutorial_check.submission.files import Session
 
 from ..driving.evidence import ANGULAR, LINEAR
 from ..driving.record import CMD_VEL, JOY, NEUTRAL

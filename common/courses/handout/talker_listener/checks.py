@@ -6,7 +6,7 @@ import statistics
 from typing import Iterable, Mapping
 
 from tutorial_check.checking.causes import with_import
-from tutorial_check.checking.model import MASTER_GONE, CutShort, Note, Wrong
+from tutorial_check.checking.checks import check
 from tutorial_check.checking.programs import (
     check_end,
     check_file,
@@ -15,10 +15,11 @@ from tutorial_check.checking.programs import (
     find_script,
     odd_node,
 )
-from tutorial_check.course.definition import check
+from tutorial_check.checking.results import Note, Wrong, wrong_of
+from tutorial_check.processes.errors import MASTER_GONE, CutShort
+from tutorial_check.submission.files import Session
 from tutorial_check.submission.python_facts import PythonFacts
 from tutorial_check.submission.python_text import flipped_anonymous
-from tutorial_check.submission.session import Session
 
 from . import record
 from .record import KIND, PACKAGE, STRINGS, TOPIC, Pair, Talk
@@ -43,7 +44,7 @@ def scripts(session: Session) -> list[str]:
 def _talk(session: Session) -> Talk:
     seen = session.recording(record.talk, *scripts(session))
     if not seen.master_alive:
-        raise CutShort(MASTER_GONE).as_wrong()
+        raise wrong_of(CutShort(MASTER_GONE))
     return seen
 
 

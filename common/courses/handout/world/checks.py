@@ -6,12 +6,12 @@ import math
 import re
 from typing import Sequence
 
-from tutorial_check.checking.model import Wrong
+from tutorial_check.checking.checks import check
 from tutorial_check.checking.programs import crash, program_of
-from tutorial_check.course.definition import check
+from tutorial_check.checking.results import Wrong
 from tutorial_check.recording.data import Topics
 from tutorial_check.recording.simulated_robot import BUMPER, Sample, has_moved
-from tutorial_check.submission.session import Session
+from tutorial_check.submission.files import Session
 
 from ..driving.record import CMD_VEL
 from ..talker_listener.record import PACKAGE

@@ -8,7 +8,7 @@ from concurrent.futures import CancelledError, Future
 from pathlib import Path
 from typing import Callable, Dict
 
-from tutorial_check.recording.order import Line
+from tutorial_check.submission.order import Line
 
 Ask = Callable[[Line], Line]  # the worker: question -> answer
 Answers = Dict[str, "Future[str]"]  # by question: JSON, with HANDED_IN

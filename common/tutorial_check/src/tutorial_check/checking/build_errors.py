@@ -8,10 +8,10 @@ from pathlib import Path
 from courses.handout.package.wanted import WANTED
 from node_kit.printable import printable
 from tutorial_check.checking.causes import advice, explained, is_lacking, meant, packages_of_ros
-from tutorial_check.checking.model import Wrong
+from tutorial_check.checking.results import Wrong
+from tutorial_check.submission.files import Session
 from tutorial_check.submission.launch_xml import place_of
-from tutorial_check.submission.session import Session
-from tutorial_check.submission.workspace import Package
+from tutorial_check.submission.packages import Package
 
 EXPECTED = "catkin_make without an error"
 NOTABLE = re.compile(r"Error at|^E: |mismatched tag|error:|Could not find|Multiple packages")

@@ -21,11 +21,12 @@ from pathlib import Path
 from typing import Any
 
 from tutorial_check.checking import launcher
-from tutorial_check.checking.model import CannotCheck, Outcome, fault
+from tutorial_check.checking.results import Outcome
 from tutorial_check.course.definition import SOLUTIONS
-from tutorial_check.recording.order import Order
+from tutorial_check.processes.errors import CannotCheck, fault
 from tutorial_check.recording.worker_process import END_S, no_more
 from tutorial_check.sandbox import privileges
+from tutorial_check.submission.order import Order
 
 NOT_COMPILED = re.compile(SOLUTIONS)  # folder of a course
 PERIOD_S = 0.2  # How often to look at no_more.

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Callable, TypeVar
 
-from tutorial_check.checking.model import Wrong
 from tutorial_check.checking.packages import package_of
 from tutorial_check.checking.programs import crash, program_of
+from tutorial_check.checking.results import Wrong
+from tutorial_check.checking.texts import Lines
 from tutorial_check.processes.program import Ran
-from tutorial_check.submission.launch_xml import Lines
-from tutorial_check.submission.session import Session
+from tutorial_check.submission.files import Session
 
 Recording = TypeVar("Recording")
 

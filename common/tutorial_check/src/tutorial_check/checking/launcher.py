@@ -17,25 +17,19 @@ from typing import Any, Callable, Iterator, cast
 
 from node_kit.printable import quotable
 from tutorial_check.checking.ask_once import HANDED_IN, Answers, Ask, AskOnce
-from tutorial_check.checking.model import (
-    UNREADABLE,
-    CannotCheck,
-    CutShort,
-    Outcome,
-    Result,
-    Run,
-    Wrong,
-)
-from tutorial_check.course.definition import SUITE, Course, checks_of, copy_sources, read_course
+from tutorial_check.checking.checks import Run, checks_of
+from tutorial_check.checking.manifest_errors import unreadable
+from tutorial_check.checking.results import Outcome, Result, Wrong, wrong_of
+from tutorial_check.course.definition import SUITE, Course, copy_sources, read_course
 from tutorial_check.course.tasks import Task, task_of
+from tutorial_check.processes.errors import UNREADABLE, CannotCheck, CutShort
 from tutorial_check.recording.data import as_json, from_json, must_be_whole, recorded_by
-from tutorial_check.recording.order import Line, Order
 from tutorial_check.recording.worker_process import Ended, Worker, no_more
 from tutorial_check.sandbox import bubblewrap, privileges
 from tutorial_check.sandbox.environment import environment_of
 from tutorial_check.submission import workspace as workspaces
-from tutorial_check.submission.manifests import unreadable
-from tutorial_check.submission.session import Recorded, Recorder, Session
+from tutorial_check.submission.files import Recorded, Recorder, Session
+from tutorial_check.submission.order import Line, Order
 
 # Of a shell of the suite: roscore.xml, for a faster roslaunch; what CMake 4 needs for catkin.
 OF_SUITE = ("ROS_ETC_DIR", "CMAKE_POLICY_VERSION_MINIMUM")
@@ -81,7 +75,7 @@ class Case(Session):
             end = CutShort(**answer["cut_short"])
             if end.kind == UNREADABLE and self.broken:
                 return unreadable(self.broken)
-            return end.as_wrong()
+            return wrong_of(end)
         return from_json(kind, answer["recording"])
 
     def second_look(self, explained: bool) -> bool:

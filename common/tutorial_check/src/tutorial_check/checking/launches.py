@@ -9,14 +9,16 @@ from pathlib import Path
 from typing import Sequence, Tuple
 
 from courses.handout.launch_files.record import facts_of_files
+from tutorial_check.checking import launch_errors
 from tutorial_check.checking.files import File
-from tutorial_check.checking.model import Wrong
+from tutorial_check.checking.manifest_errors import must_be_launchable
 from tutorial_check.checking.packages import package_of
+from tutorial_check.checking.results import Wrong
+from tutorial_check.checking.texts import text_of_file
 from tutorial_check.recording.launch_facts import Node
 from tutorial_check.recording.ros_session import Stage
 from tutorial_check.submission import launch_xml
-from tutorial_check.submission.session import Session
-from tutorial_check.submission.student_files import text_of_file
+from tutorial_check.submission.files import Session
 
 DIED = re.compile(r"^\[([^\]]+)-\d+\] process has died", re.MULTILINE)
 
@@ -34,7 +36,7 @@ class LaunchFile(File):
 def launch_file(session: Session, package: str, name: str) -> LaunchFile:
     """Return a launch file, whose nodes all exist. Raises Wrong."""
     folder = package_of(session, package).folder
-    session.must_be_launchable()
+    must_be_launchable(session)
     paths = {path.name: path for path in sorted(folder.rglob("*launch*"))[::-1] if path.is_file()}
     if name not in paths:
         seen, hint = "no such file in the package", f"write it: launch/{name}"
@@ -47,14 +49,14 @@ def launch_file(session: Session, package: str, name: str) -> LaunchFile:
         raise Wrong("a launch file that roslaunch can read", "reading it does not end", hint=hint)
     if facts[0]["fault"]:
         fault = launch_xml.Fault(**facts[0]["fault"])
-        path, line = launch_xml.blamed(fault, session.is_own)
+        path, line = launch_errors.blamed(fault, session.is_own)
         text, where = text_of_file(Path(path)), os.path.relpath(path, folder)
-        raise launch_xml.parse_error(fault, where, line, text, session.may_see)
+        raise launch_errors.parse_error(fault, where, line, text, session.may_see)
     file = LaunchFile(session, package, paths[name], facts[0]["nodes"])
     for node in file.nodes:
         seen = f"Cannot locate node of type [{node['type']}] in package [{node['package']}]"
         hint = "look at pkg= and type=: the name of the program's file, which is executable"
-        hint = launch_xml.package_hint(node["package"]) if node["found"] is None else hint
+        hint = launch_errors.package_hint(node["package"]) if node["found"] is None else hint
         words = f'"{node["type"]}" {node["type"]}'
         file.must(node["found"], words, "nodes that exist", seen, hint)
     return file

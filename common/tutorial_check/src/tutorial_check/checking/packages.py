@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from tutorial_check.checking.model import Wrong
+from tutorial_check.checking.results import Wrong
 from tutorial_check.course.definition import read_course
-from tutorial_check.submission.session import Session
-from tutorial_check.submission.workspace import Package
+from tutorial_check.submission.files import Session
+from tutorial_check.submission.packages import Package
 
 
 def package_of(session: Session, name: str) -> Package:

@@ -9,14 +9,14 @@ from pathlib import Path
 from typing import Iterator
 
 from tutorial_check.checking.causes import explain, hider, traced
-from tutorial_check.checking.model import Note, Wrong
 from tutorial_check.checking.packages import package_of
+from tutorial_check.checking.results import Note, Wrong
 from tutorial_check.processes.program import Ran
 from tutorial_check.recording.build import built, installed
 from tutorial_check.submission import student_files
+from tutorial_check.submission.files import Session
 from tutorial_check.submission.python_facts import PythonFacts
 from tutorial_check.submission.python_text import unreadable
-from tutorial_check.submission.session import Session
 from tutorial_check.submission.tracebacks import Traceback, first_traceback, last_lines
 
 COPY = re.compile(r"checked_\d+_")  # a program with one thing changed; see Session.sibling

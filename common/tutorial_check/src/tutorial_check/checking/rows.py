@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Callable, Iterable
 
-from tutorial_check.checking.model import Note, Wrong
+from tutorial_check.checking.results import Note, Wrong
 
 
 @dataclass(frozen=True)

@@ -24,12 +24,14 @@ from urllib.parse import urlsplit
 
 from node_kit.arguments import Parser
 from tutorial_check.checking.examination import examine
-from tutorial_check.checking.model import CannotCheck, Outcome
+from tutorial_check.checking.results import Outcome
 from tutorial_check.course.definition import read_course
-from tutorial_check.recording.order import Order
+from tutorial_check.processes.errors import CannotCheck
 from tutorial_check.report.memory import digest_of_checks
 from tutorial_check.sandbox import bubblewrap, landlock, privileges
-from tutorial_check.submission.workspace import IGNORED, MOST_BYTES
+from tutorial_check.submission.order import Order
+from tutorial_check.submission.packages import IGNORED
+from tutorial_check.submission.workspace import MOST_BYTES
 
 MOST_AT_ONCE = 1000  # submissions that the scheduler knows of
 TRIES = 2  # a submission that ends so many workers is abandoned

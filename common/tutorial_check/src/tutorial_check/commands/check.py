@@ -15,16 +15,17 @@ from typing import NoReturn, Sequence
 
 from node_kit.arguments import Parser
 from tutorial_check.checking.examination import examine
-from tutorial_check.checking.model import CannotCheck, Outcome, fault
+from tutorial_check.checking.results import Outcome
 from tutorial_check.commands.package import package
 from tutorial_check.commands.self_test import self_test
 from tutorial_check.course.definition import HANDOUT, read_course
 from tutorial_check.course.tasks import sheet, variant_of
-from tutorial_check.recording.order import Order
+from tutorial_check.processes.errors import CannotCheck, fault
 from tutorial_check.report.formats import FORMATS, clear, keep, without_hints, write
 from tutorial_check.report.memory import AGAIN, ALWAYS, Memory, show_solution
 from tutorial_check.report.text import Terminal, summary
 from tutorial_check.sandbox import bubblewrap
+from tutorial_check.submission.order import Order
 from tutorial_check.submission.workspace import all_below
 
 PERIOD_S = 0.5  # between two looks; editors save in several steps, so two must be the same

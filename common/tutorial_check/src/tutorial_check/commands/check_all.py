@@ -13,15 +13,15 @@ from pathlib import Path
 
 from node_kit.printable import printable
 from tutorial_check.checking.examination import examine
-from tutorial_check.checking.model import CannotCheck, fault
 from tutorial_check.cluster.dask_cluster import MOST_AT_ONCE, Cluster, Gone
 from tutorial_check.course.tasks import variant_of
-from tutorial_check.recording.order import Order
+from tutorial_check.processes.errors import CannotCheck, fault
 from tutorial_check.recording.worker_process import no_more
 from tutorial_check.report.class_page import Student, table_csv, table_html
 from tutorial_check.report.formats import as_json, clear, keep, without_hints, write
 from tutorial_check.report.memory import LastRun, digest_of, digest_of_checks
 from tutorial_check.report.text import summary, text_of
+from tutorial_check.submission.order import Order
 
 ARCHIVES = (".zip", ".tar", ".tgz", ".gz", ".bz2", ".xz", ".7z", ".rar")
 TABLES = ("table.csv", "table.html")

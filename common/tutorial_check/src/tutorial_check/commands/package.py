@@ -10,8 +10,8 @@ import zipfile
 from pathlib import Path
 from typing import Sequence
 
-from tutorial_check.checking.model import CannotCheck
 from tutorial_check.course.definition import HANDOUT, SUITE, Course
+from tutorial_check.processes.errors import CannotCheck
 
 GRADESCOPE, GITHUB = "gradescope", "github"
 FILES = {GRADESCOPE: "autograder.zip", GITHUB: "check.yml"}

@@ -8,11 +8,13 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Iterator
 
+from tutorial_check.checking.checks import checks_of
 from tutorial_check.checking.examination import examine
-from tutorial_check.checking.model import UNREACHED, WRONG, CannotCheck, Outcome
-from tutorial_check.course.definition import SOLUTIONS, Course, checks_of
-from tutorial_check.recording.order import Order
+from tutorial_check.checking.results import UNREACHED, WRONG, Outcome
+from tutorial_check.course.definition import SOLUTIONS, Course
+from tutorial_check.processes.errors import CannotCheck
 from tutorial_check.sandbox.environment import copy_tree
+from tutorial_check.submission.order import Order
 
 RIGHT, WRONG_OF, PATCH = "right", "wrong_", ".patch"
 GONE = "/dev/null"

@@ -1,4 +1,4 @@
-"""A course: a folder with course.yaml and Python files, whose functions @check makes checks."""
+"""A course: a folder with course.yaml and Python files of recorders and checks."""
 
 from __future__ import annotations
 
@@ -8,16 +8,15 @@ import pkgutil
 import re
 import shutil
 import sys
-import threading
 import traceback
 import types
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, fields
 from pathlib import Path
-from typing import Any, Callable, TypeVar
+from typing import Any
 
 import yaml
 
-from tutorial_check.checking.model import CannotCheck, Check
+from tutorial_check.processes.errors import CannotCheck
 
 FILE = "course.yaml"
 SOLUTIONS = "solutions"  # folder of a course; what is in it is for the self-test
@@ -31,10 +30,6 @@ COURSES = "courses"
 KINDS: dict[str, tuple[type, ...]] = {
     "str": (str,), "bool": (bool,), "float": (int, float), "tuple": (list,), "dict": (dict,)
 }  # fmt: skip
-
-_Function = TypeVar("_Function", bound=Callable[..., Any])
-_checks: list[Check] = []  # all loaded courses
-_loading = threading.Lock()
 
 
 @dataclass(frozen=True)
@@ -88,26 +83,6 @@ class Course:
         inner = [each for each in self.exercises if each.startswith(section)]
         whole = [each for each in self.exercises if section.startswith(f"{each}.")]
         return inner or whole or [word]
-
-
-def check(
-    name: str,
-    title: str,
-    section: str,
-    needs: str = "",
-    *,
-    look: str = "",
-    timeless: bool = False,
-    eager: bool = False,
-) -> Callable[[_Function], _Function]:
-    """Make a function of a session a check: one line of the report. See model.Check."""
-    one = Check(name, "", title, section, tuple(needs.split()), look, timeless, eager)
-
-    def keep(function: _Function) -> _Function:
-        _checks.append(replace(one, function=function))
-        return function
-
-    return keep
 
 
 def package_of(course: Course) -> str:
@@ -188,38 +163,15 @@ def _known(kind: type, given: Any) -> dict[str, Any]:
     return given
 
 
-def checks_of(course: Course) -> list[Check]:
-    """Load the files of a course, once; return their checks, in its order. Raises CannotCheck."""
-    with _loading:  # several threads may ask
-        return _load(course)
-
-
-@functools.lru_cache(maxsize=8)
-def _load(course: Course) -> list[Check]:
+def load(course: Course) -> set[str]:
+    """Import all modules of a course; return their names. Raises CannotCheck."""
     package = package_of(course)
     _make_package(package, course.folder)
     try:
         found = pkgutil.walk_packages([str(course.folder)], f"{package}.")
-        names = {importlib.import_module(one.name).__name__ for one in found}
+        return {importlib.import_module(one.name).__name__ for one in found}
     except Exception as error:
         raise CannotCheck(f"{_place(error, course.folder)}: {error}") from None
-    order = list(course.exercises)
-    checks: dict[str, Check] = {}
-    for one in (each for each in _checks if each.function.__module__ in names):
-        inside = [each for each in order if f"{one.section}.".startswith(f"{each}.")]
-        if not inside:
-            raise CannotCheck(f"{one.id}: section {one.section} is of no exercise of {FILE}")
-        if one.id in checks:
-            raise CannotCheck(f"two checks are {one.id}; each needs a name of its own")
-        exercise = max(inside, key=len)
-        document = f"{course.exercises[exercise].document} {one.section}"
-        checks[one.id] = replace(one, exercise=exercise, section=document)
-    for one in checks.values():
-        lost = set(one.needs) - checks.keys()
-        if lost:
-            raise CannotCheck(f"{one.id} needs {', '.join(sorted(lost))}, which is no check")
-    numbers = {name: int(re.sub(r"\D", "", name) or 0) for name in checks}  # 12 of C12
-    return sorted(checks.values(), key=lambda one: (order.index(one.exercise), numbers[one.id]))
 
 
 def _make_package(package: str, folder: Path) -> None:
@@ -228,8 +180,6 @@ def _make_package(package: str, folder: Path) -> None:
         return
     for name in [each for each in sys.modules if f"{each}.".startswith(f"{package}.")]:
         del sys.modules[name]
-    inside = f"{package}."
-    _checks[:] = [one for one in _checks if not one.function.__module__.startswith(inside)]
     for name, path in ((COURSES, SHIPPED), (package, folder)):
         if name not in sys.modules:
             sys.modules[name] = types.ModuleType(name)

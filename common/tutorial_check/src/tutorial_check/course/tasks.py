@@ -7,14 +7,14 @@ import hashlib
 import re
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, Mapping
+from typing import Any, Dict, Mapping
 
 import yaml
 
-from tutorial_check.checking.model import CannotCheck
 from tutorial_check.course.definition import Course, Value, package_of, read_yaml
-from tutorial_check.recording.order import Variant
+from tutorial_check.processes.errors import CannotCheck
 
+Variant = Dict[str, Any]  # {name of a value: what it is}; what is not named is as the course has it
 SHEET = (
     "# {title}: the task of {name}\n\n{tasks}\n\n"
     "To check it yourself keep this as variant.yaml:\n\n{file}"

@@ -16,8 +16,8 @@ import time
 from subprocess import DEVNULL, PIPE, STDOUT
 from typing import Callable, Iterable, Iterator, Mapping, Sequence, TypeVar
 
-from tutorial_check.checking.model import MULTIPLIES, CutShort
 from tutorial_check.processes.cpu_clock import CpuClock, fields_of
+from tutorial_check.processes.errors import MULTIPLIES, CutShort
 from tutorial_check.processes.program import Program
 from tutorial_check.sandbox import landlock, privileges
 

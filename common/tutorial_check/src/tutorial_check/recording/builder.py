@@ -7,15 +7,15 @@ from functools import cached_property
 from pathlib import Path
 from typing import Optional
 
-from tutorial_check.checking.model import CannotCheck
 from tutorial_check.course.tasks import Task
+from tutorial_check.processes.errors import CannotCheck
 from tutorial_check.processes.program import Program
 from tutorial_check.processes.runner import Runner
-from tutorial_check.recording.order import Order
 from tutorial_check.sandbox.environment import environment_of
 from tutorial_check.submission import student_files
+from tutorial_check.submission.files import Session
 from tutorial_check.submission.manifests import is_stand_in
-from tutorial_check.submission.session import Session
+from tutorial_check.submission.order import Order
 
 SLOW_S = 120  # [s] for what needs a second, when the machine is very busy
 

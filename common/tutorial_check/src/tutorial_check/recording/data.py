@@ -24,7 +24,7 @@ from typing import (
     get_type_hints,
 )
 
-from tutorial_check.checking.model import CannotCheck
+from tutorial_check.processes.errors import CannotCheck
 
 VERSION = 1  # raised by each change that an older judge could not read
 Recording = TypeVar("Recording")

@@ -8,7 +8,7 @@ import uuid
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Callable, Sequence, cast
 
-from tutorial_check.checking.model import CANNOT_START, CannotCheck, CutShort
+from tutorial_check.processes.errors import CANNOT_START, CannotCheck, CutShort
 from tutorial_check.processes.helper_process import Helper, MasterProcess, Remote, Served
 from tutorial_check.processes.program import Program
 from tutorial_check.processes.runner import Value

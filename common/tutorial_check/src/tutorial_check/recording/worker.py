@@ -3,7 +3,7 @@
 Standard output is a socket, which, unlike a pipe, is opened by no path in /proc. Its first line is
 the order, and answered by {"ready": true}. Each other one asks for a recording,
 {"recorder": "MODULE:NAME", "arguments": [...]}, and is answered by a line: {"recording": {...}},
-{"cut_short": {"kind", "seen"}} (see model.CutShort), or {"cannot": "why"}; each also says whether
+{"cut_short": {"kind", "seen"}} (see errors.CutShort), or {"cannot": "why"}; each also says whether
 the machine kept the programs waiting, and has the version of recordings.
 """
 
@@ -20,15 +20,15 @@ import traceback
 from pathlib import Path
 from typing import Iterable, Iterator
 
-from tutorial_check.checking.model import CannotCheck, CutShort, fault
-from tutorial_check.course.definition import checks_of, read_course
+from tutorial_check.course.definition import load, read_course
 from tutorial_check.course.tasks import task_of
+from tutorial_check.processes.errors import CannotCheck, CutShort, fault
 from tutorial_check.processes.runner import Runner
 from tutorial_check.recording.data import VERSION, arguments_of, as_json, from_json
 from tutorial_check.recording.ground import Ground
-from tutorial_check.recording.order import Line, Order
 from tutorial_check.sandbox import bubblewrap, environment, landlock, privileges
 from tutorial_check.submission import workspace
+from tutorial_check.submission.order import Line, Order
 
 
 def main() -> None:
@@ -98,7 +98,7 @@ def _prepared(order: Order, reader: int) -> Ground:
     own = [scratch / name for name in environment.OWN]
     ruleset = landlock.ruleset(shown, own) if landlock.version() and not order.apart else None
     course = read_course(order.course)
-    checks_of(course)  # its recorders
+    load(course)  # its recorders
     runner = Runner(variables, order.apart, reader, ruleset)
     return Ground(order, task_of(course)(order.variant), runner)
 

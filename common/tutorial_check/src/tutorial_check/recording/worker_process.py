@@ -15,10 +15,10 @@ import time
 from pathlib import Path
 from typing import cast
 
-from tutorial_check.checking.model import CannotCheck
+from tutorial_check.processes.errors import CannotCheck
 from tutorial_check.recording.data import as_json
-from tutorial_check.recording.order import Line, Order
 from tutorial_check.sandbox import bubblewrap, privileges
+from tutorial_check.submission.order import Line, Order
 from tutorial_check.submission.workspace import COPY
 
 # All exercises take 90 s on two quiet processors. Ten times that is enough: if programs have less

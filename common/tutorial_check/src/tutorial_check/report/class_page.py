@@ -13,7 +13,7 @@ from string import Template
 from typing import Any, Iterable, Iterator, Mapping, Sequence
 from urllib.parse import quote
 
-from tutorial_check.checking.model import NOTE, UNREACHED, Outcome, Result
+from tutorial_check.checking.results import NOTE, UNREACHED, Outcome, Result
 from tutorial_check.report.text import lines_of
 
 # Where a spreadsheet may see the start of a cell, with any separator, followed by a formula.

@@ -11,7 +11,8 @@ from pathlib import Path
 from typing import Any, Callable, Mapping, Sequence
 
 from node_kit.printable import printable
-from tutorial_check.checking.model import NOTE, OK, UNREACHED, WRONG, CannotCheck, Outcome
+from tutorial_check.checking.results import NOTE, OK, UNREACHED, WRONG, Outcome
+from tutorial_check.processes.errors import CannotCheck
 from tutorial_check.report.text import heading, lines_of
 
 FIELDS = ("id", "status", "title", "expected", "seen", "where", "hint")

@@ -7,7 +7,7 @@ import sys
 from dataclasses import replace
 from typing import Callable, Sequence
 
-from tutorial_check.checking.model import NOTE, OK, UNREACHED, WRONG, Outcome, Result
+from tutorial_check.checking.results import NOTE, OK, UNREACHED, WRONG, Outcome, Result
 
 WORDS = {OK: "ok", WRONG: "WRONG", NOTE: "note", UNREACHED: "-"}
 COLOURS = {OK: "32", WRONG: "1;31", NOTE: "33", UNREACHED: "2"}

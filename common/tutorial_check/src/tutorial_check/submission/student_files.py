@@ -6,7 +6,7 @@ import stat
 from pathlib import Path
 from typing import Iterator, Tuple
 
-from tutorial_check.checking.model import CannotCheck, Wrong
+from tutorial_check.processes.errors import CannotCheck, FileTooLarge
 
 # A program, launch file or manifest of the exercises has some 2 kB; what is said of one must not
 # take the time and memory that a hundred times as much takes.
@@ -20,10 +20,9 @@ def is_too_large(path: Path) -> bool:
 
 
 def text_of_file(path: Path) -> str:
-    """Return what a text file holds. Raises Wrong for one that is too large."""
+    """Return what a text file holds. Raises FileTooLarge."""
     if is_too_large(path):
-        hint = "nobody writes so much by hand: what made it?"
-        raise Wrong("a file of a few kB", f"{path.name} is {TOO_LARGE}", path.name, hint, sure=True)
+        raise FileTooLarge(path.name)
     return path.read_text(errors="replace")
 
 

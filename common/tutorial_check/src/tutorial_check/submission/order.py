@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import Any, Dict, Tuple
 
 from tutorial_check.course.definition import HANDOUT
-from tutorial_check.submission.workspace import Layout
+from tutorial_check.course.tasks import Variant
+from tutorial_check.submission.packages import Layout
 
-Variant = Dict[str, Any]  # {name of a value: what it is}; what is not named is as the course has it
 Line = Dict[str, Any]  # of JSON, between the two
 
 

@@ -1,98 +1,30 @@
-"""What a check can come to, and the order in which checks are made. Pure."""
+"""Checks: how a function becomes one, and the order in which they are made."""
 
 from __future__ import annotations
 
+import functools
 import re
-import traceback
-from dataclasses import dataclass, field, replace
-from pathlib import Path
-from typing import Any, Callable, Iterable, Iterator
+import threading
+from dataclasses import dataclass, replace
+from typing import Any, Callable, Iterable, Iterator, TypeVar
 
-from node_kit.printable import quotable
+from tutorial_check.checking.results import (
+    NOTE,
+    OK,
+    UNREACHED,
+    WRONG,
+    Note,
+    Result,
+    Wrong,
+    wrong_of,
+)
+from tutorial_check.course.definition import FILE, Course, load
+from tutorial_check.processes.errors import CannotCheck, CutShort, FileTooLarge, fault
 
-OK, WRONG, NOTE, UNREACHED = "ok", "wrong", "note", "unreached"
 LINE = re.compile(r":\d+$")  # line number at the end of a place
-
-
-@dataclass(frozen=True)
-class Result:
-    """What one check came to, in the student's words."""
-
-    id: str
-    status: str
-    title: str
-    expected: str = ""
-    seen: str = ""
-    where: str = ""
-    hint: str = ""
-    section: str = ""
-    look: str = ""  # a command that shows it
-    empty: bool = False  # a note that there was nothing to be checked
-    eager: bool = False  # its hint is no answer, and shown at once
-
-
-@dataclass(frozen=True)
-class Note:
-    """A check that holds, with something worth saying."""
-
-    seen: str
-    where: str = ""
-    hint: str = ""
-    empty: bool = False  # there was nothing to be checked
-
-
-@dataclass(eq=False)
-class Wrong(Exception):
-    """A check that does not hold. Raised by checks, which so end at the first thing wrong."""
-
-    expected: str
-    seen: str
-    where: str = ""
-    hint: str = ""
-    sure: bool = False  # whatever else the machine had to do, it is no matter of time
-    look: str = ""  # a command that shows it, if not that of the check
-
-
-MASTER_GONE, MULTIPLIES, CANNOT_START = "master gone", "multiplies", "cannot start"
-UNREADABLE, NO_TYPE = "unreadable package.xml", "no such type"
-# {kind of a CutShort: what is expected, what was seen, what to do}; all but CANNOT_START are sure.
-CUT_SHORT = {
-    MASTER_GONE: ("the ROS master is left alone",
-        "it no longer answers: a program of yours has ended it",
-        "a node ends itself (rospy.signal_shutdown), never the master"),
-    MULTIPLIES: ("a program that is one process, or a few", "it starts itself again and again: {}",
-        "where does it call os.fork, or start programs?"),
-    NO_TYPE: ("messages and services as they are asked for", "{}",
-        "rosmsg show, or rossrv show, after catkin_make; CMakeLists.txt lists its file"),
-    CANNOT_START: ("a program that can be started", "{}",
-        "look at the first line of the file: #!/usr/bin/env python3"),
-}  # fmt: skip
-
-
-@dataclass
-class CutShort(Exception):
-    """Nothing more can be recorded. kind: one of those above. seen: more about it."""
-
-    kind: str
-    seen: str = ""
-
-    def as_wrong(self, where: str = "") -> Wrong:
-        kind = self.kind if self.kind in CUT_SHORT else CANNOT_START
-        expected, seen, hint = CUT_SHORT[kind]
-        return Wrong(expected, seen.format(self.seen), where, hint, kind != CANNOT_START)
-
-
-class CannotCheck(Exception):
-    """The checker cannot work, through no fault of the student's; the text says why in one line."""
-
-
-def fault(error: Exception) -> str:
-    """Return in one line why an exception keeps the checker from working; where, if it is a bug."""
-    if isinstance(error, CannotCheck):
-        return quotable(str(error))
-    line = traceback.extract_tb(error.__traceback__)[-1]
-    where = f"({Path(line.filename).name}:{line.lineno})"
-    return quotable(f"{type(error).__name__}: {error} {where}")
+_Function = TypeVar("_Function", bound=Callable[..., Any])
+_checks: list[Check] = []  # all loaded courses
+_loading = threading.Lock()
 
 
 @dataclass(frozen=True)
@@ -117,6 +49,60 @@ class Check:
         if isinstance(one, Note):
             return replace(result, empty=one.empty)
         return replace(result, expected=one.expected, look=one.look or self.look)
+
+
+def check(
+    name: str,
+    title: str,
+    section: str,
+    needs: str = "",
+    *,
+    look: str = "",
+    timeless: bool = False,
+    eager: bool = False,
+) -> Callable[[_Function], _Function]:
+    """Make a function of a session a check: one line of the report. See model.Check."""
+    one = Check(name, "", title, section, tuple(needs.split()), look, timeless, eager)
+
+    def keep(function: _Function) -> _Function:
+        _checks.append(replace(one, function=function))
+        return function
+
+    return keep
+
+
+def checks_of(course: Course) -> list[Check]:
+    """Load the files of a course, once; return their checks, in its order. Raises CannotCheck."""
+    with _loading:  # several threads may ask
+        return _load(course)
+
+
+@functools.lru_cache(maxsize=8)
+def _load(course: Course) -> list[Check]:
+    names = load(course)
+    order = list(course.exercises)
+    checks: dict[str, Check] = {}
+    for one in _registered(names):
+        inside = [each for each in order if f"{one.section}.".startswith(f"{each}.")]
+        if not inside:
+            raise CannotCheck(f"{one.id}: section {one.section} is of no exercise of {FILE}")
+        if one.id in checks:
+            raise CannotCheck(f"two checks are {one.id}; each needs a name of its own")
+        exercise = max(inside, key=len)
+        document = f"{course.exercises[exercise].document} {one.section}"
+        checks[one.id] = replace(one, exercise=exercise, section=document)
+    for one in checks.values():
+        lost = set(one.needs) - checks.keys()
+        if lost:
+            raise CannotCheck(f"{one.id} needs {', '.join(sorted(lost))}, which is no check")
+    numbers = {name: int(re.sub(r"\D", "", name) or 0) for name in checks}  # 12 of C12
+    return sorted(checks.values(), key=lambda one: (order.index(one.exercise), numbers[one.id]))
+
+
+def _registered(names: set[str]) -> list[Check]:
+    """Return the checks of these modules. One that was loaded again has replaced the earlier."""
+    newest = {(one.function.__module__, one.function.__qualname__): one for one in _checks}
+    return [one for (module, _), one in newest.items() if module in names]
 
 
 class Run:
@@ -207,7 +193,7 @@ class Run:
 
     def _call(self, check: Check) -> Any:
         try:
-            return check.function(self._session)
+            return self._verdict(check)
         except CannotCheck:
             self._second_look(False)
         except Wrong as wrong:
@@ -216,44 +202,15 @@ class Run:
             if not self._second_look(bool(LINE.search(wrong.where))):
                 raise
         try:
-            return check.function(self._session)
+            return self._verdict(check)
         except Wrong as wrong:
             if wrong.sure or not self._too_busy():
                 raise
             why = f"the machine has too much else to do for a verdict ({wrong.seen})"
             raise CannotCheck(f"{check.id}: {why}") from None
 
-
-@dataclass
-class Outcome:
-    """What came of one exercise."""
-
-    id: str
-    results: list[Result] = field(default_factory=list)
-    seconds: float = 0.0
-    done: bool = False
-    trouble: str = ""  # why a check could not be made, through no fault of the student's
-    title: str = ""
-    points: float = 0.0  # for all of it; 0: one a check
-    place: str = ""  # the workspace within what was handed in, if another folder
-    remark: str = ""  # how well a program of someone else's was isolated, if not by bubblewrap
-    # What was asked for these results and not before, with the answers of the worker, which see.
-    recordings: list[dict[str, Any]] = field(default_factory=list)
-
-    @property
-    def passed(self) -> bool:
-        """Whether nothing is wrong, and everything reached."""
-        return self.done and all(result.status in (OK, NOTE) for result in self.results)
-
-    @property
-    def empty(self) -> bool:
-        """Whether it passed because there was nothing to check."""
-        return self.passed and bool(self.results) and all(each.empty for each in self.results)
-
-    @property
-    def solved(self) -> bool:
-        return self.passed and not self.empty
-
-    @property
-    def wrong(self) -> list[Result]:
-        return [each for each in self.results if each.status == WRONG]
+    def _verdict(self, check: Check) -> Any:
+        try:
+            return check.function(self._session)
+        except (CutShort, FileTooLarge) as end:
+            raise wrong_of(end) from None

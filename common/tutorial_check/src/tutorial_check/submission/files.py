@@ -10,11 +10,11 @@ from pathlib import Path
 from typing import Any, Callable, Iterator, Mapping, TypeVar
 
 from tutorial_check.course.tasks import Task
-from tutorial_check.recording.order import Order
 from tutorial_check.submission import student_files
-from tutorial_check.submission.manifests import first_broken, must_be_launchable, unreadable
+from tutorial_check.submission.manifests import first_broken
+from tutorial_check.submission.order import Order
+from tutorial_check.submission.packages import SOLUTIONS, Package, packages_below
 from tutorial_check.submission.python_facts import PythonFacts
-from tutorial_check.submission.workspace import SOLUTIONS, Package, packages_below
 
 # What of CMakeLists.txt makes a build necessary before anything can run.
 NEEDS_BUILD = re.compile(
@@ -63,12 +63,6 @@ class Session:
     def broken(self) -> Package | None:
         """A package whose package.xml keeps every node from starting."""
         return first_broken(self.source, self.packages)
-
-    def must_be_launchable(self) -> None:
-        """Raise Wrong for a package.xml that keeps roslaunch from starting anything."""
-        if self.broken:
-            raise unreadable(self.broken)
-        must_be_launchable(self.packages)
 
     @cached_property
     def packages(self) -> list[Package]:

@@ -1,0 +1,149 @@
+"""A launch file that roslaunch cannot read: from what it says and the text to a line and a hint."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Callable
+from xml.parsers import expat
+
+from tutorial_check.checking.causes import advice, explained, is_lacking, meant, packages_of_ros
+from tutorial_check.checking.results import Wrong
+from tutorial_check.checking.texts import read
+from tutorial_check.submission.launch_xml import (
+    COMMENT_END,
+    Fault,
+    comments,
+    line_of,
+    place_of,
+    without_comments,
+)
+
+CURLY = re.compile("[“”‘’]")
+VALUE = re.compile(r"=\s*(\"[^\"]*\"|'[^']*')")
+QUOTES = 'each value stands between two quotes: name="value"'
+# Those that a launch file of the exercises may name.
+PACKAGES = (
+    "rbx1_nav rbx1_bringup turtlebot_rviz_launchers turtlebot_bringup fake_turtlebot_sim joy2twist"
+    " gamepad joy rosbag rviz"
+)
+# Kinds and words of errors, as roslaunch has them.
+UNSET, UNUSED = "ArgException", r"unused args \[(\w+).*\] for include of \[(.*)\]"
+NO_FILE = r"No such file or directory: '([^']+)'|file does not exist \[([^\]]*)\]"
+
+
+def not_xml(error: str, text: str) -> tuple[int | None, str]:
+    """(line or None, hint) for what expat says of a launch file. text: with its comments."""
+    curly = CURLY.search(without_comments(text))
+    if curly:
+        return line_of(text, curly.start()), 'curly quotes came from the PDF: type " instead'
+    if re.search("mismatched tag|no element found", error):
+        return _not_closed(text)
+    found = re.search(r"line (\d+), column (\d+)", error)
+    if not found:
+        return None, 'Python cannot read the encoding of its first line: write encoding="utf-8"'
+    line, column = map(int, found.groups())
+    if "junk after" in error:
+        return line, "nothing may follow </launch>: put it before"
+    start = sum(len(each) + 1 for each in text.split("\n")[: line - 1])
+    return _not_well_formed(text, line, start + column)
+
+
+def _not_well_formed(text: str, line: int, index: int) -> tuple[int, str]:
+    """Return the same for a file in which expat came as far as text[index], in that line."""
+    ends = -len(COMMENT_END) + 1  # with the first hyphen of its end, as in "--->"
+    inner = ((start, text.find("--", start + 4, end + ends)) for start, end in comments(text))
+    if line in {line_of(text, index) for _, index in inner if index >= 0}:
+        return line, "within <!-- --> there may be no --: delete it, or the whole line"
+    if text.startswith("<!--", index):
+        return line, "each <!-- needs its -->"
+    if text[index : index + 1] == "\xa0":
+        return line, "a gap that came from the PDF is no space: delete it, and type one instead"
+    # A value without its second quote goes on to the next tag: so, the one before it first.
+    for start in (text.rfind("<", 0, index), text.rfind("<", 0, index + 1)):
+        tag = re.split("[<>]", text[start + 1 :])[0] if start >= 0 else ""
+        if re.search(r"[\"'=]", VALUE.sub("", tag)):
+            return line_of(text, start), QUOTES
+    return line, "each tag ends with > or />; the mistake is in the line named or in the one before"
+
+
+def _not_closed(text: str) -> tuple[int | None, str]:
+    """Return the same for a file with a tag that is not closed, or closed twice."""
+    stack: list[tuple[str, int]] = []  # (tag, line) of those that are open
+    parser = expat.ParserCreate("utf-8")
+    parser.StartElementHandler = lambda tag, _: stack.append((tag, parser.CurrentLineNumber))
+    parser.EndElementHandler = lambda _: stack.pop()
+    try:
+        parser.Parse(text.encode(), True)
+    except expat.ExpatError as error:
+        line = error.lineno
+        closing = re.split(r"[^\w-]", text.split("\n")[line - 1][error.offset :])[0]
+    else:
+        return None, "each <tag> needs its </tag> or />"  # it was saved in between
+    if not stack:
+        return None, "it begins with <launch> and ends with </launch>"
+    tag, opened = stack[-1]
+    if closing and closing not in dict(stack):
+        return line, f"</{closing}> closes nothing: open is the <{tag}> of line {opened}"
+    return opened, f"the <{tag}> of line {opened} is never closed: /> at its end, or </{tag}> below"
+
+
+def package_hint(name: str) -> str:
+    """Return what to do about a ROS package that is not there."""
+    words = f"there is no package {name}; is {{}} meant?"
+    hint = "" if is_lacking(name) else meant(name, PACKAGES.split(), 0.8, words)
+    spelling = f"there is no package {name}: look at the spelling in $(find {name}) or pkg="
+    return hint or advice(name, packages_of_ros(name)) or spelling
+
+
+def blamed(fault: Fault, is_own: Callable[[str], bool]) -> tuple[str, int]:
+    """Return (file, line) of the innermost tag in a file of the student's.
+
+    An arg without a value is the fault of the <include>, where the included file declares it.
+    """
+    own = [place for place in fault.places if is_own(place[0])]
+    if fault.kind == UNSET:
+        file = own[-1][0]
+        declared = rf"<arg\b[^<>]*\bname\s*=\s*[\"']{re.escape(fault.words)}[\"']"
+        if re.search(declared, read(Path(file))):
+            own = [place for place in own if place[0] != file] or own
+    return own[-1]
+
+
+def parse_error(
+    fault: Fault, where: str, line: int, text: str, may_see: Callable[[Path], bool]
+) -> Wrong:
+    """Return the Wrong for a file that roslaunch cannot read. text: with comments."""
+    expected, place = "a launch file that roslaunch can read", f"{where}:{line}"
+    words = " ".join(fault.words.split())[:250]
+    if fault.kind == "ExpatError":
+        number, hint = not_xml(fault.words, text)
+        return Wrong(expected, words, f"{where}:{number}" if number else where, hint)
+    text = without_comments(text)
+    open_find = re.search(r"\$\((?:find|arg)\b[^)\"'<>]{0,300}[\"'<>]", text)
+    if open_find:
+        place = place_of(where, text, open_find[0])
+        hint = "each $( needs its ): $(find PACKAGE)/launch/FILE"
+        return Wrong(expected, f"{open_find[0][:-1]} without )", place, hint)
+    if fault.kind == "ResourceNotFound":
+        return Wrong(expected, f"package not found: {words}", place, package_hint(words))
+    file = re.search(NO_FILE, words)
+    if file:
+        path = Path(file[1] or file[2])
+        hint = 'an include needs the whole path: file="$(find PACKAGE)/launch/FILE"'
+        if path.is_absolute():
+            files = path.parent.glob("*") if may_see(path.parent) else ()
+            hint = meant(path.name, [each.name for each in files], 0.7)
+            hint = hint or "look at the name of the file, and of its folder"
+        return Wrong(expected, f"no such file: {path}", place, hint)
+    unused = re.search(UNUSED, words)
+    if unused:
+        path = Path(unused[2])
+        text = read(path) if may_see(path) and path.is_file() else ""
+        known = re.findall(r"<arg\b[^<>]*\bname\s*=\s*[\"']([^\"']+)[\"']", text)
+        hint = meant(unused[1], known, 0.6)
+        hint = hint or f"leave it out; it has {', '.join(known) or 'none'}"
+        return Wrong(expected, f"{path.name} has no arg {unused[1]}", place, hint)
+    said = f"{fault.kind} <{fault.tag}>: {words.partition(' xml is ')[0]}"
+    *seen, hint = explained("roslaunch", said)
+    return Wrong(expected, (seen or [words])[0], place, hint)

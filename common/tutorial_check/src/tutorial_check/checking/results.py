@@ -1,0 +1,116 @@
+"""What a check can come to, and what comes of an exercise."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+from tutorial_check.processes.errors import (
+    CANNOT_START,
+    MASTER_GONE,
+    MULTIPLIES,
+    NO_TYPE,
+    CutShort,
+    FileTooLarge,
+)
+from tutorial_check.submission.student_files import TOO_LARGE
+
+OK, WRONG, NOTE, UNREACHED = "ok", "wrong", "note", "unreached"
+
+
+@dataclass(frozen=True)
+class Result:
+    """What one check came to, in the student's words."""
+
+    id: str
+    status: str
+    title: str
+    expected: str = ""
+    seen: str = ""
+    where: str = ""
+    hint: str = ""
+    section: str = ""
+    look: str = ""  # a command that shows it
+    empty: bool = False  # a note that there was nothing to be checked
+    eager: bool = False  # its hint is no answer, and shown at once
+
+
+@dataclass(frozen=True)
+class Note:
+    """A check that holds, with something worth saying."""
+
+    seen: str
+    where: str = ""
+    hint: str = ""
+    empty: bool = False  # there was nothing to be checked
+
+
+@dataclass(eq=False)
+class Wrong(Exception):
+    """A check that does not hold. Raised by checks, which so end at the first thing wrong."""
+
+    expected: str
+    seen: str
+    where: str = ""
+    hint: str = ""
+    sure: bool = False  # whatever else the machine had to do, it is no matter of time
+    look: str = ""  # a command that shows it, if not that of the check
+
+
+# {kind of a CutShort: what is expected, what was seen, what to do}; all but CANNOT_START are sure.
+CUT_SHORT = {
+    MASTER_GONE: ("the ROS master is left alone",
+        "it no longer answers: a program of yours has ended it",
+        "a node ends itself (rospy.signal_shutdown), never the master"),
+    MULTIPLIES: ("a program that is one process, or a few", "it starts itself again and again: {}",
+        "where does it call os.fork, or start programs?"),
+    NO_TYPE: ("messages and services as they are asked for", "{}",
+        "rosmsg show, or rossrv show, after catkin_make; CMakeLists.txt lists its file"),
+    CANNOT_START: ("a program that can be started", "{}",
+        "look at the first line of the file: #!/usr/bin/env python3"),
+}  # fmt: skip
+
+
+def wrong_of(end: CutShort | FileTooLarge, where: str = "") -> Wrong:
+    """Return the Wrong for what ended a recording, or for a file that nobody has written."""
+    if isinstance(end, FileTooLarge):
+        expected, hint = "a file of a few kB", "nobody writes so much by hand: what made it?"
+        return Wrong(expected, f"{end} is {TOO_LARGE}", str(end), hint, sure=True)
+    kind = end.kind if end.kind in CUT_SHORT else CANNOT_START
+    expected, seen, hint = CUT_SHORT[kind]
+    return Wrong(expected, seen.format(end.seen), where, hint, kind != CANNOT_START)
+
+
+@dataclass
+class Outcome:
+    """What came of one exercise."""
+
+    id: str
+    results: list[Result] = field(default_factory=list)
+    seconds: float = 0.0
+    done: bool = False
+    trouble: str = ""  # why a check could not be made, through no fault of the student's
+    title: str = ""
+    points: float = 0.0  # for all of it; 0: one a check
+    place: str = ""  # the workspace within what was handed in, if another folder
+    remark: str = ""  # how well a program of someone else's was isolated, if not by bubblewrap
+    # What was asked for these results and not before, with the answers of the worker, which see.
+    recordings: list[dict[str, Any]] = field(default_factory=list)
+
+    @property
+    def passed(self) -> bool:
+        """Whether nothing is wrong, and everything reached."""
+        return self.done and all(result.status in (OK, NOTE) for result in self.results)
+
+    @property
+    def empty(self) -> bool:
+        """Whether it passed because there was nothing to check."""
+        return self.passed and bool(self.results) and all(each.empty for each in self.results)
+
+    @property
+    def solved(self) -> bool:
+        return self.passed and not self.empty
+
+    @property
+    def wrong(self) -> list[Result]:
+        return [each for each in self.results if each.status == WRONG]
