@@ -23,35 +23,35 @@ class Drive:
     path: Tuple[Sample, ...]
 
 
-def drive(ground, script) -> Drive:
+def drive(workspace, script) -> Drive:
     """Record a drive."""
-    with ground.stage() as stage:
-        robot = SimulatedRobot(stage)
-        program = stage.start("square", script)
+    with workspace.ros_session() as ros:
+        robot = SimulatedRobot(ros)
+        program = ros.start("square", script)
         path = robot.drive(program, longest_s=LONGEST_S)
     return Drive(program.ran, path)
 
 
-def path_of(session):
+def path_of(submission):
     """Return the path of the robot; recorded once, for all checks."""
-    seen = session.recording(drive, program_of(session, "square", "square.py"))
+    seen = submission.recording(drive, program_of(submission, "square", "square.py"))
     if not has_moved(seen.path):
         hint = "publish geometry_msgs/Twist on /cmd_vel"
-        raise crash(session, "square", seen.program, "the robot drives", hint)
+        raise crash(submission, "square", seen.program, "the robot drives", hint)
     return seen.path
 
 
 @check("S1", "it drives", "1", look="rosrun square square.py")
-def drives(session):
+def drives(submission):
     """Find the program, and look whether it drives."""
-    path = path_of(session)
+    path = path_of(submission)
     return f"for {path[-1].at_s - path[0].at_s:.0f} s"
 
 
 @check("S2", "it passes the corners", "1", "S1", look="rostopic echo /odom")
-def passes_corners(session):
+def passes_corners(submission):
     """Look for each corner on the way that is left."""
-    path = path_of(session)
+    path = path_of(submission)
     side = 1 if max(path, key=lambda s: abs(s.y)).y > 0 else -1
     for number, (x, y) in enumerate(CORNERS, 1):
         gap, at = min((math.dist((s.x, s.y), (x, side * y)), k) for k, s in enumerate(path))
@@ -62,8 +62,8 @@ def passes_corners(session):
 
 
 @check("S3", "it rests at the end", "1", "S1", look="rostopic echo /odom/twist")
-def rests(session):
+def rests(submission):
     """Look at the last sample."""
-    end = path_of(session)[-1]
+    end = path_of(submission)[-1]
     if end.v or end.w:
         raise Wrong("a robot at rest", f"{end.v:.2f} m/s", hint="publish Twist() at the end")

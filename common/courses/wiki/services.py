@@ -21,34 +21,34 @@ ASKED, SUM = {"a": 2**40, "b": -7}, 2**40 - 7
 GIVEN, STRANGE = {"a": 31, "b": 12}, 4321  # for the client, and what our server responds
 
 
-def serve(ground, script) -> Seen:
+def serve(workspace, script) -> Seen:
     """Ask the student's server."""
-    with ground.stage() as stage:
-        client = Client(stage)
-        program = stage.start(PACKAGE, script)
+    with workspace.ros_session() as ros:
+        client = Client(ros)
+        program = ros.start(PACKAGE, script)
         answer = client.ask(SERVICE, KIND, ASKED)
         return client.seen(program, answers=[answer.values, answer.trouble])
 
 
-def ask(ground, script) -> Seen:
+def ask(workspace, script) -> Seen:
     """Start the student's client, and our server only when it waits."""
-    with ground.stage() as stage:
-        client = Client(stage)
-        program = stage.start(PACKAGE, script, *map(str, GIVEN.values()))
-        stage.wait_for_start(lambda: program.ended)
+    with workspace.ros_session() as ros:
+        client = Client(ros)
+        program = ros.start(PACKAGE, script, *map(str, GIVEN.values()))
+        ros.wait_for_start(lambda: program.ended)
         client.serve(SERVICE, KIND, {"sum": STRANGE})
-        stage.wait(lambda: program.ended, START_S)
+        ros.wait(lambda: program.ended, START_S)
         return client.seen(program, SERVICE)
 
 
-def check_fields(session, path):
+def check_fields(submission, path):
     """Look at the text of a type."""
-    folder, wanted = package_of(session, PACKAGE).folder, FIELDS[path]
+    folder, wanted = package_of(submission, PACKAGE).folder, FIELDS[path]
     if not (folder / path).is_file():
         names = [str(each.relative_to(folder)) for each in folder.rglob(f"*{path[-4:]}")]
         where, there = "".join(names[:1]), ", ".join(names) or "none"
         raise Wrong(f"{PACKAGE}/{path}", there, where, "capitals count")
-    file = File(session, PACKAGE, path)
+    file = File(submission, PACKAGE, path)
     given = [" ".join(line.partition("#")[0].split()) for line in file.text.splitlines()]
     missing = next((line for line in wanted if line not in given), wanted[-1])
     is_right = [line for line in given if line in wanted] == wanted
@@ -57,18 +57,21 @@ def check_fields(session, path):
 
 
 @check("W1", "Num.msg", "1", look=f"rosmsg show {PACKAGE}/Num", timeless=True)
-def message(session):
-    check_fields(session, "msg/Num.msg")
+def message(submission):
+    check_fields(submission, "msg/Num.msg")
 
 
 @check("W2", "AddTwoInts.srv", "1", look=f"rossrv show {PACKAGE}/AddTwoInts", timeless=True)
-def service(session):
-    check_fields(session, "srv/AddTwoInts.srv")
+def service(submission):
+    check_fields(submission, "srv/AddTwoInts.srv")
 
 
 @check("W3", "package.xml: message_generation, message_runtime", "1", timeless=True)
-def manifest(session):
-    depends, file = package_of(session, PACKAGE).depends, File(session, PACKAGE, "package.xml")
+def manifest(submission):
+    depends, file = (
+        package_of(submission, PACKAGE).depends,
+        File(submission, PACKAGE, "package.xml"),
+    )
     for name, kind in (("message_generation", "build"), ("message_runtime", "exec")):
         hint = f"<{kind}_depend>{name}</{kind}_depend>, and not in a comment"
         words = f"{name} message_ depend>"
@@ -76,26 +79,26 @@ def manifest(session):
 
 
 @check("W4", "catkin_make builds", "1", "W1 W2", look="catkin_make")
-def builds(session):
-    must_build(session)
+def builds(submission):
+    must_build(submission)
 
 
 @check("W5", "both are generated", "1", "W4", look=f"rosmsg show {PACKAGE}/Num")
-def are_generated(session):
-    file = File(session, PACKAGE, "CMakeLists.txt")
+def are_generated(submission):
+    file = File(submission, PACKAGE, "CMakeLists.txt")
     for path, macro in zip(FIELDS, ("add_message_files", "add_service_files")):
         name = path.split("/")[1]
         hint = f"{macro}(FILES {name})"
-        if name in package_of(session, PACKAGE).cmake:
+        if name in package_of(submission, PACKAGE).cmake:
             hint = "generate_messages()"
-        is_made = re.search(rf"from .*{PACKAGE}/{name[:-4]}\b", must_build(session).output)
+        is_made = re.search(rf"from .*{PACKAGE}/{name[:-4]}\b", must_build(submission).output)
         words = f"{name} {hint.partition('(')[0]} catkin_package"
         file.must(is_made, words, f"{path} is generated", "it is not", hint)
 
 
 @check("W6", "the server adds", "2", "W5", look=f"rosservice call {SERVICE} 1 2")
-def server(session):
-    file, found = recorded(session, PACKAGE, "add_two_ints_server.py", serve)
+def server(submission):
+    file, found = recorded(submission, PACKAGE, "add_two_ints_server.py", serve)
     values, trouble = found.answers
     file.must_run(found.program, f"a server of {SERVICE}", may_end=bool(values))
     hint = "look at the names in rospy.Service(...)"
@@ -105,8 +108,8 @@ def server(session):
 
 
 @check("W7", "the client asks and prints", "2", "W5", look=f"rosrun {PACKAGE} {CLIENT} 4 5")
-def client(session):
-    file, found = recorded(session, PACKAGE, CLIENT, ask)
+def client(submission):
+    file, found = recorded(submission, PACKAGE, CLIENT, ask)
     requests, output = found.heard[SERVICE], found.program.output
     expected, hint = f"it waits for {SERVICE}", f"rospy.wait_for_service('{SERVICE[1:]}')"
     file.must_run(found.program, expected, f"{hint} before the call", may_end=bool(requests))

@@ -4,9 +4,10 @@ import math
 
 from tutorial_check.checking.checks import check
 from tutorial_check.checking.files import File, recorded
-from tutorial_check.checking.launches import Launch, launch_file
+from tutorial_check.checking.launches import launch_file
 from tutorial_check.checking.programs import program_of
 from tutorial_check.recording.client import Client, Seen
+from tutorial_check.recording.launch_files import Launch
 
 from .turtles import KINDS, POSE, START_S, gap, turtles
 
@@ -19,28 +20,28 @@ NEAR = 0.02  # [m], and of a quaternion
 SECOND, FOLLOWS_S, NEAR_M = "/turtle2/pose", 8.0, 1.5
 
 
-def names(session):
+def names(submission):
     """Return the package, and the names of broadcaster and listener."""
-    package = next(filter(session.has, PACKAGES), "learning_tf2")
+    package = next(filter(submission.has, PACKAGES), "learning_tf2")
     return package, *(f"{PACKAGES[package]}_{each}.py" for each in ("broadcaster", "listener"))
 
 
-def broadcast(ground, script, package) -> Seen:
+def broadcast(workspace, script, package) -> Seen:
     """Move turtle1, and listen to transforms."""
-    with turtles(ground) as (stage, client):
+    with turtles(workspace) as (ros, client):
         client.listen("/tf", "tf2_msgs/TFMessage")
-        program = stage.start(package, script, "_turtle:=turtle1")
-        stage.wait_for_start(lambda: program.ended or client.count("/tf"))
+        program = ros.start(package, script, "_turtle:=turtle1")
+        ros.wait_for_start(lambda: program.ended or client.count("/tf"))
         client.ask(*TELEPORT, PLACE)
         past = client.count("/tf") + 5
-        stage.wait_for_start(lambda: program.ended or client.count("/tf") > past)
+        ros.wait_for_start(lambda: program.ended or client.count("/tf") > past)
         return client.seen(program, "/tf")
 
 
 @check("W15", "the broadcaster", "7", look="rosrun tf tf_echo /world /turtle1")
-def broadcaster(session):
-    package, name, _ = names(session)
-    file, found = recorded(session, package, name, broadcast, package)
+def broadcaster(submission):
+    package, name, _ = names(submission)
+    file, found = recorded(submission, package, name, broadcast, package)
     expected = "frames: turtle1 in world"
     file.must_run(found.program, expected)
     frames = found.heard["/tf"][-1]["transforms"] if found.heard["/tf"] else []
@@ -60,25 +61,25 @@ def broadcaster(session):
     file.must(is_right, words, f"at {theta} rad: {wanted}", turn, hint)
 
 
-def follow(ground, path) -> Seen:
+def follow(workspace, path) -> Seen:
     """Start the launch file, and move turtle1."""
-    with ground.stage() as stage:
-        client = Client(stage)
+    with workspace.ros_session() as ros:
+        client = Client(ros)
         client.listen(SECOND, KINDS[POSE])
-        program = Launch(stage, path).program
-        stage.wait(lambda: program.ended or client.count(SECOND), 3 * START_S)
+        program = Launch(ros, path).program
+        ros.wait(lambda: program.ended or client.count(SECOND), 3 * START_S)
         if client.count(SECOND):
             client.ask(*TELEPORT, PLACE)
-            stage.wait(lambda: gap(client.heard(SECOND, -1)[0][2], PLACE) < NEAR_M, FOLLOWS_S)
+            ros.wait(lambda: gap(client.heard(SECOND, -1)[0][2], PLACE) < NEAR_M, FOLLOWS_S)
         return client.seen(program, SECOND)
 
 
 @check("W16", "turtle2 follows", "7", "W15", look=f"roslaunch learning_tf2 {DEMO}")
-def follows(session):
-    package, broadcaster, name = names(session)
-    listener = File(session, package, program_of(session, package, name))
-    launch = launch_file(session, package, DEMO)
-    found = session.recording(follow, launch.path)
+def follows(submission):
+    package, broadcaster, name = names(submission)
+    listener = File(submission, package, program_of(submission, package, name))
+    launch = launch_file(submission, package, DEMO)
+    found = submission.recording(follow, launch.path)
     apart_m = [gap(pose, PLACE) for pose in found.heard[SECOND][-1:]]
     if apart_m and apart_m[0] < NEAR_M:
         return

@@ -5,11 +5,12 @@ from contextlib import contextmanager
 
 from tutorial_check.checking.checks import check
 from tutorial_check.checking.files import recorded
-from tutorial_check.checking.launches import Launch, launch_file
+from tutorial_check.checking.launches import launch_file
 from tutorial_check.checking.packages import package_of
 from tutorial_check.checking.results import Wrong
 from tutorial_check.processes.errors import CannotCheck
 from tutorial_check.recording.client import Client, Seen
+from tutorial_check.recording.launch_files import Launch
 from tutorial_check.submission.tracebacks import last_lines
 
 PACKAGE = "beginner_tutorials"
@@ -32,15 +33,15 @@ LEAST_M, LONGEST_BAG_S = 0.5, 120.0
 
 
 @contextmanager
-def turtles(ground, *words):
-    """Yield a stage with turtlesim, and a Client that listens to turtle1."""
-    with ground.stage() as stage:
-        client = Client(stage)
-        stage.launch([*TURTLESIM, *words], trusted=True)
+def turtles(workspace, *words):
+    """Yield a ros with turtlesim, and a Client that listens to turtle1."""
+    with workspace.ros_session() as ros:
+        client = Client(ros)
+        ros.launch([*TURTLESIM, *words], trusted=True)
         client.listen(POSE, KINDS[POSE])
-        if not stage.wait(lambda: client.count(POSE), START_S):
+        if not ros.wait(lambda: client.count(POSE), START_S):
             raise CannotCheck("turtlesim does not start")
-        yield stage, client
+        yield ros, client
 
 
 def moves(client, topic=POSE):
@@ -59,19 +60,19 @@ def length(poses):
     return sum(map(gap, poses, poses[1:]))
 
 
-def change(ground, script) -> Seen:
+def change(workspace, script) -> Seen:
     """Start the program beside turtlesim."""
-    with turtles(ground) as (stage, client):
-        program = stage.start(PACKAGE, script, *map(str, RGB.values()))
-        stage.wait_for_start(lambda: program.ended)
+    with turtles(workspace) as (ros, client):
+        program = ros.start(PACKAGE, script, *map(str, RGB.values()))
+        ros.wait_for_start(lambda: program.ended)
         client.listen(SENSOR, "turtlesim/Color")
-        stage.wait(lambda: client.count(SENSOR), START_S)
+        ros.wait(lambda: client.count(SENSOR), START_S)
         return client.seen(program, SENSOR, answers=[client.parameter("/turtlesim")])
 
 
 @check("W8", "the background changes", "3", look="rosparam get /turtlesim/background_r")
-def background(session):
-    file, found = recorded(session, PACKAGE, "background.py", change)
+def background(submission):
+    file, found = recorded(submission, PACKAGE, "background.py", change)
     given = {color: found.answers[0].get(f"background_{color}") for color in RGB}
     expected = f"/turtlesim/background_r, _g and _b are {RGB}"
     file.must_run(found.program, expected, may_end=True)
@@ -82,25 +83,25 @@ def background(session):
     file.must(color == RGB, words, f"turtle1 sees {RGB}", color, hint)
 
 
-def launch_mimic(ground, path) -> Seen:
+def launch_mimic(workspace, path) -> Seen:
     """Start the launch file, and send the first turtle off."""
-    with ground.stage() as stage:
-        client, topics = Client(stage), (f"{LEADER}/pose", f"{FOLLOWER}/pose")
+    with workspace.ros_session() as ros:
+        client, topics = Client(ros), (f"{LEADER}/pose", f"{FOLLOWER}/pose")
         for topic in topics:
             client.listen(topic, KINDS[POSE])
         client.advertise(f"{LEADER}/cmd_vel", KINDS[COMMAND])
-        launch = Launch(stage, path)
-        stage.wait(lambda: launch.is_over or all(map(client.count, topics)), 3 * START_S)
+        launch = Launch(ros, path)
+        ros.wait(lambda: launch.is_over or all(map(client.count, topics)), 3 * START_S)
         if client.meet(launch.program, f"{LEADER}/cmd_vel"):
             client.send(f"{LEADER}/cmd_vel", ARC)
-            stage.wait(lambda: moves(client, topics[0]), START_S)
-            stage.wait(lambda: not any(moves(client, topic) for topic in topics), START_S)
+            ros.wait(lambda: moves(client, topics[0]), START_S)
+            ros.wait(lambda: not any(moves(client, topic) for topic in topics), START_S)
         return client.seen(launch.program, *topics)
 
 
 @check("W9", "turtlemimic.launch", "4", look=f"roslaunch --nodes {PACKAGE} {MIMIC}")
-def mimic_file(session):
-    file = launch_file(session, PACKAGE, MIMIC)
+def mimic_file(submission):
+    file = launch_file(submission, PACKAGE, MIMIC)
     spaces = sorted(node["namespace"] for node in file.nodes if node["type"] == "turtlesim_node")
     hint = '<group ns="turtlesim1"> around one node, <group ns="turtlesim2"> around the other'
     expected, is_right = "turtlesims in two groups", spaces == ["/turtlesim1/", "/turtlesim2/"]
@@ -114,9 +115,9 @@ def mimic_file(session):
 
 
 @check("W10", "the second mimics the first", "4", "W9", look=f"rostopic echo {FOLLOWER}/pose")
-def mimics(session):
-    file = launch_file(session, PACKAGE, MIMIC)
-    found = session.recording(launch_mimic, file.path)
+def mimics(submission):
+    file = launch_file(submission, PACKAGE, MIMIC)
+    found = submission.recording(launch_mimic, file.path)
     first, second = found.heard.values()
     file.must(first and second, "", "two turtles", last_lines(found.program.output))
     apart_m, words = gap(first[-1], second[-1]), 'cmd_vel <remap "mimic"'
@@ -124,20 +125,20 @@ def mimics(session):
     file.must(is_right, words, "both drive the same arc", there)
 
 
-def drive(ground, script, x: float, y: float) -> Seen:
+def drive(workspace, script, x: float, y: float) -> Seen:
     """Give the program a goal, and wait until the turtle rests."""
-    with turtles(ground) as (stage, client):
+    with turtles(workspace) as (ros, client):
         words = ["bash", "-c", TYPED, "bash", *map(str, (x, y, TOLERANCE_M))]
-        program = stage.launch([*words, *ground.command(CLEANER, script)])
-        stage.wait_for_start(lambda: program.ended or moves(client))
-        stage.wait(lambda: not moves(client), LONGEST_S)
+        program = ros.launch([*words, *workspace.command(CLEANER, script)])
+        ros.wait_for_start(lambda: program.ended or moves(client))
+        ros.wait(lambda: not moves(client), LONGEST_S)
         return client.seen(program, POSE)
 
 
 @check("W11", "it reaches the goal, and rests", "5", look=f"rostopic echo {POSE}")
-def reaches(session):
+def reaches(submission):
     for x, y in GOALS:
-        file, found = recorded(session, CLEANER, "gotogoal.py", drive, x, y)
+        file, found = recorded(submission, CLEANER, "gotogoal.py", drive, x, y)
         path, expected = found.heard[POSE], f"turtle1 comes within {TOLERANCE_M} m of ({x}, {y})"
         gaps = [gap(pose, {"x": x, "y": y}) for pose in path]
         others = [topic for topic in found.types if "cmd_vel" in topic and topic != COMMAND]
@@ -157,26 +158,26 @@ def reaches(session):
         file.must(is_right, "while publish(", expected, there, hint)
 
 
-def play(ground, path) -> Seen:
+def play(workspace, path) -> Seen:
     """Play a recording to a turtle. path: within src."""
-    with turtles(ground, f"{COMMAND}:=/played{COMMAND}") as (stage, client):
+    with turtles(workspace, f"{COMMAND}:=/played{COMMAND}") as (ros, client):
         for topic, kind in KINDS.items():
             client.listen(f"/played{topic}", kind)
-        words = ["rosbag", "play", "--delay=1", "--prefix=/played", str(ground.source / path)]
-        program = stage.launch(words)
-        stage.wait(lambda: program.ended, LONGEST_BAG_S)
-        stage.wait(lambda: not moves(client), 3.0)
+        words = ["rosbag", "play", "--delay=1", "--prefix=/played", str(workspace.source / path)]
+        program = ros.launch(words)
+        ros.wait(lambda: program.ended, LONGEST_BAG_S)
+        ros.wait(lambda: not moves(client), 3.0)
         return client.seen(program, POSE, *(f"/played{topic}" for topic in KINDS))
 
 
 @check("W13", "a recording that drives a turtle", "6", look="rosbag info subset.bag")
-def recording(session):
-    bags = package_of(session, PACKAGE).folder.rglob("*.bag")
+def recording(submission):
+    bags = package_of(submission, PACKAGE).folder.rglob("*.bag")
     best = sorted(bags, key=lambda each: (each.stem != "subset", each))
     if not best:
         raise Wrong(f"a recording in {PACKAGE}, as bagfiles/subset.bag", "none", hint=RECORD)
-    name = str(best[0].relative_to(session.source))
-    found = session.recording(play, name)
+    name = str(best[0].relative_to(submission.source))
+    found = submission.recording(play, name)
     for topic, kind in KINDS.items():
         if not found.heard[f"/played{topic}"]:
             there = last_lines(found.program.output) if "Error" in found.program.output else "none"

@@ -9,7 +9,7 @@ import stored
 from edits import literal  # noqa: F401
 
 from courses.handout.task import JoystickTask
-from tutorial_check.recording.ground import Ground
+from tutorial_check.recording.workspace import Workspace
 from tutorial_check.submission.order import Order
 from tutorial_check.submission.packages import Layout
 
@@ -20,15 +20,15 @@ MANIFEST = (
 
 
 @pytest.fixture
-def make_session(tmp_path, order):
-    """make_session(package, exercise): a Ground of a workspace with that package, still empty."""
+def make_submission(tmp_path, order):
+    """make_submission(package, exercise): a Workspace with that package, still empty."""
 
     def make(package, exercise):
         folder = tmp_path / "ws/src" / package
         folder.mkdir(parents=True)
         (folder / "package.xml").write_text(MANIFEST.format(package))
         runner = SimpleNamespace(environment={"PATH": ""})
-        return Ground(replace(order, exercises=(exercise,)), JoystickTask({}), runner)
+        return Workspace(replace(order, exercises=(exercise,)), JoystickTask({}), runner)
 
     return make
 

@@ -16,11 +16,11 @@ CHECKS = """
 from tutorial_check.checking.checks import check
 from .other import WORD
 @check("S2", "b", "1.1", "S1")
-def b(session): return WORD
+def b(submission): return WORD
 @check("S1", "a", "1")
-def a(session): pass
+def a(submission): pass
 @check("S10", "c", "2", timeless=True)
-def c(session): pass
+def c(submission): pass
 """
 
 
@@ -99,15 +99,15 @@ def test_a_course_that_is_shipped_has_a_name():
         read_course("viki")
 
 
-def test_page_and_hint_of_the_wiki_name_the_same_dependencies(make_session):
-    course, session = read_course("wiki"), make_session("p", "5")
-    session.order = replace(session.order, course=course.folder)
+def test_page_and_hint_of_the_wiki_name_the_same_dependencies(make_submission):
+    course, submission = read_course("wiki"), make_submission("p", "5")
+    submission.order = replace(submission.order, course=course.folder)
     page = " ".join((course.folder / "README.md").read_text().split())
     assert "turtlesim_cleaner" in course.packages
     for name, depends in course.packages.items():
         assert f"`{depends}` for `{name}`" in page
         with pytest.raises(Wrong) as wrong:
-            package_of(session, name)
+            package_of(submission, name)
         assert wrong.value.hint == f"catkin_create_pkg {name} {depends}"
 
 

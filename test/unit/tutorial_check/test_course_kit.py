@@ -11,12 +11,13 @@ import pytest
 from roslaunch.loader import Loader
 
 from tutorial_check.checking.files import File
-from tutorial_check.checking.launches import Launch, launch_file
+from tutorial_check.checking.launches import launch_file
 from tutorial_check.checking.results import Wrong
 from tutorial_check.processes.errors import CannotCheck, CutShort
 from tutorial_check.recording import client_node
 from tutorial_check.recording.client import Answer, Client, Seen, Transform
 from tutorial_check.recording.launch_facts import facts_of
+from tutorial_check.recording.launch_files import Launch
 from tutorial_testing.waiting import wait_for
 
 ENDS = {}
@@ -43,8 +44,8 @@ class Rospy:
 
 
 @pytest.fixture
-def stage(monkeypatch):
-    """A Stage on which the node of a Client is a thread; `own` is a package of the student's."""
+def ros(monkeypatch):
+    """A RosSession on which the node of a Client is a thread; `own`: a student's package."""
     ENDS.clear()
     for name in ("Publisher", "Subscriber", "Service", "ServiceProxy"):
         monkeypatch.setattr(client_node.rospy, name, Rospy)
@@ -70,13 +71,13 @@ def stage(monkeypatch):
         return wait_for(condition, "an answer") if seconds else condition()
 
     own = SimpleNamespace(packages=[SimpleNamespace(name="own")])
-    about = {"runner": SimpleNamespace(start=start), "environment": {}, "session": own}
-    about["driver"], about["meet"] = SimpleNamespace(types=lambda: {"/t": "T"}), lambda _: True
+    about = {"runner": SimpleNamespace(start=start), "environment": {}, "workspace": own}
+    about["peer"], about["meet"] = SimpleNamespace(types=lambda: {"/t": "T"}), lambda _: True
     return SimpleNamespace(**about, wait=wait, wait_for_start=wait)
 
 
-def test_messages_of_any_type_go_and_come(stage):
-    client, values = Client(stage), {"header": {"stamp": "now", "frame_id": "f"}, "ranges": [1.5]}
+def test_messages_of_any_type_go_and_come(ros):
+    client, values = Client(ros), {"header": {"stamp": "now", "frame_id": "f"}, "ranges": [1.5]}
     client.listen("/a", "sensor_msgs/LaserScan")
     client.advertise("/a", "sensor_msgs/LaserScan")
     assert client.meet(SimpleNamespace(ended=False, rests=lambda: True), "/a")
@@ -86,8 +87,8 @@ def test_messages_of_any_type_go_and_come(stage):
     assert (got["header"]["stamp"], got["ranges"]) == ({"secs": 7, "nsecs": 0}, [1.5])
 
 
-def test_services_parameters_and_types(stage):
-    client = Client(stage)
+def test_services_parameters_and_types(ros):
+    client = Client(ros)
     client.serve("/there", "std_srvs/SetBool", {"success": True, "message": "m"})
     answer = client.ask("/there", "std_srvs/SetBool", {"data": True})
     assert answer == Answer({"success": True, "message": "m"})
@@ -108,10 +109,10 @@ def test_services_parameters_and_types(stage):
         ("std_srvs/SetBool", {"data": {1}}, r"test_course_kit.py:\d+: .* not JSON"),
     ],
 )
-def test_it_is_said_whose_mistake_a_type_is(stage, kind, values, why):
+def test_it_is_said_whose_mistake_a_type_is(ros, kind, values, why):
     whose = CutShort if kind.startswith("own") else CannotCheck
     with pytest.raises(whose) as error:
-        Client(stage).ask("/there", kind, values)
+        Client(ros).ask("/there", kind, values)
     assert re.search(why, str(vars(error.value) or error.value)), error.value
 
 
@@ -119,18 +120,18 @@ def test_it_is_said_whose_mistake_a_type_is(stage, kind, values, why):
     ("name", "why"),
     [("/x", "there is no service /x; there are: /there"), ("/there", "/there does not respond")],
 )
-def test_a_service_without_a_response(stage, monkeypatch, name, why):
+def test_a_service_without_a_response(ros, monkeypatch, name, why):
     hangs = threading.Event()
     monkeypatch.setattr(client_node.Node, "ask", lambda *_: hangs.wait())
-    client = Client(stage)
+    client = Client(ros)
     threading.Timer(0.2, hangs.set).start()
     assert client.ask(name, "std_srvs/Empty", seconds=0.0) == Answer(None, why)
 
 
-def test_a_transform(stage, monkeypatch):
+def test_a_transform(ros, monkeypatch):
     found = iter([None, [[1, 2, 0], [0, 0, 0, 1]]])
     monkeypatch.setattr(client_node.Node, "lookup", lambda *_: next(found))
-    assert Client(stage).lookup("a", "b") == Transform((1, 2, 0), (0, 0, 0, 1))
+    assert Client(ros).lookup("a", "b") == Transform((1, 2, 0), (0, 0, 0, 1))
 
 
 LAUNCH = '<launch>\n  <node pkg="turtlesim" type="mimic" name="m"/>\n</launch>\n'
@@ -146,17 +147,17 @@ LAUNCH = '<launch>\n  <node pkg="turtlesim" type="mimic" name="m"/>\n</launch>\n
         ("a.launch", LAUNCH.replace("turtlesim", "turtle"), "Cannot locate", "launch/a.launch:2"),
     ],
 )
-def test_a_launch_file_is_read(make_session, monkeypatch, name, text, seen, where):
+def test_a_launch_file_is_read(make_submission, monkeypatch, name, text, seen, where):
     # facts_of changes it, in a process of its own.
     monkeypatch.setattr("roslaunch.loader.Loader.param_value", Loader.param_value)
-    session = make_session("p", "1")
-    folder = session.package("p").folder / "launch"
+    submission = make_submission("p", "1")
+    folder = submission.package("p").folder / "launch"
     folder.mkdir()
     (folder / name).write_text(text)
-    source, session.must_be_launchable = session.source, list
-    session.recording = lambda _, path: SimpleNamespace(files=[facts_of(str(source / path))])
+    source, submission.must_be_launchable = submission.source, list
+    submission.recording = lambda _, path: SimpleNamespace(files=[facts_of(str(source / path))])
     try:
-        file = launch_file(session, "p", "a.launch")
+        file = launch_file(submission, "p", "a.launch")
         assert (file.nodes[0]["name"], file.at("mimic"), seen) == ("m", where, "")
     except Wrong as wrong:
         assert seen and wrong.seen.startswith(seen) and wrong.where == where, wrong
@@ -164,20 +165,20 @@ def test_a_launch_file_is_read(make_session, monkeypatch, name, text, seen, wher
 
 def test_what_a_launch_file_has_started():
     program = SimpleNamespace(output="[n/m-2] process has died [pid 1]\n", ended=False)
-    driver = SimpleNamespace(state=lambda: ({"/rosout": ("/b", "/a")},))
-    about = {"launch": lambda words: program, "driver": driver}
-    about["session"] = SimpleNamespace(source=Path("src"))
+    peer = SimpleNamespace(state=lambda: ({"/rosout": ("/b", "/a")},))
+    about = {"launch": lambda words: program, "peer": peer}
+    about["workspace"] = SimpleNamespace(source=Path("src"))
     launch = Launch(SimpleNamespace(**about), "a.launch")
     assert launch.is_over and launch.died == ("n/m",) and launch.nodes == ("/a", "/b")
 
 
-def test_a_file_names_the_line_of_the_first_word_that_is_there(make_session):
-    session = make_session("p", "1")
-    (session.package("p").folder / "a.py").write_text("one\ntwo\n")
-    file = File(session, "p", "a.py")
+def test_a_file_names_the_line_of_the_first_word_that_is_there(make_submission):
+    submission = make_submission("p", "1")
+    (submission.package("p").folder / "a.py").write_text("one\ntwo\n")
+    file = File(submission, "p", "a.py")
     for words, where in (("two one", "a.py:2"), ("three one", "a.py:1"), ("three", "a.py")):
         with pytest.raises(Wrong) as wrong:
             file.must([], words, "this", 7)
         assert (wrong.value.seen, wrong.value.where) == ("7", where)
     with pytest.raises(Wrong, match="no such file in the package"):
-        File(session, "p", "b.py")
+        File(submission, "p", "b.py")

@@ -44,8 +44,8 @@ def conversation(text, complaint="", **recorded):
         "subscribers": {JOY: ("/node",)}, "types": {CMD_VEL: "geometry_msgs/Twist"},
     }  # fmt: skip
     about_files = {"scripts": lambda _: {SCRIPT: PythonFacts(text)}, "text": lambda *_: text}
-    session = SimpleNamespace(task=JoystickTask({}), **about_files)
-    one = Facts(session, Drive(SCRIPT, **{**about, **recorded}))
+    submission = SimpleNamespace(task=JoystickTask({}), **about_files)
+    one = Facts(submission, Drive(SCRIPT, **{**about, **recorded}))
     one.complaint = complaint
     return one
 

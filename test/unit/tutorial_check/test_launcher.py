@@ -25,12 +25,12 @@ class Seen:
     number: int
 
 
-def look(ground, what: str) -> Seen:
+def look(workspace, what: str) -> Seen:
     """Recorded by a script in place of the worker."""
 
 
 def looks(name):
-    return lambda session: f"{session.recording(look, name).number}"
+    return lambda submission: f"{submission.recording(look, name).number}"
 
 
 @pytest.fixture

@@ -20,7 +20,7 @@ def run(checks, busy=False, hopeless=False, **come_to):
     called = []
 
     def function(name):
-        def call(session):
+        def call(submission):
             called.append(name)
             found = come_to.get(name)
             found = found if isinstance(found, (Exception, Note, type(None))) else next(found)

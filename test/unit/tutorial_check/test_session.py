@@ -1,4 +1,4 @@
-"""When a session of checks looks again, and where it can start nothing."""
+"""When a submission of checks looks again, and where it can start nothing."""
 
 import itertools
 import os
@@ -9,7 +9,7 @@ from typing import Tuple
 
 import pytest
 
-from tutorial_check.checking.launcher import Case, must_start_programs
+from tutorial_check.checking.launcher import Submission, must_start_programs
 from tutorial_check.checking.results import Wrong
 from tutorial_check.course.tasks import Task
 from tutorial_check.processes.errors import CannotCheck
@@ -27,7 +27,7 @@ class Seen:
     number: int
 
 
-def look(ground) -> Seen:
+def look(workspace) -> Seen:
     """Recorded by the worker of the test below."""
 
 
@@ -42,13 +42,13 @@ class Drive:
     ways: Tuple[Way, ...]
 
 
-def drive(ground) -> Drive:
+def drive(workspace) -> Drive:
     """Recorded by nobody."""
 
 
 def test_a_recording_that_cannot_be_read_again_is_refused_before_it_is_made(order):
     with pytest.raises(CannotCheck) as error:
-        Case(order, Task({}), ask=None).recording(drive)
+        Submission(order, Task({}), ask=None).recording(drive)
     why = "Way.places: its type has to say what is in it, as Tuple[float, ...]"
     assert str(error.value) == why
 
@@ -64,7 +64,7 @@ def test_a_second_look_at_what_was_busy_or_unexplained(order, strained, explaine
         assert question == {"recorder": f"{__name__}:look", "arguments": []}
         return {"recording": {"number": next(count)}, "strained": strained, "hopeless": False}
 
-    one = Case(order, Task({}), ask)
+    one = Submission(order, Task({}), ask)
     assert [one.recording(look).number, one.recording(look).number] == [0, 0]
     assert one.second_look(explained) == is_worth_it
     assert one.recording(look).number == (1 if is_worth_it else 0)
@@ -79,7 +79,7 @@ def test_a_second_look_at_what_was_busy_or_unexplained(order, strained, explaine
     ],
 )
 def test_an_answer_that_is_no_recording(order, answer, error, words):
-    one = Case(order, Task({}), lambda _: {**answer, "strained": False, "hopeless": False})
+    one = Submission(order, Task({}), lambda _: {**answer, "strained": False, "hopeless": False})
     with pytest.raises(error) as caught:
         one.recording(look)
     assert words in getattr(caught.value, "seen", str(caught.value))
@@ -101,7 +101,7 @@ def test_a_path_in_a_recording_is_looked_at_only_where_programs_may(order, path,
     source = Path(order.folder) / "handed_in/src"
     source.mkdir(parents=True)
     (source / "link").symlink_to("/root/secret")
-    one = Case(replace(order, shown=(f"{order.folder}/shown",)), Task({}), None)
+    one = Submission(replace(order, shown=(f"{order.folder}/shown",)), Task({}), None)
     whole = path.format(folder=order.folder)
     assert (one.is_own(whole), one.may_see(whole)) == (is_own, may_see)
 
@@ -111,6 +111,6 @@ def test_a_traceback_that_names_a_file_elsewhere_opens_none(order):
     source.mkdir(parents=True)
     (source / "package.xml").write_text("<package><name>joy2twist</name></package>")
     (Path(order.folder) / "secret.py").write_text("x = 1")
-    one = Case(order, Task({}), None)
+    one = Submission(order, Task({}), None)
     with pytest.raises(CannotCheck, match="leads elsewhere"):
         one.text("joy2twist", "../../../secret.py")

@@ -25,15 +25,15 @@ RIGHT = Talk(
 
 
 @pytest.fixture
-def asked(make_session):
+def asked(make_submission):
     """asked(check, text, **recorded): what a check says of a program of that text, or raises."""
-    session = make_session(PACKAGE, "3")
+    submission = make_submission(PACKAGE, "3")
 
     def ask(check, text, **recorded):
         for name in ("talker.py", "listener.py"):
-            (session.package(PACKAGE).folder / name).write_text(text)
-        session.recording = lambda recorder, *arguments: replace(RIGHT, **recorded)
-        return check(session)
+            (submission.package(PACKAGE).folder / name).write_text(text)
+        submission.recording = lambda recorder, *arguments: replace(RIGHT, **recorded)
+        return check(submission)
 
     return ask
 

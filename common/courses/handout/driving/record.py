@@ -9,8 +9,8 @@ from dataclasses import dataclass, replace
 from typing import Any, Callable, Sequence
 
 from tutorial_check.processes.runner import GRACE_S
-from tutorial_check.recording.ground import Ground
-from tutorial_check.recording.ros_session import START_S, Stage
+from tutorial_check.recording.ros_session import START_S, RosSession
+from tutorial_check.recording.workspace import Workspace
 
 from ..task import PACKAGE, Joy
 from . import probes
@@ -44,45 +44,45 @@ class Loaded:
     failed: bool  # in one of them a callback found no publisher
 
 
-def drive(ground: Ground, script: str, wants_twist: bool = True, text: str = "") -> Drive:
+def drive(workspace: Workspace, script: str, wants_twist: bool = True, text: str = "") -> Drive:
     """Start a program and send it Joys. text: in place of its own."""
     if text:
-        script = ground.sibling(PACKAGE, script, text)
-    with ground.stage() as stage:
-        return _Driver(ground, stage, script).drive(wants_twist)
+        script = workspace.sibling(PACKAGE, script, text)
+    with workspace.ros_session() as ros:
+        return _Driver(workspace, ros, script).drive(wants_twist)
 
 
-def found(ground: Ground, package: str) -> Found:
-    program = ground.runner.start(["rospack", "find", package], ground.environment)
-    ground.runner.wait(lambda: program.ended, 10.0)
+def found(workspace: Workspace, package: str) -> Found:
+    program = workspace.runner.start(["rospack", "find", package], workspace.environment)
+    workspace.runner.wait(lambda: program.ended, 10.0)
     return Found(not program.process.returncode)
 
 
-def loaded(ground: Ground, script: str) -> Loaded:
+def loaded(workspace: Workspace, script: str) -> Loaded:
     """Start it ten times while 200 Joys a second come."""
-    with ground.stage() as stage:
-        stage.driver.advertise(JOY, "Joy")
-        stage.driver.listen(CMD_VEL, "Twist")
-        stage.driver.stream(JOY, [NEUTRAL], 200.0, True)
+    with workspace.ros_session() as ros:
+        ros.peer.advertise(JOY, "Joy")
+        ros.peer.listen(CMD_VEL, "Twist")
+        ros.peer.stream(JOY, [NEUTRAL], 200.0, True)
         names = [f"__name:=loaded_{number}" for number in range(STARTS)]
-        programs = [stage.start(PACKAGE, script, name) for name in names]
+        programs = [ros.start(PACKAGE, script, name) for name in names]
 
         def one_has_failed() -> bool:
             return any("NameError" in each.output for each in programs)
 
         def all_publish() -> bool:
-            return len({caller for _, caller, _ in stage.driver.received(CMD_VEL)}) >= STARTS
+            return len({caller for _, caller, _ in ros.peer.received(CMD_VEL)}) >= STARTS
 
-        stage.wait(lambda: all_publish() or one_has_failed(), START_S)
+        ros.wait(lambda: all_publish() or one_has_failed(), START_S)
         return Loaded(one_has_failed())
 
 
 class _Driver:
     """Drives one program, and looks at what it has seen to choose what to send next."""
 
-    def __init__(self, ground: Ground, stage: Stage, script: str) -> None:
-        self._ground, self._stage, self._task = ground, stage, ground.task
-        facts = ground.scripts(PACKAGE).get(script)
+    def __init__(self, workspace: Workspace, ros: RosSession, script: str) -> None:
+        self._workspace, self._ros, self._task = workspace, ros, workspace.task
+        facts = workspace.scripts(PACKAGE).get(script)
         sleeps = tuple(facts.called_back.get("sleep", [])) if facts else ()
         # A queue of one drops what it has no time for, and the newest value is not late.
         drops = facts and facts.keeps_newest and not sleeps
@@ -93,29 +93,29 @@ class _Driver:
             factors={FIELDS[index]: each for index, each in self._task.factors.items()},
             needs_button=self._task.needs_button,
         )
-        stage.driver.advertise(JOY, "Joy")
-        stage.driver.listen(CMD_VEL, "Twist")
-        self._program = stage.start(PACKAGE, script)
+        ros.peer.advertise(JOY, "Joy")
+        ros.peer.listen(CMD_VEL, "Twist")
+        self._program = ros.start(PACKAGE, script)
 
     def _note(self, **changes: Any) -> None:
         self._seen = replace(self._seen, **changes)
 
     def drive(self, wants_twist: bool) -> Drive:
-        stage, program = self._stage, self._program
-        stage.wait_for_start(lambda: stage.driver.listeners(JOY) or program.ended)
-        connected = bool(stage.driver.listeners(JOY)) and not program.ended
+        ros, program = self._ros, self._program
+        ros.wait_for_start(lambda: ros.peer.listeners(JOY) or program.ended)
+        connected = bool(ros.peer.listeners(JOY)) and not program.ended
         if connected and wants_twist:
-            self._wait(1.5, lambda: stage.driver.publishers(CMD_VEL))
-        publishers, subscribers = stage.driver.state()
+            self._wait(1.5, lambda: ros.peer.publishers(CMD_VEL))
+        publishers, subscribers = ros.peer.state()
         if connected:
             self._converse(wants_twist)
         ended_early = program.ended
-        late, _ = stage.driver.state() if stage.master_lives else ({}, {})
-        output, master_alive = program.output, stage.master_lives
-        types, warnings = stage.driver.types(), tuple(stage.driver.warnings())
+        late, _ = ros.peer.state() if ros.master_lives else ({}, {})
+        output, master_alive = program.output, ros.master_lives
+        types, warnings = ros.peer.types(), tuple(ros.peer.warnings())
         # Only where its end is asked for it is waited for.
-        grace_s = GRACE_S if "4.3" in self._ground.order.exercises else 0.5
-        taken_s = self._ground.runner.end(program, grace_s)
+        grace_s = GRACE_S if "4.3" in self._workspace.order.exercises else 0.5
+        taken_s = self._workspace.runner.end(program, grace_s)
         self._note(
             connected=connected, publishers={**publishers, **late}, subscribers=subscribers,
             types=types, warnings=warnings, master_alive=master_alive, ended_early=ended_early,
@@ -125,23 +125,23 @@ class _Driver:
         return self._seen
 
     def _wait(self, longest_s: float, condition: Callable[[], Any] = lambda: False) -> None:
-        self._stage.wait(lambda: self._program.ended or condition(), longest_s)
+        self._ros.wait(lambda: self._program.ended or condition(), longest_s)
 
     def _count(self) -> int:
-        return int(self._stage.driver.count(CMD_VEL))
+        return int(self._ros.peer.count(CMD_VEL))
 
     def _received(self, since: int) -> list[Any]:
-        return list(self._stage.driver.received(CMD_VEL, since))
+        return list(self._ros.peer.received(CMD_VEL, since))
 
     def _converse(self, wants_twist: bool) -> None:
-        stage, joys = self._stage, probes.numbered_joys(COUNT)
-        stage.driver.send(JOY, NEUTRAL)
+        ros, joys = self._ros, probes.numbered_joys(COUNT)
+        ros.peer.send(JOY, NEUTRAL)
         if wants_twist:
-            stage.wait(self._count, 0.5)
+            ros.wait(self._count, 0.5)
             self._ask_numbered(joys)
         else:
             for joy in joys:
-                stage.driver.send(JOY, self._task.joy(joy))
+                ros.peer.send(JOY, self._task.joy(joy))
             self._note(asked=COUNT)
         sent = [*map(self._task.joy, joys)]
 
@@ -153,7 +153,7 @@ class _Driver:
         self._note(shown=shown())
         seen = self._seen
         goes = seen.answers and not seen.unanswered and not seen.judge_probes()[0]
-        if goes and RATED.intersection(self._ground.order.exercises) and not self._program.ended:
+        if goes and RATED.intersection(self._workspace.order.exercises) and not self._program.ended:
             self._stream()
             if not self._seen.is_prompt and not self._program.ended:
                 self._stream(beside_ours=True)
@@ -226,7 +226,7 @@ class _Driver:
     ) -> tuple[float, list[Any]]:
         """Return (when a Joy was sent, what came then). often: how many Twists are waited for."""
         before = self._count()
-        sent_s = self._stage.driver.send(JOY, self._task.joy(joy))
+        sent_s = self._ros.peer.send(JOY, self._task.joy(joy))
         self._wait(longest_s if often == 1 else SETTLE_S, lambda: self._count() - before >= often)
         if settle_s:
             self._wait(settle_s)
@@ -256,23 +256,23 @@ class _Driver:
         self._note(came=self._count() - before)
 
     def _stream(self, beside_ours: bool = False) -> None:
-        stage, count = self._stage, int(RATE * STREAM_S)
+        ros, count = self._ros, int(RATE * STREAM_S)
         if beside_ours:
-            known = stage.driver.listeners(JOY)
-            echo, answers = stage.echo(self._task.axes[RIGHT[LINEAR]])
-            stage.driver.listen(answers, "Twist")
-            stage.wait(lambda: echo.ready() and stage.driver.listeners(JOY) > known, START_S)
+            known = ros.peer.listeners(JOY)
+            echo, answers = ros.echo(self._task.axes[RIGHT[LINEAR]])
+            ros.peer.listen(answers, "Twist")
+            ros.wait(lambda: echo.ready() and ros.peer.listeners(JOY) > known, START_S)
         before = self._count()
         joys = [self._task.joy(joy) for joy in probes.rising_joys(count)]
-        stage.driver.stream(JOY, joys, RATE, False)
-        stage.wait(lambda: len(stage.driver.sent(JOY)) >= count, STREAM_S + 3)
-        stage.wait(lambda: self._count() - before >= count, 0.3)
-        sent, received = stage.driver.sent(JOY), self._received(before)
+        ros.peer.stream(JOY, joys, RATE, False)
+        ros.wait(lambda: len(ros.peer.sent(JOY)) >= count, STREAM_S + 3)
+        ros.wait(lambda: self._count() - before >= count, 0.3)
+        sent, received = ros.peer.sent(JOY), self._received(before)
         rule = rule_of(LINEAR, self._seen.samples)
         delays = probes.delays(sent, received, rule.factor if rule else None)
         strays = probes.strays([any(twist) for _, _, twist in received])
         self._note(sent=len(sent), answered=len(received), delays=tuple(delays), strays=strays)
         if beside_ours:
-            echoed, sign = stage.driver.received(answers), self._task.signs[RIGHT[LINEAR]]
+            echoed, sign = ros.peer.received(answers), self._task.signs[RIGHT[LINEAR]]
             ours = statistics.median(probes.delays(sent, echoed, sign) or [0.0])
             self._note(possible=len(echoed), unavoidable_s=ours)

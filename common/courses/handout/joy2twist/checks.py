@@ -10,8 +10,8 @@ from tutorial_check.checking.checks import check
 from tutorial_check.checking.programs import check_end, check_file, find_script, odd_node
 from tutorial_check.checking.results import Note, Wrong, wrong_of
 from tutorial_check.checking.rows import Row, demand, find
+from tutorial_check.checking.submission import Submission
 from tutorial_check.processes.errors import MASTER_GONE, CutShort
-from tutorial_check.submission.files import Session
 
 from ..driving.probes import ROUNDED, SILENCES
 from ..driving.record import COUNT, drive, found, loaded
@@ -133,7 +133,7 @@ ONCE = (
 RIGHT_RULE = (
     Row(lambda c: c.seen.unanswered and not c.complaint and c.seen.trouble, lambda c: c.crash()),
     Row(lambda c: not c.complaint and c.seen.unanswered
-        and find(SILENCES, c.seen.silence(c.session.task)),
+        and find(SILENCES, c.seen.silence(c.submission.task)),
         "{found.seen}", "{found.hint}", "{f.at[publish]}"),
     Row(lambda c: c.complaint, lambda c: c.odd()),
     Row(lambda c: c.seen.trouble and c.crash(), "right, but also: {found.seen}", "{found.hint}",
@@ -154,9 +154,9 @@ RATE = (
 )  # fmt: skip
 
 
-def main_script(session: Session) -> str:
+def main_script(submission: Submission) -> str:
     """Return the program from Joy to Twist: not joy2twist.py if that is the first version."""
-    script, scripts = find_script(session, PACKAGE, NAME), session.scripts(PACKAGE)
+    script, scripts = find_script(submission, PACKAGE, NAME), submission.scripts(PACKAGE)
     facts = scripts.get(script)
     if facts is None:
         return script  # no Python, as C13 says
@@ -169,28 +169,28 @@ def main_script(session: Session) -> str:
     return script
 
 
-def check_manifest(session: Session, script: str) -> None:
+def check_manifest(submission: Submission, script: str) -> None:
     """Check that roslib.load_manifest names a package that exists. Raises Wrong."""
-    facts = session.scripts(PACKAGE).get(script)
+    facts = submission.scripts(PACKAGE).get(script)
     call = facts.first("load_manifest") if facts else None
     name = call.words[0] if call and call.words else ""
     # PKG = "joy2twist": what is in it shows when the program runs.
-    is_known = not facts or name in ("", *facts.names, *(each.name for each in session.packages))
-    if call and not is_known and not session.recording(found, name).found:
+    is_known = not facts or name in ("", *facts.names, *(each.name for each in submission.packages))
+    if call and not is_known and not submission.recording(found, name).found:
         expected = "roslib.load_manifest names a package that exists"
-        named = session.task.named(PACKAGE)
+        named = submission.task.named(PACKAGE)
         hint = f"load_manifest('{named}'); or leave the line out: catkin needs it no more"
         raise Wrong(expected, f"ResourceNotFound: {name}", f"{script}:{call.line}", hint)
 
 
-def _facts(session: Session, script: str = "") -> Facts:
+def _facts(submission: Submission, script: str = "") -> Facts:
     """Return what a program did: the one of section 4.3, or another script."""
-    return Facts(session, session.recording(drive, script or main_script(session)))
+    return Facts(submission, submission.recording(drive, script or main_script(submission)))
 
 
-def _connected(session: Session, script: str) -> Facts:
+def _connected(submission: Submission, script: str) -> Facts:
     """Return the same of a program that subscribes to Joys. Raises Wrong."""
-    one = _facts(session, script)
+    one = _facts(submission, script)
     demand(CONNECTED, one, CONNECTS)
     said_anything = one.seen.samples or one.seen.shown
     if not one.seen.connected or (one.seen.ended_early and not said_anything):
@@ -200,18 +200,18 @@ def _connected(session: Session, script: str) -> Facts:
 
 @check("C13", "joy2twist.py can be run", "4.3", "C12", look="rosrun {n.package} joy2twist.py",
        timeless=True)  # fmt: skip
-def file(session: Session) -> Note | str:
-    main = main_script(session)
-    for script in dict.fromkeys((find_script(session, PACKAGE, NAME), main)):
-        check_file(session, PACKAGE, script)
-        check_manifest(session, script)
-    return odd_node(session, PACKAGE, main) or main
+def file(submission: Submission) -> Note | str:
+    main = main_script(submission)
+    for script in dict.fromkeys((find_script(submission, PACKAGE, NAME), main)):
+        check_file(submission, PACKAGE, script)
+        check_manifest(submission, script)
+    return odd_node(submission, PACKAGE, main) or main
 
 
 @check("C14", "it displays every Joy", "4.3", "C13",
        look="rosrun {n.package} joy2twist.py; rostopic echo {n.joy}")  # fmt: skip
-def displays(session: Session, script: str = "", few_are_enough: bool = False) -> Note | None:
-    one = _connected(session, script)
+def displays(submission: Submission, script: str = "", few_are_enough: bool = False) -> Note | None:
+    one = _connected(submission, script)
     if one.seen.all_shown or (one.seen.shown and few_are_enough):
         return None
     note = demand(DISPLAYED, one, DISPLAYS)
@@ -221,12 +221,12 @@ def displays(session: Session, script: str = "", few_are_enough: bool = False) -
 
 
 @check("C15", "{n.joy} in, {n.cmd_vel} out", "4.3", "C13", look="rosnode info NODE")
-def topics(session: Session, script: str = "") -> Note | str:
-    one = _connected(session, script)
+def topics(submission: Submission, script: str = "") -> Note | str:
+    one = _connected(submission, script)
     note = demand(TOPICS, one, PUBLISHES)
     if one.a.cmd_vel not in one.seen.publishers:
         demand(NO_TOPIC, one, PUBLISHES)
-    name, node = session.task.values.get("node"), one.seen.subscribers.get(one.a.joy, [""])[0]
+    name, node = submission.task.values.get("node"), one.seen.subscribers.get(one.a.joy, [""])[0]
     if name and not script and not re.fullmatch(rf"/{name}(_\d+_\d+)?", node):
         expected, hint = "the name of the node that the task asks for", f"init_node('{name}')"
         raise Wrong(expected, f"it is called {node}", one.at["init_node"], hint)
@@ -235,9 +235,9 @@ def topics(session: Session, script: str = "") -> Note | str:
 
 @check("C16", "{n.sticks[1]} drives forwards, {n.sticks[0]} turns", "4.3", "C15",
        look="rostopic echo {n.cmd_vel}")  # fmt: skip
-def mapping(session: Session, script: str = "") -> Note | None:
+def mapping(submission: Submission, script: str = "") -> Note | None:
     """Check that linear.x follows axis 1, angular.z axis 0; a Wrong names the rule found."""
-    one, task = _facts(session, script), session.task
+    one, task = _facts(submission, script), submission.task
     if not one.seen.trouble:
         demand([SLEEPING], one, MAPS)
     if len(one.seen.samples) < COUNT * 0.9:
@@ -250,26 +250,26 @@ def mapping(session: Session, script: str = "") -> Note | None:
 
 
 @check("C17", "it keeps up with the joystick", "4.3", "C16", look="rostopic hz {n.cmd_vel}")
-def rate(session: Session, script: str = "") -> Note | str | None:
-    one = _facts(session, script)
+def rate(submission: Submission, script: str = "") -> Note | str | None:
+    one = _facts(submission, script)
     return one.seen.rate if one.seen.is_prompt else demand(RATE, one, KEEPS_UP)
 
 
 @check("C34", "Ctrl-C ends it", "4.3", "C16", look="Ctrl-C in its terminal")
-def ctrl_c(session: Session) -> Note | str:
-    seen = session.recording(drive, main_script(session))
-    note = check_end(session, PACKAGE, seen.script, seen.taken_s, seen.last_words)
+def ctrl_c(submission: Submission) -> Note | str:
+    seen = submission.recording(drive, main_script(submission))
+    note = check_end(submission, PACKAGE, seen.script, seen.taken_s, seen.last_words)
     return note or f"{seen.taken_s:.1f} s"
 
 
 @check("C18", "it starts while the joystick sends", "4.3", "C16",
        look="rosbag play --loop joy.bag; rosrun {n.package} joy2twist.py")  # fmt: skip
-def under_load(session: Session) -> Note | None:
+def under_load(submission: Submission) -> Note | None:
     """Start it while 200 Joys a second come. Never a failure."""
-    script = main_script(session)
-    made = map(session.scripts(PACKAGE)[script].first, ("Subscriber", "Publisher"))
+    script = main_script(submission)
+    made = map(submission.scripts(PACKAGE)[script].first, ("Subscriber", "Publisher"))
     first, second = (call.line if call else 0 for call in made)
-    if not 0 < first < second and not session.recording(loaded, script).failed:
+    if not 0 < first < second and not submission.recording(loaded, script).failed:
         return None
     seen = "the subscriber comes before the publisher: a Joy that comes at once finds no pub"
     where, hint = f"{script}:{first or 1}", "first the Publisher, then the Subscriber"

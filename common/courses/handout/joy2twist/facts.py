@@ -11,7 +11,7 @@ from typing import Sequence
 from tutorial_check.checking.causes import with_import
 from tutorial_check.checking.programs import check_file, crash, ended
 from tutorial_check.checking.results import Wrong
-from tutorial_check.submission.files import Session
+from tutorial_check.checking.submission import Submission
 from tutorial_check.submission.python_facts import shows
 from tutorial_check.submission.python_text import unmasked
 from tutorial_check.submission.tracebacks import first_traceback
@@ -26,11 +26,11 @@ from ..task import PACKAGE
 class Facts:
     """A Drive beside the text of its program: the facts of the rows of the judge."""
 
-    def __init__(self, session: Session, seen: Drive) -> None:
-        self.session, self.seen = session, seen
-        self.facts = facts = session.scripts(PACKAGE)[seen.script]
+    def __init__(self, submission: Submission, seen: Drive) -> None:
+        self.submission, self.seen = submission, seen
+        self.facts = facts = submission.scripts(PACKAGE)[seen.script]
         self.complaint, self.hint = "", ""  # as rules.judge() returns them
-        self.n, self.a = session.task.names, session.task.answers  # for the texts of the rows
+        self.n, self.a = submission.task.names, submission.task.answers  # for the texts of the rows
         subscriber = f"rospy.Subscriber('{self.a.joy}', Joy, callback)"
         publisher = f"rospy.Publisher('{self.a.cmd_vel}', Twist, queue_size=10)"
         lines = {"Joy": subscriber, "Twist": publisher}  # to be written
@@ -69,12 +69,12 @@ class Facts:
     @property
     def first_version(self) -> str:
         """The separate file with the handout's first version, if that displays every Joy."""
-        for other, facts in self.session.scripts(PACKAGE).items():
+        for other, facts in self.submission.scripts(PACKAGE).items():
             is_first = "Subscriber" in facts.calls and "Publisher" not in facts.calls
             if other != self.seen.script and is_first:
                 with contextlib.suppress(Wrong):
-                    check_file(self.session, PACKAGE, other)
-                    return other if self.session.recording(drive, other, False).all_shown else ""
+                    check_file(self.submission, PACKAGE, other)
+                    return other if self.submission.recording(drive, other, False).all_shown else ""
                 break
         return ""
 
@@ -83,19 +83,19 @@ class Facts:
         return probes.values_shown(probes.numbered_joys(COUNT), output, within)
 
     def crash(self) -> Wrong:
-        session, seen = self.session, self.seen
-        text = unmasked(session.text(PACKAGE, seen.script))
+        submission, seen = self.submission, self.seen
+        text = unmasked(submission.text(PACKAGE, seen.script))
         if text and not seen.program.spins and (seen.ended_early or not seen.trouble):
-            shown = session.recording(drive, seen.script, True, text)
+            shown = submission.recording(drive, seen.script, True, text)
             if shown.trouble:
-                wrong = crash(session, PACKAGE, shown.program, "")
+                wrong = crash(submission, PACKAGE, shown.program, "")
                 wrong.seen += self._hidden_by(shown)
                 return wrong
-        return crash(session, PACKAGE, seen.program, "")
+        return crash(submission, PACKAGE, seen.program, "")
 
     def _hidden_by(self, shown: Drive) -> str:
         """Return which except hid the error that a changed program shows; empty if none did."""
-        trace = first_traceback(shown.output, str(self.session.package(PACKAGE).folder))
+        trace = first_traceback(shown.output, str(self.submission.package(PACKAGE).folder))
         catcher = self.facts.catcher(trace.lines_of(shown.script)) if trace else None
         if not trace or not catcher or trace.message in self.seen.output:
             return ""

@@ -9,9 +9,9 @@ from pathlib import Path
 from tutorial_check.checking.checks import check
 from tutorial_check.checking.programs import cause_of
 from tutorial_check.checking.results import Note, Wrong
+from tutorial_check.checking.submission import Submission
 from tutorial_check.recording.launch_facts import Node
 from tutorial_check.recording.simulated_robot import ODOM
-from tutorial_check.submission.files import Session
 from tutorial_check.submission.launch_xml import attribute
 from tutorial_check.submission.tracebacks import first_traceback
 
@@ -34,9 +34,9 @@ ERRORS = re.compile(r"^(?!.*(?:rviz|INFO)).*(?:ERROR|died|Invalid|cannot|Unable)
 COLOUR = re.compile(r"\x1b\[[0-9;]*m|\x1b\][^\x07]*\x07")
 
 
-def is_there(session: Session, path: str) -> bool:
+def is_there(submission: Submission, path: str) -> bool:
     """Return whether a file that a launch file names is there, for the student's programs, too."""
-    return session.may_see(path) and os.path.isfile(path)
+    return submission.may_see(path) and os.path.isfile(path)
 
 
 def check_viewer(file: LaunchFile) -> Note | None:
@@ -47,7 +47,7 @@ def check_viewer(file: LaunchFile) -> Note | None:
     config = next((word for option, word in options if option in ("-d", "--display-config")), "")
     where = file.at(Path(config).name, *attribute("type", node["type"]))
     hint = "-d $(find rbx1_nav)/sim.rviz"
-    if config and config != "auto" and not is_there(file.session, config):
+    if config and config != "auto" and not is_there(file.submission, config):
         seen = f"no file {config} on this machine"
         raise Wrong("-d FILE names a file that exists", seen, where, hint)
     if not config and node["type"] == "rviz":
@@ -57,7 +57,7 @@ def check_viewer(file: LaunchFile) -> Note | None:
 
 def check_one_driver(file: LaunchFile) -> None:
     """Raise Wrong if two programs of the student's send velocities to the same place."""
-    programs, topic = file.session.scripts(PACKAGE).items(), file.session.task.topic(CMD_VEL)
+    programs, topic = file.submission.scripts(PACKAGE).items(), file.submission.task.topic(CMD_VEL)
     calls = ((path, one) for path, facts in programs for one in facts.calls.get("Publisher", []))
     words = ((path, " ".join([*one.words, *one.names.values()])) for path, one in calls)
     of_twists = {Path(path).name for path, each in words if "Twist" in each}
@@ -78,9 +78,9 @@ def topic_of(node: Node, topic: str) -> str:
     return f"/{names.get(topic.strip('/'), topic).strip('/')}"
 
 
-def bag_of(session: Session) -> tuple[str, str]:
+def bag_of(submission: Submission) -> tuple[str, str]:
     """Return (the recording that launch_bag plays, where that is written). Raises Wrong."""
-    file = LaunchFile(session, BAG)
+    file = LaunchFile(submission, BAG)
     play = BAG_HINT.format(file.package)
     node = file.demand("rosbag play", file.of("player"), play)
     where = file.at(*attribute("type", "play"))
@@ -96,11 +96,11 @@ def bag_of(session: Session) -> tuple[str, str]:
     if not os.path.isabs(bags[0]):
         hint = f"roslaunch starts rosbag in a folder of its own: $(find {file.package})/bag/"
         raise Wrong("a whole path to the recording", bags[0], where, hint + Path(bags[0]).name)
-    if not is_there(session, bags[0]) and str(session.layout.root) not in bags[0]:
+    if not is_there(submission, bags[0]) and str(submission.layout.root) not in bags[0]:
         seen = f"no file {bags[0]} on this machine"
-        raise Wrong("a recording that exists", seen, where, copy_bag(session))
-    if bags[0].startswith(f"{session.source}/"):
-        check_recording(session, os.path.relpath(bags[0], session.source))
+        raise Wrong("a recording that exists", seen, where, copy_bag(submission))
+    if bags[0].startswith(f"{submission.source}/"):
+        check_recording(submission, os.path.relpath(bags[0], submission.source))
     return bags[0], where
 
 
@@ -120,27 +120,27 @@ def _check_items(file: LaunchFile) -> Note | None:
 
 @check("C22", "launch_bag starts the four items", "5.1", "C21",
        look="roslaunch --nodes {n.package} launch_bag.launch", timeless=True)  # fmt: skip
-def bag_nodes(session: Session) -> Note | str | None:
-    file = LaunchFile(session, BAG)
+def bag_nodes(submission: Submission) -> Note | str | None:
+    file = LaunchFile(submission, BAG)
     note = _check_items(file)
-    bag, where = bag_of(session)
+    bag, where = bag_of(submission)
     if file.of("joystick"):
         seen, hint = "it starts a joystick, too: both would drive", "take the joy_node out:"
         raise Wrong("a recording only", seen, f"launch/{BAG}", f"{hint} {STICK} has it")
-    if bag.startswith(str(session.source)):
+    if bag.startswith(str(submission.source)):
         return note
-    is_portable = is_there(session, bag) and "$(find" in file.text.split("play", 1)[-1]
+    is_portable = is_there(submission, bag) and "$(find" in file.text.split("play", 1)[-1]
     hint = f"$(find {file.package})/bag/joy.bag goes wherever the package goes"
     return Note(f"the recording is not in your package: {bag}", where, "" if is_portable else hint)
 
 
 @check("C25", "launch_joy_node starts the four items", "5.1", "C21",
        look="roslaunch --nodes {n.package} launch_joy_node.launch", timeless=True)  # fmt: skip
-def stick_nodes(session: Session) -> Note | str | None:
-    file = LaunchFile(session, STICK)
+def stick_nodes(submission: Submission) -> Note | str | None:
+    file = LaunchFile(submission, STICK)
     note = _check_items(file)
     sender, first = file.demand("joy_node", file.of("joystick"), JOY_HINT), file.own[0]
-    own, sends = session.task.topic(JOY), topic_of(sender, JOY)
+    own, sends = submission.task.topic(JOY), topic_of(sender, JOY)
     listens = [topic_of(node, own) for node in file.own]
     if sends not in listens:
         seen = f"{sender['type']} sends them on {sends}, {first['type']} listens to {listens[0]}"
@@ -161,7 +161,7 @@ def plan_of(file: LaunchFile, twists: str = CMD_VEL) -> Plan:
     viewers = file.of("viewer")
     devices = [node["device"] for node in sticks if node["device"].startswith("/dev/input/")]
     return Plan(
-        os.path.relpath(file.path, file.session.source),
+        os.path.relpath(file.path, file.submission.source),
         topic_of(senders[0], JOY) if senders else JOY,
         twists,
         tuple(node["namespace"] + node["name"] for node in file.nodes if node not in viewers),
@@ -170,13 +170,13 @@ def plan_of(file: LaunchFile, twists: str = CMD_VEL) -> Plan:
     )
 
 
-def traced(session: Session, run: Run, expected: str) -> Wrong | None:
+def traced(submission: Submission, run: Run, expected: str) -> Wrong | None:
     """Return the Wrong for the first traceback that was printed, or None."""
     output = COLOUR.sub("", run.program.output)
-    trace = first_traceback(output, str(session.package(PACKAGE).folder))
+    trace = first_traceback(output, str(submission.package(PACKAGE).folder))
     if not trace:
         return None
-    return Wrong(expected, trace.error, *cause_of(session, PACKAGE, trace))
+    return Wrong(expected, trace.error, *cause_of(submission, PACKAGE, trace))
 
 
 def fault_of(file: LaunchFile, plan: Plan, run: Run, expected: str) -> Wrong:
@@ -192,45 +192,49 @@ def fault_of(file: LaunchFile, plan: Plan, run: Run, expected: str) -> Wrong:
         seen, hint = f"nothing on {', '.join(silent)}", hints[silent[0]]
     for error in (ERRORS.findall(run.program.output) or run.last_words)[:1]:
         seen += f"; {error.strip()[:200]}"
-    return traced(file.session, run, expected) or Wrong(expected, seen, f"launch/{file.name}", hint)
+    return traced(file.submission, run, expected) or Wrong(
+        expected, seen, f"launch/{file.name}", hint
+    )
 
 
-def _bag_run(session: Session) -> tuple[LaunchFile, Plan, Run]:
+def _bag_run(submission: Submission) -> tuple[LaunchFile, Plan, Run]:
     """Return launch_bag and what came of it, with a recording of the checker's own."""
-    bag, _ = bag_of(session)
-    file = LaunchFile(session, BAG)
+    bag, _ = bag_of(submission)
+    file = LaunchFile(submission, BAG)
     plan = plan_of(file)
-    inside = os.path.relpath(bag, session.source) if bag.startswith(str(session.source)) else ""
+    inside = (
+        os.path.relpath(bag, submission.source) if bag.startswith(str(submission.source)) else ""
+    )
     player = file.of("player")[0]
     is_looped = any(LOOP.fullmatch(word) for word in file.words_of(player))
     length_s = BAG_S if is_looped or player["respawn"] else ONCE_S
-    return file, plan, session.recording(bag_run, plan, inside, length_s, is_looped)
+    return file, plan, submission.recording(bag_run, plan, inside, length_s, is_looped)
 
 
 @check("C23", "launch_bag drives the robot", "5.1", "C22 C16",
        look="roslaunch {n.package} launch_bag.launch")  # fmt: skip
-def bag_drives(session: Session) -> None:
-    file, plan, run = _bag_run(session)
+def bag_drives(submission: Submission) -> None:
+    file, plan, run = _bag_run(submission)
     if not run.drives or not run.counts[plan.joys]:
         expected = "/joy, /cmd_vel and /odom flow, and the robot drives more than 0.3 m"
         raise fault_of(file, plan, run, expected)
 
 
 @check("C24", "the recording begins again at its end", "5.1", "C23", look="rostopic hz /joy")
-def bag_loops(session: Session) -> None:
-    file, _, run = _bag_run(session)
+def bag_loops(submission: Submission) -> None:
+    file, _, run = _bag_run(submission)
     if not run.loops and not file.of("player")[0]["respawn"]:
         expected = "/joy flows on after the end of the recording"
         hint = "rosbag play --loop: in args= of that node"
-        raise Wrong(expected, "it falls silent", bag_of(session)[1], hint)
+        raise Wrong(expected, "it falls silent", bag_of(submission)[1], hint)
 
 
 @check("C26", "launch_joy_node drives the robot", "5.1", "C25 C16",
        look="roslaunch {n.package} launch_joy_node.launch")  # fmt: skip
-def stick_drives(session: Session) -> None:
-    file = LaunchFile(session, STICK)
+def stick_drives(submission: Submission) -> None:
+    file = LaunchFile(submission, STICK)
     plan = plan_of(file)
-    run = session.recording(stick_run, plan)
+    run = submission.recording(stick_run, plan)
     if not run.drives:
         raise fault_of(file, plan, run, "the robot moves with the stick")
     if not run.rests:

@@ -12,19 +12,19 @@ from typing import Any
 from tutorial_check.checking import launch_errors
 from tutorial_check.checking.causes import meant
 from tutorial_check.checking.checks import check
-from tutorial_check.checking.manifest_errors import must_be_launchable
+from tutorial_check.checking.packages import must_be_launchable
 from tutorial_check.checking.programs import find_script
 from tutorial_check.checking.results import Note, Wrong
+from tutorial_check.checking.submission import Submission
 from tutorial_check.checking.texts import Lines, read, text_of_file
 from tutorial_check.recording.launch_facts import Node
+from tutorial_check.recording.launch_files import read_launch_files
 from tutorial_check.submission import launch_xml
-from tutorial_check.submission.files import Session
 from tutorial_check.submission.launch_xml import line_of, place_of
 from tutorial_check.submission.manifests import is_stand_in
 
 from ..joy2twist.checks import NAME
 from ..task import PACKAGE
-from .record import facts_of_files
 
 BAG, STICK = "launch_bag.launch", "launch_joy_node.launch"
 TURTLEBOT, REAL = "joy2twist_turtlebot.launch", "launch_joy_node_realTurtlebot.launch"
@@ -48,22 +48,22 @@ ATTRIBUTES = (
 class LaunchFile(Lines):
     """A launch file of the student's: its text, and what roslaunch makes of it."""
 
-    def __init__(self, session: Session, name: str) -> None:
-        self.session, self.name = session, name
-        self.path = find_launch(session, name)
-        self.where = shown(session, self.path)
+    def __init__(self, submission: Submission, name: str) -> None:
+        self.submission, self.name = submission, name
+        self.path = find_launch(submission, name)
+        self.where = shown(submission, self.path)
         self.text = read(self.path)
-        self.facts = _read(session)[name]
+        self.facts = _read(submission)[name]
         self.nodes: list[Node] = self.facts["nodes"]  # that it starts
-        self.package = session.task.named(PACKAGE)
+        self.package = submission.task.named(PACKAGE)
         self.own = [node for node in self.nodes if node["package"] == self.package]
 
     def at_node(self, node: Node) -> str:
         """Return FILE:LINE of a node, which may be in an included file."""
         path = Path(node["filename"])
-        path = path if self.session.is_own(path) else self.path
+        path = path if self.submission.is_own(path) else self.path
         words = (*launch_xml.attribute("type", node["type"]), Path(node["type"]).name)
-        return place_of(shown(self.session, path), read(path), *words)
+        return place_of(shown(self.submission, path), read(path), *words)
 
     def of(self, *roles: str) -> list[Node]:
         """Return the nodes that it starts of any of these ROLES."""
@@ -87,21 +87,21 @@ class LaunchFile(Lines):
             raise Wrong(expected, seen, self.at_node(node), hint) from None
 
 
-def shown(session: Session, path: str | Path) -> str:
+def shown(submission: Submission, path: str | Path) -> str:
     """Return the path of a file within the student's package, or else within src."""
-    inside = os.path.relpath(path, session.package(PACKAGE).folder)
-    return os.path.relpath(path, session.source) if inside.startswith("..") else inside
+    inside = os.path.relpath(path, submission.package(PACKAGE).folder)
+    return os.path.relpath(path, submission.source) if inside.startswith("..") else inside
 
 
-def copy_bag(session: Session) -> str:
+def copy_bag(submission: Submission) -> str:
     """Return the commands that put the suite's recording into the student's package."""
-    folder = session.whole("bag", PACKAGE)
+    folder = submission.whole("bag", PACKAGE)
     return f'mkdir -p {folder}; cp "$(rospack find gamepad)/bag/joy.bag" {folder}'
 
 
-def find_launch(session: Session, name: str) -> Path:
+def find_launch(submission: Submission, name: str) -> Path:
     """Return the path of a launch file in the student's package. Raises Wrong."""
-    folder, own = session.package(PACKAGE).folder, session.task.named(PACKAGE)
+    folder, own = submission.package(PACKAGE).folder, submission.task.named(PACKAGE)
     found = sorted(path for path in folder.rglob(name) if path.is_file())
     if len(found) > 1:
         inside = [str(path.relative_to(folder)) for path in found]
@@ -110,41 +110,43 @@ def find_launch(session: Session, name: str) -> Path:
         raise Wrong(f"one file {name}", seen, inside[1], f"{hint} {own}/launch")
     if found:
         return found[0]
-    paths = sorted(path for path in session.source.rglob("*launch*") if path.is_file())
+    paths = sorted(path for path in submission.source.rglob("*launch*") if path.is_file())
     others = {path.name.lower(): path for path in paths if path.name not in ALL}
-    expected = f"{session.task.names.package}/launch/{name}"
+    expected = f"{submission.task.names.package}/launch/{name}"
     for near in difflib.get_close_matches(name.lower(), others, 1, 0.85):
-        other = os.path.relpath(others[near], session.source)
+        other = os.path.relpath(others[near], submission.source)
         hint = f"its name must be {name}, and its place {own}/launch"
         raise Wrong(expected, f"a file {other}", other, hint)
     hint = f"write it: launch/{name} in YOUR package. ./tutorial shell without --in has one of OURS"
     raise Wrong(expected, "no such file in your package", f"{PACKAGE}/launch", hint)
 
 
-def _read(session: Session) -> dict[str, dict[str, Any]]:
+def _read(submission: Submission) -> dict[str, dict[str, Any]]:
     """Return {name: facts} of those of the four that are there."""
-    must_be_launchable(session)
-    folder = session.package(PACKAGE).folder
+    must_be_launchable(submission)
+    folder = submission.package(PACKAGE).folder
     files = (path for name in ALL for path in sorted(folder.rglob(name))[::-1] if path.is_file())
-    paths = {path.name: os.path.relpath(path, session.source) for path in files}  # the first ones
-    facts = session.recording(facts_of_files, *paths.values()).files
+    paths = {
+        path.name: os.path.relpath(path, submission.source) for path in files
+    }  # the first ones
+    facts = submission.recording(read_launch_files, *paths.values()).files
     if facts is None:
         seen, hint = "reading them does not end", "roslaunch --nodes FILE"
         raise Wrong("launch files that roslaunch can read", seen, hint=hint)
     return {Path(one["path"]).name: one for one in facts}
 
 
-def check_file(session: Session, name: str) -> LaunchFile:
+def check_file(submission: Submission, name: str) -> LaunchFile:
     """Return the LaunchFile: it exists, parses, each $(find) leads where it may. Raises Wrong."""
     try:
-        file = LaunchFile(session, name)
+        file = LaunchFile(submission, name)
         _check_text(file)
         for node in file.nodes:
             _check_node(file, node)
         _check_finds(file)
         return file
     except Wrong as wrong:
-        wrong.look = wrong.look or f"roslaunch --nodes {session.task.names.package} {name}"
+        wrong.look = wrong.look or f"roslaunch --nodes {submission.task.names.package} {name}"
         raise
 
 
@@ -170,14 +172,16 @@ def _check_text(file: LaunchFile) -> None:
 
 def _fault(file: LaunchFile, fault: launch_xml.Fault) -> Wrong:
     """Return the Wrong for what roslaunch cannot read, in this file or in an included one."""
-    session = file.session
-    path, line = launch_errors.blamed(fault, session.is_own)
+    submission = file.submission
+    path, line = launch_errors.blamed(fault, submission.is_own)
     text = text_of_file(Path(path))
-    wrong = launch_errors.parse_error(fault, shown(session, path), line, text, session.may_see)
+    wrong = launch_errors.parse_error(
+        fault, shown(submission, path), line, text, submission.may_see
+    )
     inner, number = fault.places[-1]
-    if not session.is_own(inner) and fault.kind != launch_errors.UNSET:
+    if not submission.is_own(inner) and fault.kind != launch_errors.UNSET:
         wrong.seen += f" (in {inner}:{number})"
-    hiding = (each for each in session.packages if each.folder in Path(path).parents)
+    hiding = (each for each in submission.packages if each.folder in Path(path).parents)
     for name in (each.name for each in hiding if is_stand_in(each.name)):
         wrong.hint += f"; or remove {name} from src: this suite has one that needs nothing else"
     return wrong
@@ -194,9 +198,9 @@ def _check_words(file: LaunchFile, said: str) -> None:
         hint = f"lower case: <{tag.lower()}>"
     written = rf"<{tag}\b" if tag else rf"\s{name}\s*="
     for path in (file.path, *map(Path, file.facts["files"])):
-        found = file.session.is_own(path) and re.search(written, read(path))
+        found = file.submission.is_own(path) and re.search(written, read(path))
         if found:  # else it is in a file of others
-            where = f"{shown(file.session, path)}:{line_of(read(path), found.end())}"
+            where = f"{shown(file.submission, path)}:{line_of(read(path), found.end())}"
             expected = "tags and attributes that roslaunch knows"
             raise Wrong(expected, f"{tag or name}: ignored by roslaunch", where, hint)
 
@@ -211,29 +215,29 @@ def _check_node(file: LaunchFile, node: Node) -> None:
         raise Wrong("programs in <node>", f'type="{kind}"', place, hint)
     if node["found"] or (package, kind) == ("rviz", "rviz"):
         return
-    session, seen = file.session, f"Cannot locate node of type [{kind}]"
+    submission, seen = file.submission, f"Cannot locate node of type [{kind}]"
     if package != file.package:
         hint = "look at pkg= and type=: rosrun PACKAGE and Tab twice lists its programs"
         hint = launch_errors.package_hint(package) if node["found"] is None else hint
         if difflib.get_close_matches(kind, ["joy_node"], 1, 0.8):
             hint = JOY_HINT
         raise Wrong("nodes that exist", f"{seen} in package [{package}]", place, hint)
-    files = [path for path in session.package(PACKAGE).folder.rglob("*") if path.is_file()]
+    files = [path for path in submission.package(PACKAGE).folder.rglob("*") if path.is_file()]
     for path in (path for path in files if path.name == kind):
-        hint = f"chmod +x {session.whole(path, PACKAGE)}"
+        hint = f"chmod +x {submission.whole(path, PACKAGE)}"
         raise Wrong(f"{kind} may be run", "it is not executable", place, hint)
     if kind == NAME:
-        find_script(session, PACKAGE, NAME)  # which says what is there in its place
+        find_script(submission, PACKAGE, NAME)  # which says what is there in its place
     hint = meant(kind, sorted(path.name for path in files), 0.7, 'type="{}"')
     hint = hint or "type is the name of the file, with .py"
     hint = JOY_HINT if kind == "joy_node" else hint
-    raise Wrong(f"a program {kind} in {session.task.names.package}", seen, place, hint)
+    raise Wrong(f"a program {kind} in {submission.task.names.package}", seen, place, hint)
 
 
 def _check_finds(file: LaunchFile) -> None:
     """Raise Wrong for a $(find joy2twist) of a file that the student does not have."""
-    folder, package = file.session.package(PACKAGE).folder, file.package
-    shown_as = file.session.task.names.package
+    folder, package = file.submission.package(PACKAGE).folder, file.package
+    shown_as = file.submission.task.names.package
     for number, line in enumerate(file.text.splitlines(), 1):
         for rest in re.findall(rf"\$\(find\s+{package}\)([^\s\"'<>$]*)", line):
             if not rest.strip("/") or (folder / rest.strip("/")).exists():
@@ -241,7 +245,7 @@ def _check_finds(file: LaunchFile) -> None:
             name = Path(rest).name
             hint = f"write {name} in YOUR package"
             if rest.endswith(".bag"):
-                hint = copy_bag(file.session)
+                hint = copy_bag(file.submission)
             there = sorted(each.relative_to(folder) for each in folder.rglob(name))
             if there:
                 hint = f"it is elsewhere: $(find {package})/{there[0]}"
@@ -252,5 +256,5 @@ def _check_finds(file: LaunchFile) -> None:
 
 @check("C21", "the two launch files can be read, and what they name is there", "5.1", "C12",
        look="roslaunch --nodes {n.package} launch_bag.launch", timeless=True)  # fmt: skip
-def files(session: Session) -> Note | str | None:
-    return ", ".join(check_file(session, name).where for name in (BAG, STICK))
+def files(submission: Submission) -> Note | str | None:
+    return ", ".join(check_file(submission, name).where for name in (BAG, STICK))

@@ -6,10 +6,10 @@ import re
 from pathlib import Path
 
 from tutorial_check.checking.checks import check
-from tutorial_check.checking.manifest_errors import must_be_launchable
+from tutorial_check.checking.packages import must_be_launchable
 from tutorial_check.checking.programs import cause_of, check_file, crash, must_be_one
 from tutorial_check.checking.results import Note, Wrong
-from tutorial_check.submission.files import Session
+from tutorial_check.checking.submission import Submission
 from tutorial_check.submission.python_facts import ClassFacts, PythonFacts, with_bases
 from tutorial_check.submission.python_text import without_name
 from tutorial_check.submission.tracebacks import first_traceback, last_lines
@@ -24,9 +24,9 @@ ARGUMENTS_HINT = "roslaunch gives it arguments such as __name:=...; rospy.myargv
 REPORTS = re.compile(r"Traceback|Error\b|Exception|not defined|exceeded|\[(?:ERROR|FATAL|WARN)\]")
 
 
-def _class_of(session: Session) -> tuple[str, ClassFacts] | None:
+def _class_of(submission: Submission) -> tuple[str, ClassFacts] | None:
     """Return (path, ClassFacts) of the class that deals with ROS, of several the likeliest one."""
-    scripts, folder = session.scripts(PACKAGE), session.package(PACKAGE).folder
+    scripts, folder = submission.scripts(PACKAGE), submission.package(PACKAGE).folder
     owned = [(path, one) for path, facts in scripts.items() for one in facts.classes]
     bases = {base.rpartition(".")[2] for _, one in owned for base in one.bases}
     whole = zip(owned, with_bases([one for _, one in owned]))
@@ -52,20 +52,20 @@ def _fits(words: str) -> bool:
     return bool(re.search(r"joy.*twist", words, re.IGNORECASE))
 
 
-def program(session: Session) -> tuple[str, str, ClassFacts]:
+def program(submission: Submission) -> tuple[str, str, ClassFacts]:
     """Return (the program to start, the file with the class, its ClassFacts). Raises Wrong."""
-    scripts, found = session.scripts(PACKAGE), _class_of(session)
+    scripts, found = submission.scripts(PACKAGE), _class_of(submission)
     if not found:
         for path in (path for path, facts in scripts.items() if facts.error and _fits(path)):
-            check_file(session, PACKAGE, path)
+            check_file(submission, PACKAGE, path)
         named = [path for path in scripts if re.search(r"new|class", path, re.IGNORECASE)]
-        names = session.task.names
+        names = submission.task.names
         expected = f"a class that subscribes to {names.joy} and publishes on {names.cmd_vel}"
         hint = "class NewJoy2Twist: with __init__(self), callback(self, data), shutdown(self)"
         seen = f"no class in any program of {names.package}"
         raise Wrong(expected, seen, next(iter(named), ""), hint)
     path, one = found
-    file = session.package(PACKAGE).folder / path
+    file = submission.package(PACKAGE).folder / path
     if scripts[path].has_main or file.stat().st_mode & 0o100 or "src/" not in path:
         return path, path, one
     stem = Path(path).stem
@@ -96,12 +96,12 @@ def _check_given(path: str, one: ClassFacts, facts: PythonFacts, name: str, plac
 
 @check("C29", "the program is a class", "6.2", "C12", look="rosrun {n.package} THE_CLASS",
        timeless=True)  # fmt: skip
-def is_class(session: Session) -> Note | str | None:
-    script, path, one = program(session)
-    must_be_one(session.package(PACKAGE).folder, Path(script).name)
-    check_file(session, PACKAGE, script)
-    check_manifest(session, script)
-    facts, scripts = session.scripts(PACKAGE)[path], session.scripts(PACKAGE).values()
+def is_class(submission: Submission) -> Note | str | None:
+    script, path, one = program(submission)
+    must_be_one(submission.package(PACKAGE).folder, Path(script).name)
+    check_file(submission, PACKAGE, script)
+    check_manifest(submission, script)
+    facts, scripts = submission.scripts(PACKAGE)[path], submission.scripts(PACKAGE).values()
     expected = "a class with __init__, its callback bound to self, made under __main__"
     odd = [each for each in one.methods if re.fullmatch(r"_*init_*", each)]
     if "__init__" not in odd and (odd or not one.bases):
@@ -127,28 +127,28 @@ def is_class(session: Session) -> Note | str | None:
 
 @check("C30", "the class does what the functions did", "6.2", "C29",
        look="rostopic echo {n.cmd_vel}")  # fmt: skip
-def behaves(session: Session) -> Note | str | None:
-    script, _, _ = program(session)
-    notes: list[object] = [judge.displays(session, script, few_are_enough=True)]
-    notes += [each(session, script) for each in (judge.topics, judge.mapping, judge.rate)]
+def behaves(submission: Submission) -> Note | str | None:
+    script, _, _ = program(submission)
+    notes: list[object] = [judge.displays(submission, script, few_are_enough=True)]
+    notes += [each(submission, script) for each in (judge.topics, judge.mapping, judge.rate)]
     return next((note for note in notes if isinstance(note, Note)), None)
 
 
-def _endings(session: Session) -> Endings:
-    must_be_launchable(session)
-    found = session.recording(endings, program(session)[0])
+def _endings(submission: Submission) -> Endings:
+    must_be_launchable(submission)
+    found = submission.recording(endings, program(submission)[0])
     if found.program:
         how = "by a launch file" if found.failed == LAUNCH else "under another name"
         expected = f"the class drives, started {how} as well"
-        raise crash(session, PACKAGE, found.program, expected, ARGUMENTS_HINT)
+        raise crash(submission, PACKAGE, found.program, expected, ARGUMENTS_HINT)
     return found
 
 
 @check("C31", "ended, it stops the robot", "6.2", "C30",
        look="rostopic echo {n.cmd_vel}; Ctrl-C in the node's terminal")  # fmt: skip
-def stops(session: Session) -> Note | str | None:
-    _, path, _ = program(session)
-    seen, facts = _endings(session), session.scripts(PACKAGE)[path]
+def stops(submission: Submission) -> Note | str | None:
+    _, path, _ = program(submission)
+    seen, facts = _endings(submission), submission.scripts(PACKAGE)[path]
     call = facts.first("on_shutdown")
     where = f"{path}:{call.line}" if call else path
     expected = "ended while it drives, it sends an all-zero Twist and is gone within 3 s"
@@ -164,16 +164,16 @@ def stops(session: Session) -> Note | str | None:
             sleep, publish = (min(called.get(name, [0])) for name in ("sleep", "publish"))
             if 0 < sleep < publish:
                 where, hint = f"{path}:{sleep}", "in shutdown first the zero, then the sleep"
-            trace = first_traceback(end.output, str(session.package(PACKAGE).folder))
+            trace = first_traceback(end.output, str(submission.package(PACKAGE).folder))
             if trace:
-                place, hint = cause_of(session, PACKAGE, trace, Path(path).name)
+                place, hint = cause_of(submission, PACKAGE, trace, Path(path).name)
                 words, where = trace.error, place or where
                 sure = sure or trace.error.startswith(("NameError", "TypeError"))
         raise Wrong(expected, f"after {way}: {words}", where, hint, sure)
     if not seen.robot_rests:
         expected = "the robot stands within a second of the end of the node"
         hint = "what the program has started ends with it; who publishes? rostopic info "
-        hint += session.task.answers.cmd_vel
+        hint += submission.task.answers.cmd_vel
         raise Wrong(expected, "the node is gone, and the robot still drives", where, hint)
     return ", ".join(
         f"{way}: zero after {1000 * (end.zero_after_s or 0.0):.0f} ms,"
@@ -198,29 +198,29 @@ def _complaint(end: End, is_registered: bool) -> tuple[str, str]:
 
 
 @check("C32", "nothing follows the zero", "6.2", "C31", look="rostopic echo {n.cmd_vel}")
-def nothing_after(session: Session) -> Note | str | None:
+def nothing_after(submission: Submission) -> Note | str | None:
     """Note moving Twists after the zero; no failure, as the handout's listing sends some."""
-    most = max(end.after_zero for end in _endings(session).ends.values())
+    most = max(end.after_zero for end in _endings(submission).ends.values())
     if not most:
         return None
     seen = f"{most} moving Twists followed the zero:"
     seen += " the callback goes on during shutdown (the handout's does, too)"
     hint = "self.sub = rospy.Subscriber(...) in __init__;"
     hint += " in shutdown self.sub.unregister() first, then the zero"
-    return Note(seen, program(session)[1], hint)
+    return Note(seen, program(submission)[1], hint)
 
 
 @check("C33", "its errors are seen", "6.2", "C30",
        look="rosrun {n.package} THE_CLASS, without a joystick")  # fmt: skip
-def errors_are_seen(session: Session) -> Note | str | None:
-    script, path, _ = program(session)
-    text = without_name(session.text(PACKAGE, script), "Joy")
-    seen = session.recording(alone, script, text or "")
-    excepts = session.scripts(PACKAGE)[path].broad_excepts
+def errors_are_seen(submission: Submission) -> Note | str | None:
+    script, path, _ = program(submission)
+    text = without_name(submission.text(PACKAGE, script), "Joy")
+    seen = submission.recording(alone, script, text or "")
+    excepts = submission.scripts(PACKAGE)[path].broad_excepts
     where = f"{path}:{excepts[0].lineno}" if excepts else path
     output = seen.program.output
     if seen.ended and not REPORTS.search(output):
-        words = f"nobody publishes on {session.task.names.joy}, and it ends; it printed: "
+        words = f"nobody publishes on {submission.task.names.joy}, and it ends; it printed: "
         words += last_lines(output) or "nothing"
         hint = "a Subscriber waits by itself, for as long as it takes;"
         hint += " what an except catches, it should show"

@@ -11,9 +11,9 @@ from typing import Dict, Optional
 from tutorial_check.processes.errors import CannotCheck
 from tutorial_check.processes.program import Program, Ran
 from tutorial_check.recording.data import Heard
-from tutorial_check.recording.ground import Ground
-from tutorial_check.recording.ros_session import Stage
+from tutorial_check.recording.ros_session import RosSession
 from tutorial_check.recording.simulated_robot import ODOM
+from tutorial_check.recording.workspace import Workspace
 from tutorial_check.submission import student_files
 
 from ..driving.record import CMD_VEL, JOY, NEUTRAL
@@ -64,92 +64,92 @@ class Endings:
     robot_rests: bool = True  # when all have gone
 
 
-def alone(ground: Ground, script: str, text: str) -> Alone:
+def alone(workspace: Workspace, script: str, text: str) -> Alone:
     """Start it without a joystick. text: of the copy; empty: there is none."""
-    joy = ground.task.topic(JOY)
-    with ground.stage() as stage:
-        program, broken = stage.start(PACKAGE, script), None
+    joy = workspace.task.topic(JOY)
+    with workspace.ros_session() as ros:
+        program, broken = ros.start(PACKAGE, script), None
         if text:
-            copy = ground.sibling(PACKAGE, script, text)
-            broken = stage.start(PACKAGE, copy, "__name:=broken")
-        stage.wait_for_start(lambda: program.ended or joy in stage.driver.state()[1])
-        stage.wait(lambda: program.ended, ALONE_S)
-        stage.wait_for_start(lambda: broken is None or broken.ended)
+            copy = workspace.sibling(PACKAGE, script, text)
+            broken = ros.start(PACKAGE, copy, "__name:=broken")
+        ros.wait_for_start(lambda: program.ended or joy in ros.peer.state()[1])
+        ros.wait(lambda: program.ended, ALONE_S)
+        ros.wait_for_start(lambda: broken is None or broken.ended)
         ended, broken_ended = program.ended, broken is not None and broken.ended
     return Alone(program.ran, ended, broken.ran if broken else None, broken_ended)
 
 
-def endings(ground: Ground, script: str) -> Endings:
-    with ground.stage() as stage:
-        robot = stage.start_ours("fake_turtlebot_sim", "fake_turtlebot.py")
-        stage.driver.advertise(JOY, "Joy")
-        stage.driver.listen(CMD_VEL, "Twist")
-        stage.driver.listen(ODOM, "Odometry")
-        programs = {way: _start(ground, stage, script, way) for way in NODES}
-        failed = _drive(ground, stage, programs)
+def endings(workspace: Workspace, script: str) -> Endings:
+    with workspace.ros_session() as ros:
+        robot = ros.start_ours("fake_turtlebot_sim", "fake_turtlebot.py")
+        ros.peer.advertise(JOY, "Joy")
+        ros.peer.listen(CMD_VEL, "Twist")
+        ros.peer.listen(ODOM, "Odometry")
+        programs = {way: _start(workspace, ros, script, way) for way in NODES}
+        failed = _drive(workspace, ros, programs)
         if failed:
             return Endings(failed, programs[failed].ran)
-        found = _end(ground, stage, programs)
+        found = _end(workspace, ros, programs)
         if robot.ended:
             raise CannotCheck(f"the simulated robot has ended: {robot.output[-200:]}")
     return found
 
 
-def _start(ground: Ground, stage: Stage, script: str, way: str) -> Program:
+def _start(workspace: Workspace, ros: RosSession, script: str, way: str) -> Program:
     name = NODES[way][1:]
     if way != LAUNCH:
-        return stage.start(PACKAGE, script, f"__name:={name}")
-    file = ground.folder / "tmp" / "ended.launch"
-    package, program = ground.task.named(PACKAGE), Path(script).name
+        return ros.start(PACKAGE, script, f"__name:={name}")
+    file = workspace.folder / "tmp" / "ended.launch"
+    package, program = workspace.task.named(PACKAGE), Path(script).name
     text = LAUNCH_FILE.format(package=package, program=program, name=name)
-    student_files.put(ground.folder, file, text)
-    return stage.launch(["roslaunch", str(file)])
+    student_files.put(workspace.folder, file, text)
+    return ros.launch(["roslaunch", str(file)])
 
 
-def _twists(stage: Stage, since: int = 0) -> dict[str, list[Heard]]:
+def _twists(ros: RosSession, since: int = 0) -> dict[str, list[Heard]]:
     """Return {way: what that node has sent}."""
-    received = stage.driver.received(CMD_VEL, since)
+    received = ros.peer.received(CMD_VEL, since)
     return {way: [one for one in received if one[1] == name] for way, name in NODES.items()}
 
 
-def _robot_rests(stage: Stage) -> bool:
-    last = stage.driver.received(ODOM, -1)
+def _robot_rests(ros: RosSession) -> bool:
+    last = ros.peer.received(ODOM, -1)
     return bool(last) and max(map(abs, last[0][2][5:])) < 0.01
 
 
-def _drive(ground: Ground, stage: Stage, programs: dict[str, Program]) -> str:
+def _drive(workspace: Workspace, ros: RosSession, programs: dict[str, Program]) -> str:
     """Drive until they all move the robot; return the first way in which one does not."""
 
     def one_has_ended() -> bool:
         return any(each.ended for each in programs.values())
 
     def are_connected() -> bool:
-        ends = stage.driver.listeners(JOY), stage.driver.publishers(CMD_VEL)
-        return min(ends) >= len(programs) and bool(stage.driver.count(ODOM))
+        ends = ros.peer.listeners(JOY), ros.peer.publishers(CMD_VEL)
+        return min(ends) >= len(programs) and bool(ros.peer.count(ODOM))
 
     def moving() -> list[int]:
-        return [sum(one[2] != ZERO for one in sent) for sent in _twists(stage).values()]
+        return [sum(one[2] != ZERO for one in sent) for sent in _twists(ros).values()]
 
-    stage.wait_for_start(lambda: one_has_ended() or are_connected())
+    ros.wait_for_start(lambda: one_has_ended() or are_connected())
     # The robot obeys a node that has sent it zeros before.
-    stage.driver.stream(JOY, [NEUTRAL], 50.0, True)
-    stage.wait(lambda: one_has_ended() or min(map(len, _twists(stage).values())) >= 5, 0.5)
-    stage.driver.end_stream(JOY)
-    stage.driver.stream(JOY, [held(ground, 0.2, 0.3)], 50.0, True)
-    stage.wait(lambda: one_has_ended() or (min(moving()) >= 10 and not _robot_rests(stage)), 4.0)
+    ros.peer.stream(JOY, [NEUTRAL], 50.0, True)
+    ros.wait(lambda: one_has_ended() or min(map(len, _twists(ros).values())) >= 5, 0.5)
+    ros.peer.end_stream(JOY)
+    ros.peer.stream(JOY, [held(workspace, 0.2, 0.3)], 50.0, True)
+    ros.wait(lambda: one_has_ended() or (min(moving()) >= 10 and not _robot_rests(ros)), 4.0)
     counts = zip(programs.items(), moving())
     return next((way for (way, each), count in counts if each.ended or not count), "")
 
 
-def _end(ground: Ground, stage: Stage, programs: dict[str, Program]) -> Endings:
-    runner = ground.runner
-    launched = stage.driver.node_process(NODES[LAUNCH])
-    index = stage.driver.count(CMD_VEL)
+def _end(workspace: Workspace, ros: RosSession, programs: dict[str, Program]) -> Endings:
+    runner = workspace.runner
+    launched = ros.peer.node_process(NODES[LAUNCH])
+    index = ros.peer.count(CMD_VEL)
     began_s = time.monotonic()  # one clock for all processes
     took_s: dict[str, float] = {}
     for way in (CTRL_C, LAUNCH):
         programs[way].signal(signal.SIGINT)
-    stage.driver.kill_node(NODES[KILL])
+    ros.peer.kill_node(NODES[KILL])
 
     def all_gone() -> bool:
         for way, each in programs.items():
@@ -161,19 +161,19 @@ def _end(ground: Ground, stage: Stage, programs: dict[str, Program]) -> Endings:
 
     def stopped() -> dict[str, bool]:
         all_gone()
-        sent = _twists(stage, index)
+        sent = _twists(ros, index)
         return {way: way in took_s or ZERO in [one[2] for one in sent[way]] for way in NODES}
 
     before_s = runner.clock.now()
-    stage.wait(lambda: all(stopped().values()), STOP_S)
+    ros.wait(lambda: all(stopped().values()), STOP_S)
     in_time = stopped()
-    stage.wait(all_gone, GONE_S + 0.5 - (runner.clock.now() - before_s))
-    rests = bool(stage.wait(lambda: _robot_rests(stage), STANDS_S)) or not all_gone()
-    stage.driver.end_stream(JOY)
+    ros.wait(all_gone, GONE_S + 0.5 - (runner.clock.now() - before_s))
+    rests = bool(ros.wait(lambda: _robot_rests(ros), STANDS_S)) or not all_gone()
+    ros.peer.end_stream(JOY)
     runner.end_all(list(programs.values()), 0.2)
-    stage.wait(lambda: not stage.driver.publishers(CMD_VEL), 3.0)
+    ros.wait(lambda: not ros.peer.publishers(CMD_VEL), 3.0)
     ends = {}
-    for way, sent in _twists(stage, index).items():
+    for way, sent in _twists(ros, index).items():
         first = next((at for at, (_, _, value) in enumerate(sent) if value == ZERO), None)
         ends[way] = End(
             zero_after_s=None if first is None else max(0.0, sent[first][0] - began_s),

@@ -13,34 +13,32 @@ from tutorial_check.checking.causes import is_lacking, packages_of_ros
 from tutorial_check.checking.checks import check
 from tutorial_check.checking.manifest_errors import must_be_one, unreadable
 from tutorial_check.checking.results import Note, Wrong
+from tutorial_check.checking.submission import Submission
 from tutorial_check.checking.texts import read
 from tutorial_check.recording.build import built
 from tutorial_check.recording.builder import Built
 from tutorial_check.recording.own_build import own_built
-from tutorial_check.submission.files import Session
 from tutorial_check.submission.launch_xml import place_of
 from tutorial_check.submission.manifests import is_stand_in
 from tutorial_check.submission.packages import Package, packages_beside, underlays
-
-from .wanted import WANTED
 
 SUITE = ("node_kit", "fake_turtlebot_sim")  # packages of the underlay
 AGAIN = "in the workspace: rm -r build devel, then catkin_make"
 
 
 @check("C1", "the workspace", "2.1", look="ls src devel", timeless=True, eager=True)
-def workspace(session: Session) -> Note | str | None:
-    layout = session.layout
+def workspace(submission: Submission) -> Note | str | None:
+    layout = submission.layout
     if not layout.source.is_dir():
         seen = f"none in {layout.root}, and no package"
         hint = "is this your workspace? --in ~/ros/hydro/catkin_ws; a new one begins with src"
         raise Wrong("a folder src in the workspace", seen, hint=hint)
-    _check_names(session)
+    _check_names(submission)
     if not layout.is_workspace:
         return Note("handed in as packages, without their workspace: built again here")
     devel = layout.root / "devel"
     real = Path(os.path.realpath(devel / "setup.sh"))
-    if layout.root.resolve() not in real.parents and not session.may_see(real):
+    if layout.root.resolve() not in real.parents and not submission.may_see(real):
         return Note("never built here (devel is a link that leads elsewhere)")
     made_for, below = underlays(devel)
     setup = devel / "setup.bash"
@@ -58,15 +56,15 @@ def workspace(session: Session) -> Note | str | None:
     if not any(devel.glob("setup.*")):  # git may leave these out
         return Note("its devel folder has no setup.bash; built again here", hint=AGAIN)
     own = str(devel.resolve())
-    return _over(session, [each for each in below if os.path.realpath(each) != own])
+    return _over(submission, [each for each in below if os.path.realpath(each) != own])
 
 
-def _over(session: Session, below: Sequence[str]) -> Note | str:
+def _over(submission: Submission, below: Sequence[str]) -> Note | str:
     """Return what is said of the folders that a workspace was built over. Raises Wrong.
 
     One that is built over a ROS in /opt/ros is as such a ROS wants it; here it is built again.
     """
-    suite = os.path.realpath(Path(session.order.underlay).parent)
+    suite = os.path.realpath(Path(submission.order.underlay).parent)
     if suite in map(os.path.realpath, below):
         return "src and devel, on top of this suite"
     if below and all(each.startswith("/opt/ros/") for each in below):
@@ -83,13 +81,13 @@ def _over(session: Session, below: Sequence[str]) -> Note | str:
     raise Wrong("a workspace built on top of this suite", seen, "devel", hint)
 
 
-def _check_names(session: Session) -> None:
+def _check_names(submission: Submission) -> None:
     """Raise Wrong for a package with the name of one that the exercises need."""
-    share = Path(session.order.underlay).parent / "share"
-    for each in session.packages:
+    share = Path(submission.order.underlay).parent / "share"
+    for each in submission.packages:
         is_suite = (share / each.name).is_dir() and not is_stand_in(each.name)
         brings = (each.folder / "msg", each.folder / "src" / each.name)
-        is_ros = any(each.name in names for names in WANTED.values())
+        is_ros = any(each.name in _wanted(submission, name) for name in submission.course.packages)
         # A clone of the real one is no package that catkin_create_pkg made by mistake.
         if is_suite or (is_ros and not any(map(Path.is_dir, brings))):
             seen = f"a package {each.name}: it hides {'the suite' if is_suite else 'ROS'}'s own"
@@ -98,16 +96,21 @@ def _check_names(session: Session) -> None:
             raise Wrong("packages of names of their own", seen, f"src/{each.inside}", hint)
 
 
-def _package(session: Session, name: str) -> Package:
-    packages, expected = session.packages, f"one package {session.task.shown(name)} in src"
-    own = session.task.named(name)
+def _wanted(submission: Submission, name: str) -> list[str]:
+    """Return what a package of the exercises has to depend on."""
+    return submission.course.packages[name].split()
+
+
+def _package(submission: Submission, name: str) -> Package:
+    packages, expected = submission.packages, f"one package {submission.task.shown(name)} in src"
+    own = submission.task.named(name)
     named = [each for each in packages if each.name == own]
     broken = [each for each in packages if each.error and own in (each.name, each.folder.name)]
     if broken:
         raise unreadable(broken[0])
     must_be_one(named)
     if not named:
-        raise _missing(session, name, expected)
+        raise _missing(submission, name, expected)
     outer = [each for each in packages if each.folder in named[0].folder.parents]
     if outer:
         seen = f"it is within another package, {outer[0].inside}"
@@ -120,32 +123,33 @@ def _plain(name: str) -> str:
     return re.sub(r"[^a-z0-9]", "", name.lower())
 
 
-def _missing(session: Session, name: str, expected: str) -> Wrong:
+def _missing(submission: Submission, name: str, expected: str) -> Wrong:
     """Return the Wrong for a package that is not there, or is elsewhere, or has another name."""
-    own = session.task.named(name)
-    for beside in (each.inside for each in packages_beside(session.layout) if each.name == own):
-        hint = f"mv {session.whole(beside)} {session.whole('src')}"
+    own = submission.task.named(name)
+    for beside in (each.inside for each in packages_beside(submission.layout) if each.name == own):
+        hint = f"mv {submission.whole(beside)} {submission.whole('src')}"
         return Wrong(expected, f"it is beside src: {beside}", beside, hint)
-    link = session.layout.source / own
+    link = submission.layout.source / own
     leads_to = os.readlink(link) if link.is_symlink() and not link.exists() else ""
     if leads_to:
         seen = f"src/{own} is a link to {leads_to}, and leads nowhere here"
         return Wrong(expected, seen, f"src/{own}", "put the folder itself into src, no link")
-    named = {_plain(word): p for p in session.packages for word in (p.name, p.folder.name)}
+    named = {_plain(word): p for p in submission.packages for word in (p.name, p.folder.name)}
     for near in difflib.get_close_matches(_plain(own), named, 1, 0.8):
         similar = named[near]
         hint = f"its name must be exactly {own}: lower case, with _ and without -;"
         hint += " in package.xml, CMakeLists.txt and the folder"
         seen, where = f"a package called {similar.name}", f"{similar.inside}/package.xml"
         return Wrong(expected, seen, where, hint)
-    found = ", ".join(each.name for each in session.packages) or "no package at all"
-    hint = f"cd to src of your workspace; catkin_create_pkg {own} {' '.join(WANTED[name])}."
+    found = ", ".join(each.name for each in submission.packages) or "no package at all"
+    depends = submission.course.packages[name]
+    hint = f"cd to src of your workspace; catkin_create_pkg {own} {depends}."
     hint += " ./tutorial shell without --in has one of OURS"
     return Wrong(expected, f"none; found: {found}", hint=hint)
 
 
-def _dependencies(session: Session, name: str) -> Package:
-    package, wanted = _package(session, name), WANTED[name]
+def _dependencies(submission: Submission, name: str) -> Package:
+    package, wanted = _package(submission, name), _wanted(submission, name)
     where = f"{package.inside}/package.xml"
     for odd in sorted(package.depends):
         if not re.fullmatch(r"[a-z][a-z0-9_+-]*", odd, re.IGNORECASE):
@@ -155,7 +159,7 @@ def _dependencies(session: Session, name: str) -> Package:
     missing = [each for each in wanted if each not in package.depends]
     others = sorted(package.depends - set(wanted))
     # What is a package is not misspelt.
-    others_known = (packages_of_ros, is_lacking, lambda name: _is_known(session, name))
+    others_known = (packages_of_ros, is_lacking, lambda name: _is_known(submission, name))
     unknown = [name for name in others if not any(knows(name) for knows in others_known)]
     if not missing:  # one kind of dependency may name it rightly
         meant = (difflib.get_close_matches(each, wanted, 1, 0.8) for each in unknown)
@@ -182,31 +186,31 @@ def _dependencies(session: Session, name: str) -> Package:
 
 @check("C2", "package beginner_tutorials", "2.1", look="rospack find beginner_tutorials",
        timeless=True)  # fmt: skip
-def beginner(session: Session) -> Note | str | None:
-    return f"src/{_package(session, 'beginner_tutorials').inside}"
+def beginner(submission: Submission) -> Note | str | None:
+    return f"src/{_package(submission, 'beginner_tutorials').inside}"
 
 
 @check("C3", "its dependencies", "2.1", "C2", look="rospack depends1 beginner_tutorials",
        timeless=True)  # fmt: skip
-def beginner_dependencies(session: Session) -> None:
-    _dependencies(session, "beginner_tutorials")
+def beginner_dependencies(submission: Submission) -> None:
+    _dependencies(submission, "beginner_tutorials")
 
 
 @check("C12", "package {n.package} and its dependencies", "4.3", look="rospack find {n.package}",
        timeless=True)  # fmt: skip
-def joy2twist(session: Session) -> Note | str | None:
-    package = _dependencies(session, "joy2twist")
+def joy2twist(submission: Submission) -> Note | str | None:
+    package = _dependencies(submission, "joy2twist")
     found = re.search(r"find_package\s*\(\s*catkin\b[^)]*\bCOMPONENTS\b([^)]*)\)", _cmake(package))
     for name in found[1].split() if found else ():
-        if not _is_known(session, name) and name in missing_in(_printed(session)):
-            raise Wrong("packages that catkin can find", *not_found(session, name))
+        if not _is_known(submission, name) and name in missing_in(_printed(submission)):
+            raise Wrong("packages that catkin can find", *not_found(submission, name))
     return f"src/{package.inside}"
 
 
-def _is_known(session: Session, name: str) -> bool:
+def _is_known(submission: Submission, name: str) -> bool:
     """Return whether find_package surely finds a package; if not, only a build shows it, slowly."""
-    prefixes = session.underlay_environment.get("CMAKE_PREFIX_PATH", "").split(":")
-    if any(each.name == name for each in session.packages):
+    prefixes = submission.underlay_environment.get("CMAKE_PREFIX_PATH", "").split(":")
+    if any(each.name == name for each in submission.packages):
         return True
     file = f"cmake/{name}Config.cmake"
     found = (Path(prefix, "share", name, file).is_file() for prefix in (*prefixes, "/usr"))
@@ -223,8 +227,8 @@ def _cmake(package: Package) -> str:
 
 
 @check("C4", "catkin_make builds", "2.1", "C2", look="catkin_make")
-def build(session: Session) -> Note | None:
-    made = must_build(session)
+def build(submission: Submission) -> Note | None:
+    made = must_build(submission)
     listed = re.search(r"traversing \d+ packages?[^:]*:((?:\s*--\s+~~\s+- .*)+)", made.output)
     names = re.findall(r"- (\S+)", listed[1]) if listed else []
     if listed and "beginner_tutorials" not in names:
@@ -232,22 +236,25 @@ def build(session: Session) -> Note | None:
         raise Wrong("catkin_make goes through beginner_tutorials", seen)
     if not made.unbuilt:
         return None
-    wrong = build_error(session, made.unbuilt)
+    wrong = build_error(submission, made.unbuilt)
     seen = f"it builds what the exercises need; another package fails: {wrong.seen}"
     hint = f"{wrong.hint}; or put an empty file CATKIN_IGNORE into that package"
     return Note(seen, wrong.where, hint)
 
 
-def must_build(session: Session) -> Built:
+def must_build(submission: Submission) -> Built:
     """Return what catkin_make has built. Raises Wrong."""
-    for each in session.needed:
+    for each in submission.needed:
         _cmake(each)
-    made = session.recording(built)
+    made = submission.recording(built)
     if made.code is None:
         hint = "catkin_make in your workspace"
         raise Wrong("catkin_make ends", "it runs for more than two minutes", hint=hint)
     if made.code != 0:
-        wrong, own = build_error(session, made.output), build_error(session, _printed(session))
+        wrong, own = (
+            build_error(submission, made.output),
+            build_error(submission, _printed(submission)),
+        )
         if (own.seen, own.where) != (wrong.seen, wrong.where):
             place = f" ({wrong.where})" if wrong.where else ""
             own.seen += f"; another package fails, too: {wrong.seen}{place}"
@@ -255,9 +262,9 @@ def must_build(session: Session) -> Built:
     return made
 
 
-def _printed(session: Session) -> str:
+def _printed(submission: Submission) -> str:
     """Return what catkin_make prints of the packages of the exercises, whatever others do."""
-    made = session.recording(built)
-    if not made.code or len(session.needed) == len(session.packages):
+    made = submission.recording(built)
+    if not made.code or len(submission.needed) == len(submission.packages):
         return made.output
-    return session.recording(own_built).output
+    return submission.recording(own_built).output

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from tutorial_check.checking.checks import check
 from tutorial_check.checking.results import Wrong
-from tutorial_check.submission.files import Session
+from tutorial_check.checking.submission import Submission
 from tutorial_check.submission.tracebacks import last_lines
 
 from ..driving.record import CMD_VEL, JOY
@@ -20,36 +20,36 @@ from .record import TELEOP, Remap, real_run, remap_run
 EXPECTED = f"Twists on {TELEOP}, none on any other topic"
 
 
-def remap_of(session: Session) -> str:
-    return f'<remap from="{session.task.topic(CMD_VEL)}" to="{TELEOP}"/>'
+def remap_of(submission: Submission) -> str:
+    return f'<remap from="{submission.task.topic(CMD_VEL)}" to="{TELEOP}"/>'
 
 
 @check("C27", "joy2twist_turtlebot sends to the multiplexer", "6.1", "C16",
        look="rostopic echo /cmd_vel_mux/input/teleop")  # fmt: skip
-def remapped(session: Session) -> None:
-    file, own = check_file(session, TURTLEBOT), session.task.topic(CMD_VEL)
+def remapped(submission: Submission) -> None:
+    file, own = check_file(submission, TURTLEBOT), submission.task.topic(CMD_VEL)
     file.demand("joy2twist", file.own, launch_nodes.OWN_HINT.format(file.package))
-    joys = launch_nodes.topic_of(file.own[0], session.task.topic(JOY))
+    joys = launch_nodes.topic_of(file.own[0], submission.task.topic(JOY))
     plan = replace(plan_of(file, TELEOP), joys=joys)
-    seen = session.recording(remap_run, plan, own)
+    seen = submission.recording(remap_run, plan, own)
     if not seen.good or seen.bad or own in seen.publishers:
         raise _not_remapped(file, plan, seen)
     is_named = any(node["remaps"] or ":=" in node["args"] for node in file.own)
     if not is_named and not re.search(r"<(ros)?param\b", file.text):
         program = file.own[0]["type"]
         expected = "the program as it was, whose topic the launch file renames"
-        hint = f'type="joy2twist.py", and in it {remap_of(session)}'
+        hint = f'type="joy2twist.py", and in it {remap_of(submission)}'
         raise Wrong(expected, f"{program} publishes on {TELEOP} by itself", file.at(program), hint)
 
 
 def _not_remapped(file: LaunchFile, plan: Plan, seen: Remap) -> Wrong:
     """Return the Wrong for velocities that do not flow where they should, or elsewhere, too."""
-    own, hint = file.session.task.topic(CMD_VEL), remap_of(file.session)
+    own, hint = file.submission.task.topic(CMD_VEL), remap_of(file.submission)
     remaps = [remap for node in file.own for remap in node["remaps"]]
     where, others = file.at("<remap", "joy2twist.py"), seen.others
     if "Traceback" in seen.run.program.output or seen.run.has_died:
         said = last_lines(seen.run.program.output)
-        return traced(file.session, seen.run, EXPECTED) or Wrong(EXPECTED, said, file.where)
+        return traced(file.submission, seen.run, EXPECTED) or Wrong(EXPECTED, said, file.where)
     if seen.bad and not remaps and re.search(r"<param\s+(from|name)=", file.text):
         words, where = "a <param> renames nothing", file.at("<param")
     elif seen.bad and not remaps and "<remap" in file.text:
@@ -74,8 +74,8 @@ def _not_remapped(file: LaunchFile, plan: Plan, seen: Remap) -> Wrong:
 
 @check("C28", "launch_joy_node_realTurtlebot drives the TurtleBot", "6.1", "C27",
        look="rostopic echo /cmd_vel_mux/active")  # fmt: skip
-def real_robot(session: Session) -> None:
-    file = check_file(session, REAL)
+def real_robot(submission: Submission) -> None:
+    file = check_file(submission, REAL)
     # Its node, with the remap, may stand here once more.
     topics = [f"/{to.strip('/')}" for node in file.own for _, to in node["remaps"]]
     is_included = any(each.endswith(f"/{TURTLEBOT}") for each in file.facts["files"])
@@ -90,10 +90,10 @@ def real_robot(session: Session) -> None:
         raise Wrong("one joy2twist", seen, file.at("joy2twist.py"), hint)
     has_base = any(node["type"] == "cmd_vel_mux.py" for node in file.nodes)
     plan = plan_of(file, TELEOP)
-    run = session.recording(real_run, plan, has_base)
+    run = submission.recording(real_run, plan, has_base)
     if not run.drives:
         expected = "cmd_vel_mux lets teleop through, and the robot moves with the stick"
         raise fault_of(file, plan, run, expected)
     if not any("teleop" in each for each in run.active):
         seen = ", ".join(run.active) or "nothing"
-        raise Wrong("cmd_vel_mux/active says teleop", seen, file.where, remap_of(session))
+        raise Wrong("cmd_vel_mux/active says teleop", seen, file.where, remap_of(submission))

@@ -16,8 +16,8 @@ from tutorial_check.checking.programs import (
     odd_node,
 )
 from tutorial_check.checking.results import Note, Wrong, wrong_of
+from tutorial_check.checking.submission import Submission
 from tutorial_check.processes.errors import MASTER_GONE, CutShort
-from tutorial_check.submission.files import Session
 from tutorial_check.submission.python_facts import PythonFacts
 from tutorial_check.submission.python_text import flipped_anonymous
 
@@ -37,12 +37,12 @@ def other_topic(topics: Iterable[str], asked_for: str, types: Mapping[str, str],
     return topic if types.get(topic, kind) == kind else f"{topic}, of type {types[topic]}"
 
 
-def scripts(session: Session) -> list[str]:
-    return [find_script(session, PACKAGE, name) for name in ("talker.py", "listener.py")]
+def scripts(submission: Submission) -> list[str]:
+    return [find_script(submission, PACKAGE, name) for name in ("talker.py", "listener.py")]
 
 
-def _talk(session: Session) -> Talk:
-    seen = session.recording(record.talk, *scripts(session))
+def _talk(submission: Submission) -> Talk:
+    seen = submission.recording(record.talk, *scripts(submission))
     if not seen.master_alive:
         raise wrong_of(CutShort(MASTER_GONE))
     return seen
@@ -50,23 +50,23 @@ def _talk(session: Session) -> Talk:
 
 @check("C5", "talker.py and listener.py can be run", "3.1", "C2",
        look="rosrun beginner_tutorials talker.py", timeless=True)  # fmt: skip
-def files(session: Session) -> Note | str:
-    for script in scripts(session):
-        check_file(session, PACKAGE, script)
-    notes = (odd_node(session, PACKAGE, script) for script in scripts(session))
-    return next(filter(None, notes), ", ".join(scripts(session)))
+def files(submission: Submission) -> Note | str:
+    for script in scripts(submission):
+        check_file(submission, PACKAGE, script)
+    notes = (odd_node(submission, PACKAGE, script) for script in scripts(submission))
+    return next(filter(None, notes), ", ".join(scripts(submission)))
 
 
 @check("C6", "the talker talks", "3.1", "C5", look="rostopic hz /chatter")
-def talker(session: Session) -> Note | str:
-    seen, script = _talk(session), scripts(session)[0]
-    facts, wanted = session.scripts(PACKAGE)[script], session.task.values.get("rate")
+def talker(submission: Submission) -> Note | str:
+    seen, script = _talk(submission), scripts(submission)[0]
+    facts, wanted = submission.scripts(PACKAGE)[script], submission.task.values.get("rate")
     often = "about 10 times a second" if wanted is None else "as often as rate says"
     expected = f"std_msgs/String on /chatter, {often}"
     if not seen.received:
-        raise _silent(session, seen, script, facts, expected)
+        raise _silent(submission, seen, script, facts, expected)
     if seen.talker_ended:
-        raise crash(session, PACKAGE, seen.talker, GOES_ON, LOOP)
+        raise crash(submission, PACKAGE, seen.talker, GOES_ON, LOOP)
     times = [when for when, caller, _ in seen.received if caller == seen.received[0][1]]
     if len(times) < FEW and not wanted:
         return Note(f"{len(times)} messages in {record.LISTEN_S + 2:.0f} s: slower than 1 Hz")
@@ -88,11 +88,13 @@ def talker(session: Session) -> Note | str:
     return f"{rate:.1f} Hz" if is_as_asked else Note(f"{rate:.1f} Hz, the handout's is 10")
 
 
-def _silent(session: Session, seen: Talk, script: str, facts: PythonFacts, expected: str) -> Wrong:
+def _silent(
+    submission: Submission, seen: Talk, script: str, facts: PythonFacts, expected: str
+) -> Wrong:
     ends = seen.talker_ended
     loops = ", and does it loop: while not rospy.is_shutdown()" if facts.has_main else ""
     hint = f"does the last line call talker(){loops}?"
-    wrong = ended(crash(session, PACKAGE, seen.talker, expected, hint), facts, script)
+    wrong = ended(crash(submission, PACKAGE, seen.talker, expected, hint), facts, script)
     if "Traceback" in seen.talker.output or seen.talker.spins:
         return wrong
     hint = with_import("rospy.Publisher('chatter', String, queue_size=10)", "String", facts)
@@ -112,15 +114,15 @@ def _silent(session: Session, seen: Talk, script: str, facts: PythonFacts, expec
 
 @check("C7", "the listener displays what it receives", "3.1", "C5",
        look="rosrun beginner_tutorials listener.py")  # fmt: skip
-def listener(session: Session) -> Note | None:
-    seen, script = _talk(session), scripts(session)[1]
-    facts = session.scripts(PACKAGE)[script]
+def listener(submission: Submission) -> Note | None:
+    seen, script = _talk(submission), scripts(submission)[1]
+    facts = submission.scripts(PACKAGE)[script]
     if seen.listener_ended:
-        raise ended(crash(session, PACKAGE, seen.listener, GOES_ON), facts, script)
+        raise ended(crash(submission, PACKAGE, seen.listener, GOES_ON), facts, script)
     lines = seen.listener.output.splitlines()  # with or without colours or a separator
     times = [sum(text in line for line in lines) for text in STRINGS]
     if not all(times):
-        raise _deaf(session, seen, script, facts, sum(map(bool, times)))
+        raise _deaf(submission, seen, script, facts, sum(map(bool, times)))
     if min(times) < 2:
         return None
     subscribers = [call.line for call in facts.calls.get("Subscriber", [])]
@@ -132,9 +134,11 @@ def listener(session: Session) -> Note | None:
     return Note(f"each text is displayed {min(times)} times", where, hint)
 
 
-def _deaf(session: Session, seen: Talk, script: str, facts: PythonFacts, displayed: int) -> Wrong:
+def _deaf(
+    submission: Submission, seen: Talk, script: str, facts: PythonFacts, displayed: int
+) -> Wrong:
     if "Traceback" in seen.listener.output or seen.listener.spins:
-        return crash(session, PACKAGE, seen.listener, LISTENS)
+        return crash(submission, PACKAGE, seen.listener, LISTENS)
     hint = with_import("rospy.Subscriber('chatter', String, callback)", "String", facts)
     asked, lacking = facts.first("Subscriber"), facts.without_callback
     where = f"{script}:{asked.line}" if asked else script
@@ -159,29 +163,31 @@ def _deaf(session: Session, seen: Talk, script: str, facts: PythonFacts, display
 
 @check("C8", "talker and listener are connected", "3.1", "C6 C7",
        look="rosnode info /rosout; rqt_graph")  # fmt: skip
-def graph(session: Session) -> str:
-    seen = _talk(session)
+def graph(submission: Submission) -> str:
+    seen = _talk(submission)
     if not seen.publishers.get(TOPIC) or not seen.subscribers.get(TOPIC):
         complaint, hint = "no such way in the graph", "one name for the topic, in both"
         raise Wrong("talker -> /chatter -> listener", complaint, hint=hint)
     return f"{seen.publishers[TOPIC][0]} -> /chatter -> {seen.subscribers[TOPIC][0]}"
 
 
-def _pair(session: Session) -> Pair:
+def _pair(submission: Submission) -> Pair:
     """Return the two talkers; if a second recording came to none, C6 or C7 says why."""
-    pair = _talk(session).pair
+    pair = _talk(submission).pair
     if not pair:
-        talker(session)
-        listener(session)
-        raise Wrong("a second talker publishes, or ends the first", "neither", scripts(session)[0])
+        talker(submission)
+        listener(submission)
+        raise Wrong(
+            "a second talker publishes, or ends the first", "neither", scripts(submission)[0]
+        )
     return pair
 
 
 @check("C9", "anonymous names", "3.1", "C6 C7 C10", look="rosnode list, with two talkers")
-def anonymous(session: Session) -> Note | str:
+def anonymous(submission: Submission) -> Note | str:
     """Look at two talkers as submitted, and with anonymous the other way round in a copy."""
-    pair, script = _pair(session), scripts(session)[0]
-    call = session.scripts(PACKAGE)[script].first("init_node")
+    pair, script = _pair(submission), scripts(submission)[0]
+    call = submission.scripts(PACKAGE)[script].first("init_node")
     where = f"{script}:{call.line}" if call else script
     given = call.names.get("anonymous", "False") if call else ""
     if given == "True" and pair.first_ended:
@@ -190,14 +196,14 @@ def anonymous(session: Session) -> Note | str:
         raise Wrong("the second talker of one name ends the first", "both go on", where)
     if not pair.both and not pair.first_ended:
         raise Wrong("a second talker publishes, or ends the first", "neither", script)
-    text, is_plain = session.text(PACKAGE, script), given in ("True", "False")
+    text, is_plain = submission.text(PACKAGE, script), given in ("True", "False")
     flipped = flipped_anonymous(text, given == "False") if is_plain else None
     if not flipped:
         return Note("anonymous cannot be changed by the checker here; try both yourself")
-    other = session.recording(record.second, script, flipped)
+    other = submission.recording(record.second, script, flipped)
     if not other.talks:
         expected = "the talker runs with anonymous the other way round"
-        raise crash(session, PACKAGE, other.first, expected)
+        raise crash(submission, PACKAGE, other.first, expected)
     if other.first_ended == (given == "False"):
         then = "the second ends the first" if given == "True" else "both live"
         hint = "is anonymous given to rospy.init_node?"
@@ -206,11 +212,11 @@ def anonymous(session: Session) -> Note | str:
 
 
 @check("C10", "Ctrl-C ends both", "3.1", "C6 C7", look="Ctrl-C in their terminals")
-def ctrl_c(session: Session) -> Note | str:
-    pair = _pair(session)
-    programs = pair.second, _talk(session).listener
-    for script, program, taken_s in zip(scripts(session), programs, pair.taken_s):
-        note = check_end(session, PACKAGE, script, taken_s, program.output)
+def ctrl_c(submission: Submission) -> Note | str:
+    pair = _pair(submission)
+    programs = pair.second, _talk(submission).listener
+    for script, program, taken_s in zip(scripts(submission), programs, pair.taken_s):
+        note = check_end(submission, PACKAGE, script, taken_s, program.output)
         if note:
             return note
     return ", ".join(f"{n} {s:.1f} s" for n, s in zip(("talker.py", "listener.py"), pair.taken_s))

@@ -7,8 +7,8 @@ from typing import Dict, Optional, Tuple
 
 from tutorial_check.processes.program import Program, Ran
 from tutorial_check.recording.data import HeardText, Topics
-from tutorial_check.recording.ground import Ground
-from tutorial_check.recording.ros_session import SETTLE_S, Stage
+from tutorial_check.recording.ros_session import SETTLE_S, RosSession
+from tutorial_check.recording.workspace import Workspace
 
 PACKAGE = "beginner_tutorials"
 LISTEN_S = 1.5  # to the talker
@@ -55,43 +55,43 @@ class Second:
     first_ended: bool = False
 
 
-def talk(ground: Ground, talker: str, listener: str) -> Talk:
+def talk(workspace: Workspace, talker: str, listener: str) -> Talk:
     """Start the programs of these paths, and send STRINGS to the listener."""
-    with ground.stage() as stage:
-        stage.driver.listen(TOPIC, "String")
-        first, listens = stage.start(PACKAGE, talker), stage.start(PACKAGE, listener)
+    with workspace.ros_session() as ros:
+        ros.peer.listen(TOPIC, "String")
+        first, listens = ros.start(PACKAGE, talker), ros.start(PACKAGE, listener)
         published: dict[str, str] = {}
 
         def is_right() -> bool:
             """Note what is published; return whether it is a String on /chatter."""
-            topics, types = stage.driver.state()[0], stage.driver.types()
+            topics, types = ros.peer.state()[0], ros.peer.types()
             published.update({t: types.get(t, "") for t in topics if t not in OF_ALL})
             return published.get(TOPIC) == KIND
 
-        stage.wait_for_start(lambda: is_right() or published or first.ended)
-        stage.wait(lambda: is_right() or first.ended, ANOTHER_S)
+        ros.wait_for_start(lambda: is_right() or published or first.ended)
+        ros.wait(lambda: is_right() or first.ended, ANOTHER_S)
         if is_right():
-            stage.wait_for_start(lambda: stage.driver.count(TOPIC) or first.ended)
-        stage.driver.advertise(TOPIC, "String")
-        stage.wait_for_start(lambda: stage.driver.listeners(TOPIC) > 1 or listens.ended)
-        # As Stage.meet(), which says why.
-        stage.wait(lambda: listens.ended or listens.rests(), SETTLE_S)
-        talks = bool(_received(stage))
+            ros.wait_for_start(lambda: ros.peer.count(TOPIC) or first.ended)
+        ros.peer.advertise(TOPIC, "String")
+        ros.wait_for_start(lambda: ros.peer.listeners(TOPIC) > 1 or listens.ended)
+        # As RosSession.meet(), which says why.
+        ros.wait(lambda: listens.ended or listens.rests(), SETTLE_S)
+        talks = bool(_received(ros))
         if talks:
-            stage.wait(lambda: len(_received(stage)) > 3 or first.ended, 2.0)
-        publishers, subscribers = stage.driver.state()
-        types, warnings = stage.driver.types(), stage.driver.warnings()
-        count = len(_received(stage))
+            ros.wait(lambda: len(_received(ros)) > 3 or first.ended, 2.0)
+        publishers, subscribers = ros.peer.state()
+        types, warnings = ros.peer.types(), ros.peer.warnings()
+        count = len(_received(ros))
         for text in STRINGS:
-            stage.driver.send(TOPIC, text)
-        stage.wait(lambda: all(text in listens.output for text in STRINGS), 2.0)
+            ros.peer.send(TOPIC, text)
+        ros.wait(lambda: all(text in listens.output for text in STRINGS), 2.0)
         if talks:
-            stage.wait(lambda: len(_received(stage)) >= count + 6 or first.ended, LISTEN_S)
-        received = _received(stage)
-        talker_ended, listener_ended, alive = first.ended, listens.ended, stage.master_lives
+            ros.wait(lambda: len(_received(ros)) >= count + 6 or first.ended, LISTEN_S)
+        received = _received(ros)
+        talker_ended, listener_ended, alive = first.ended, listens.ended, ros.master_lives
         pair = None
         if received and not talker_ended and not listener_ended:
-            pair = _pair(ground, stage, talker, first, listens, set(publishers.get(TOPIC, [])))
+            pair = _pair(workspace, ros, talker, first, listens, set(publishers.get(TOPIC, [])))
             talker_ended = pair.both and first.ended  # by itself, after some messages
     return Talk(
         first.ran, listens.ran, talker_ended, listener_ended, published, publishers, subscribers,
@@ -100,41 +100,46 @@ def talk(ground: Ground, talker: str, listener: str) -> Talk:
 
 
 def _pair(
-    ground: Ground, stage: Stage, talker: str, first: Program, listens: Program, names: set[str]
+    workspace: Workspace,
+    ros: RosSession,
+    talker: str,
+    first: Program,
+    listens: Program,
+    names: set[str],
 ) -> Pair:
     """Start a second talker of the same kind; both must go on, or the first must end."""
-    second = stage.start(PACKAGE, talker)
+    second = ros.start(PACKAGE, talker)
 
     def both() -> bool:
-        return len({caller for _, caller, _ in _received(stage)[-20:]}) > 1 and not first.ended
+        return len({caller for _, caller, _ in _received(ros)[-20:]}) > 1 and not first.ended
 
-    stage.wait_for_start(lambda: set(stage.driver.state()[0].get(TOPIC, ())) - names or first.ended)
-    stage.wait_for_start(lambda: first.ended or both())
+    ros.wait_for_start(lambda: set(ros.peer.state()[0].get(TOPIC, ())) - names or first.ended)
+    ros.wait_for_start(lambda: first.ended or both())
     first_ended, both_talk = first.ended, both()
-    so_far = len(_received(stage))  # the one that is ended next must be well under way
-    stage.wait(lambda: len(_received(stage)) > so_far + 2 or second.ended, 3.0)
-    taken_s = ground.runner.end_all([second, listens])
+    so_far = len(_received(ros))  # the one that is ended next must be well under way
+    ros.wait(lambda: len(_received(ros)) > so_far + 2 or second.ended, 3.0)
+    taken_s = workspace.runner.end_all([second, listens])
     return Pair(first_ended, both_talk, second.ran, tuple(taken_s))
 
 
-def second(ground: Ground, talker: str, text: str) -> Second:
+def second(workspace: Workspace, talker: str, text: str) -> Second:
     """Start two talkers with this text in place of their own."""
-    script = ground.sibling(PACKAGE, talker, text)
-    with ground.stage() as stage:
-        stage.driver.listen(TOPIC, "String")
-        first = stage.start(PACKAGE, script)
-        talks = stage.wait_for_start(lambda: stage.driver.count(TOPIC) or first.ended)
+    script = workspace.sibling(PACKAGE, talker, text)
+    with workspace.ros_session() as ros:
+        ros.peer.listen(TOPIC, "String")
+        first = ros.start(PACKAGE, script)
+        talks = ros.wait_for_start(lambda: ros.peer.count(TOPIC) or first.ended)
         if first.ended or not talks:
             return Second(first.ran, talks=False)
-        other = stage.start(PACKAGE, script)
+        other = ros.start(PACKAGE, script)
 
         def settled() -> bool:
-            callers = {caller for _, caller, _ in stage.driver.received(TOPIC)}
+            callers = {caller for _, caller, _ in ros.peer.received(TOPIC)}
             return first.ended or other.ended or len(callers) > 1
 
-        stage.wait_for_start(settled)
+        ros.wait_for_start(settled)
         return Second(first.ran, True, first.ended)
 
 
-def _received(stage: Stage) -> tuple[HeardText, ...]:
-    return tuple(each for each in stage.driver.texts(TOPIC) if each[1] != "/tutorial_check")
+def _received(ros: RosSession) -> tuple[HeardText, ...]:
+    return tuple(each for each in ros.peer.texts(TOPIC) if each[1] != "/tutorial_check")

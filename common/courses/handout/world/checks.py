@@ -9,9 +9,9 @@ from typing import Sequence
 from tutorial_check.checking.checks import check
 from tutorial_check.checking.programs import crash, program_of
 from tutorial_check.checking.results import Wrong
+from tutorial_check.checking.submission import Submission
 from tutorial_check.recording.data import Topics
 from tutorial_check.recording.simulated_robot import BUMPER, Sample, has_moved
-from tutorial_check.submission.files import Session
 
 from ..driving.record import CMD_VEL
 from ..talker_listener.record import PACKAGE
@@ -26,13 +26,13 @@ LEAST_WAY_M, LEAST_WIDTH_M = 3.0, 2.0
 
 
 @check("C35", "the bumper is read", "7", "C2", look="rosrun beginner_tutorials bumper.py")
-def reads_bumper(session: Session) -> str:
-    script = program_of(session, PACKAGE, "bumper.py")
-    seen = session.recording(record.presses, script)
+def reads_bumper(submission: Submission) -> str:
+    script = program_of(submission, PACKAGE, "bumper.py")
+    seen = submission.recording(record.presses, script)
     if not seen.connected:
         hint = "rospy.Subscriber('mobile_base/events/bumper', BumperEvent, callback)"
         expected, kind = f"it subscribes to {BUMPER}, until Ctrl-C", "kobuki_msgs/BumperEvent"
-        wrong = crash(session, PACKAGE, seen.program, expected, hint)
+        wrong = crash(submission, PACKAGE, seen.program, expected, hint)
         raise _elsewhere(wrong, "subscribes to", BUMPER, kind, seen.subscribers, seen.types)
     for number, (side, shown) in enumerate(zip(SIDES, seen.shown)):
         # The paths of a traceback may have the number, too.
@@ -40,7 +40,7 @@ def reads_bumper(session: Session) -> str:
             expected = f"the {side} bumper on the screen when it is pressed"
             hint = f"event.bumper is {number} (BumperEvent.{side.upper()}), event.state 1"
             if seen.program.ended or "Traceback" in shown:
-                raise crash(session, PACKAGE, seen.program, expected, hint)
+                raise crash(submission, PACKAGE, seen.program, expected, hint)
             raise Wrong(expected, shown or "nothing", script, hint)
     if len(set(seen.shown)) < len(SIDES):
         hint = "event.bumper says which one: BumperEvent.LEFT, CENTER or RIGHT"
@@ -62,24 +62,27 @@ def _elsewhere(
 @check("C36", "it stops before a wall", "7", "C2",
        look="roslaunch fake_turtlebot_sim fake_turtlebot.launch world:=room;"
        " rosrun beginner_tutorials stop_before_wall.py _speed:=0.3")  # fmt: skip
-def stops(session: Session) -> str:
-    script = program_of(session, PACKAGE, "stop_before_wall.py")
-    gaps = [_gap_m(session, script, speed) for speed in SPEEDS]
+def stops(submission: Submission) -> str:
+    script = program_of(submission, PACKAGE, "stop_before_wall.py")
+    gaps = [_gap_m(submission, script, speed) for speed in SPEEDS]
     return ", ".join(f"{gap:.2f} m at {speed} m/s" for gap, speed in zip(gaps, SPEEDS))
 
 
-def _gap_m(session: Session, script: str, speed: float) -> float:
-    drive = session.recording(record.towards_the_wall, script, speed)
+def _gap_m(submission: Submission, script: str, speed: float) -> float:
+    drive = submission.recording(record.towards_the_wall, script, speed)
     path = drive.path
     if not has_moved(path):
         expected = f"the robot drives towards the wall with _speed:={speed}"
         hint = "it publishes on cmd_vel for each LaserScan on scan"
-        wrong, kind = crash(session, PACKAGE, drive.program, expected, hint), "geometry_msgs/Twist"
+        wrong, kind = (
+            crash(submission, PACKAGE, drive.program, expected, hint),
+            "geometry_msgs/Twist",
+        )
         raise _elsewhere(wrong, "publishes on", CMD_VEL, kind, drive.publishers, drive.types)
     fastest, gap_m = max(sample.v for sample in path), WALL_X_M - RADIUS_M - path[-1].x
     expected = f"a stop {LEAST_GAP_M} to {MOST_GAP_M} m before the wall, with _speed:={speed}"
     if drive.program.code:
-        raise crash(session, PACKAGE, drive.program, expected)
+        raise crash(submission, PACKAGE, drive.program, expected)
     if abs(fastest - speed) > 0.2 * speed:
         hint = 'rospy.get_param("~speed", 0.3) is the speed [m/s]'
         raise Wrong(f"{speed} m/s with _speed:={speed}", f"{fastest:.2f} m/s", script, hint)
@@ -98,14 +101,14 @@ def _gap_m(session: Session, script: str, speed: float) -> float:
 @check("C37", "it wanders", "7", "C2",
        look="roslaunch fake_turtlebot_sim fake_turtlebot.launch world:=room;"
        " rosrun beginner_tutorials wander.py")  # fmt: skip
-def wanders(session: Session) -> str:
-    script = program_of(session, PACKAGE, "wander.py")
-    drive = session.recording(record.wandering, script)
+def wanders(submission: Submission) -> str:
+    script = program_of(submission, PACKAGE, "wander.py")
+    drive = submission.recording(record.wandering, script)
     expected = f"it drives about for {WANDER_S:.0f} s"
     expected += f" and never pushes for {LONGEST_PUSH_S:.0f} s or longer"
     if drive.program.ended:
         hint = "does it loop, or rospy.spin()?"
-        raise crash(session, PACKAGE, drive.program, expected, hint)
+        raise crash(submission, PACKAGE, drive.program, expected, hint)
     push_s = record.longest_push_s(drive.bumps, drive.ended_s)
     if push_s > LONGEST_PUSH_S:
         hint = "with BumperEvent.PRESSED go back: linear.x < 0; what is beside it no scan shows"

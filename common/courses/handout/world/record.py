@@ -8,9 +8,9 @@ from typing import Dict, Optional, Sequence, Tuple
 
 from tutorial_check.processes.program import Program, Ran
 from tutorial_check.recording.data import Heard, Topics
-from tutorial_check.recording.ground import Ground
-from tutorial_check.recording.ros_session import Stage
+from tutorial_check.recording.ros_session import RosSession
 from tutorial_check.recording.simulated_robot import BUMPER, TRUTH, Sample, SimulatedRobot
+from tutorial_check.recording.workspace import Workspace
 
 from ..driving.record import CMD_VEL
 from ..talker_listener.record import PACKAGE
@@ -52,61 +52,61 @@ def wanted(number: int) -> str:
     return rf"(?i){SIDES[number]}|\b{number}\b" + "|centre" * (number == 1)
 
 
-def presses(ground: Ground, script: str) -> Presses:
+def presses(workspace: Workspace, script: str) -> Presses:
     shown: list[str] = []
-    with ground.stage() as stage:
-        stage.driver.advertise(BUMPER, "BumperEvent")
-        program = stage.start(PACKAGE, script)
-        connected = stage.meet(program, BUMPER) and not program.ended
-        subscribers, types = stage.driver.state()[1], stage.driver.types()
+    with workspace.ros_session() as ros:
+        ros.peer.advertise(BUMPER, "BumperEvent")
+        program = ros.start(PACKAGE, script)
+        connected = ros.meet(program, BUMPER) and not program.ended
+        subscribers, types = ros.peer.state()[1], ros.peer.types()
         for number in range(len(SIDES)) if connected else ():
-            shown.append(_press(stage, program, number))
+            shown.append(_press(ros, program, number))
             if not re.search(wanted(number), shown[-1]):
                 break
     return Presses(connected, program.ran, tuple(shown), subscribers, types)
 
 
-def _press(stage: Stage, program: Program, number: int) -> str:
+def _press(ros: RosSession, program: Program, number: int) -> str:
     """Press a bumper; return what the program displays then."""
     since = len(program.output)
 
     def shown() -> str:
         return STAMP.sub("", program.output[since:]).strip(": \n")
 
-    stage.driver.send(BUMPER, (number, 1))
-    stage.wait(lambda: program.ended or re.search(wanted(number), shown()), ANSWER_S)
+    ros.peer.send(BUMPER, (number, 1))
+    ros.wait(lambda: program.ended or re.search(wanted(number), shown()), ANSWER_S)
     return shown()
 
 
-def towards_the_wall(ground: Ground, script: str, speed: float) -> Drive:
+def towards_the_wall(workspace: Workspace, script: str, speed: float) -> Drive:
     """Let it drive until it rests. speed: its parameter ~speed [m/s]."""
-    return _driven(ground, script, f"_speed:={speed}")
+    return _driven(workspace, script, f"_speed:={speed}")
 
 
-def wandering(ground: Ground, script: str) -> Drive:
+def wandering(workspace: Workspace, script: str) -> Drive:
     """Let it drive for a minute, or until it pushes for too long."""
-    return _driven(ground, script)
+    return _driven(workspace, script)
 
 
-def _driven(ground: Ground, script: str, *arguments: str) -> Drive:
-    with ground.stage() as stage:
-        robot = SimulatedRobot(stage, "_world:=room", f"_initial_x:={START_X_M}")
-        stage.driver.listen(CMD_VEL, "Twist")
-        program = stage.start(PACKAGE, script, *arguments)
+def _driven(workspace: Workspace, script: str, *arguments: str) -> Drive:
+    with workspace.ros_session() as ros:
+        robot = SimulatedRobot(ros, "_world:=room", f"_initial_x:={START_X_M}")
+        ros.peer.listen(CMD_VEL, "Twist")
+        program = ros.start(PACKAGE, script, *arguments)
 
         def now_s() -> float:
-            return stage.driver.received(TRUTH, -1)[0][0]
+            return ros.peer.received(TRUTH, -1)[0][0]
 
         def pushes() -> bool:
-            return longest_push_s(stage.driver.received(BUMPER), now_s()) > LONGEST_PUSH_S
+            return longest_push_s(ros.peer.received(BUMPER), now_s()) > LONGEST_PUSH_S
 
         if arguments:
             robot.drive(program)
         else:
-            stage.wait(lambda: program.ended or pushes(), WANDER_S)
-        publishers, types = stage.driver.state()[0], stage.driver.types()
-        path, bumps, ended_s = robot.path, stage.driver.received(BUMPER), now_s()
-        last = stage.driver.received(CMD_VEL, -1)
+            ros.wait(lambda: program.ended or pushes(), WANDER_S)
+        publishers, types = ros.peer.state()[0], ros.peer.types()
+        path, bumps, ended_s = robot.path, ros.peer.received(BUMPER), now_s()
+        last = ros.peer.received(CMD_VEL, -1)
     twist = last[0][2] if last else None
     return Drive(program.ran, path, tuple(bumps), ended_s, twist, publishers, types)
 

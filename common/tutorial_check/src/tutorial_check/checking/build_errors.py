@@ -5,11 +5,10 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from courses.handout.package.wanted import WANTED
 from node_kit.printable import printable
 from tutorial_check.checking.causes import advice, explained, is_lacking, meant, packages_of_ros
 from tutorial_check.checking.results import Wrong
-from tutorial_check.submission.files import Session
+from tutorial_check.checking.submission import Submission
 from tutorial_check.submission.launch_xml import place_of
 from tutorial_check.submission.packages import Package
 
@@ -41,13 +40,13 @@ MAKERS = {
 MADE = "(?:Request|Response|Config|(?:Action)?(?:Goal|Result|Feedback)?)"
 
 
-def build_error(session: Session, output: str) -> Wrong:
+def build_error(submission: Submission, output: str) -> Wrong:
     """Return the Wrong for the first error in what catkin_make printed."""
     output = printable(output)
     is_of_cmake = CMAKE_ERROR.search(output)
     readers = () if is_of_cmake else (_of_compiler, _of_linker)
     for read in (_of_definition, _of_package, *readers):
-        error = read(session, output)
+        error = read(submission, output)
         if error:
             return error
     return _other(output)
@@ -58,13 +57,14 @@ def missing_in(output: str) -> list[str]:
     return re.findall(r'[Cc]ould not find (?:[^"\n]|\n  (?=\S))*"([^"]+)"', output)
 
 
-def not_found(session: Session, name: str) -> tuple[str, str, str]:
+def not_found(submission: Submission, name: str) -> tuple[str, str, str]:
     """Return (seen, where, hint) for a package of a CMakeLists.txt that catkin does not find."""
-    packages = session.packages
+    packages = submission.packages
     cmakes = [(f"{package.inside}/CMakeLists.txt", package.cmake or "") for package in packages]
     places = ((place_of(file, text, name), text) for file, text in cmakes if name in text)
     place, text = next(places, ("", ""))
-    absent = {wanted for names in WANTED.values() for wanted in names if wanted not in text}
+    wanted = " ".join(submission.course.packages.values()).split()
+    absent = {name for name in wanted if name not in text}
     hint = ""
     if "," not in name and not is_lacking(name):
         hint = meant(name, absent, 0.65, f"correct {name} to {{}} in CMakeLists.txt")
@@ -79,46 +79,46 @@ def _hint(text: str) -> str:
     return hint or "read the first error of catkin_make: it names file and line"
 
 
-def _of_definition(session: Session, output: str) -> Wrong | None:
+def _of_definition(submission: Submission, output: str) -> Wrong | None:
     """Return the Wrong for a message or service with a type that is not there, or with no field."""
     definition = DEFINITION.search(output)
     if not definition:
         return None
     path = Path(definition[1] or definition[3])
     word = definition[2] or definition[4] or definition[5]
-    where = place_of(str(path.relative_to(session.source)), session.read(path), word)
+    where = place_of(str(path.relative_to(submission.source)), submission.read(path), word)
     hint = "a field is TYPE NAME, as int64 num; another package's type has that before it"
     return Wrong(EXPECTED, f"{path.name}: {word} is no field of a known type"[:300], where, hint)
 
 
-def _of_package(session: Session, output: str) -> Wrong | None:
+def _of_package(submission: Submission, output: str) -> Wrong | None:
     """Return the Wrong for a package that catkin does not find."""
     missing = missing_in(output)
     if not missing:
         return None
-    seen, place, hint = not_found(session, missing[0])
+    seen, place, hint = not_found(submission, missing[0])
     return Wrong(EXPECTED, seen[:300], place or _own_line(output), hint)
 
 
-def _of_compiler(session: Session, output: str) -> Wrong | None:
+def _of_compiler(submission: Submission, output: str) -> Wrong | None:
     """Return the Wrong for what does not compile."""
     error = COMPILER.search(output)
     if not error:
         return None
     # What is wrong with a template is often printed of the system's header.
-    places = [place for place in (error, *SOURCE.finditer(output)) if session.is_own(place[1])]
+    places = [place for place in (error, *SOURCE.finditer(output)) if submission.is_own(place[1])]
     path, line = places[0].group(1, 2) if places else error.group(1, 2)
-    where = f"{Path(path).relative_to(session.source)}:{line}" if places else f"{path}:{line}"
-    hint = _of_header(session, error[3], _target(session, output)[1]) or _hint(error[3])
+    where = f"{Path(path).relative_to(submission.source)}:{line}" if places else f"{path}:{line}"
+    hint = _of_header(submission, error[3], _target(submission, output)[1]) or _hint(error[3])
     return Wrong(EXPECTED, error[3], where, hint)
 
 
-def _of_header(session: Session, message: str, target: str) -> str:
+def _of_header(submission: Submission, message: str, target: str) -> str:
     """Return what to do about a header that is not there; "" if that is not what a message says."""
     header = HEADER.search(message)
     if not header:
         return ""
-    packages = (package for package in session.packages if package.name == header[1])
+    packages = (package for package in submission.packages if package.name == header[1])
     package = next(packages, None)
     if not package:
         return advice(header[1], packages_of_ros(header[1]))
@@ -134,12 +134,12 @@ def _of_header(session: Session, message: str, target: str) -> str:
     return _hint("header in include") if own else ""
 
 
-def _of_linker(session: Session, output: str) -> Wrong | None:
+def _of_linker(submission: Submission, output: str) -> Wrong | None:
     """Return the Wrong for a program that cannot be linked."""
     error = LINKER.search(output)
     if not error:
         return None
-    package, target = _target(session, output)
+    package, target = _target(submission, output)
     text = package.cmake or "" if package else ""
     text = text.replace("${PROJECT_NAME}", package.name if package else "")
     links = rf"target_link_libraries\s*\(\s*{re.escape(target)}\s[^)]*catkin_LIBRARIES"
@@ -151,12 +151,12 @@ def _of_linker(session: Session, output: str) -> Wrong | None:
     return Wrong(EXPECTED, f"{target}: {error[0]}"[:300], where, _hint(unlinked + error[0]))
 
 
-def _target(session: Session, output: str) -> tuple[Package | None, str]:
+def _target(submission: Submission, output: str) -> tuple[Package | None, str]:
     """Return (the package, the target) with which make ended."""
     target = TARGET.search(output)
     if not target:
         return None, ""
-    inside = (package for package in session.packages if package.inside == target[1])
+    inside = (package for package in submission.packages if package.inside == target[1])
     return next(inside, None), target[2]
 
 

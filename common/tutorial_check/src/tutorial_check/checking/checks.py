@@ -39,7 +39,7 @@ class Check:
     look: str = ""
     timeless: bool = False  # it reads files alone: no machine is too busy for that
     eager: bool = False  # its hint is about the set-up, and shown at once
-    function: Callable[[Any], Any] = lambda session: None  # returns a text, a Note or None
+    function: Callable[[Any], Any] = lambda submission: None  # returns a text, a Note or None
 
     def result(self, status: str, found: Wrong | Note | str = "") -> Result:
         """Return a Result. found: what was seen, or all that is said of it."""
@@ -61,7 +61,7 @@ def check(
     timeless: bool = False,
     eager: bool = False,
 ) -> Callable[[_Function], _Function]:
-    """Make a function of a session a check: one line of the report. See model.Check."""
+    """Make a function of a submission a check: one line of the report. See model.Check."""
     one = Check(name, "", title, section, tuple(needs.split()), look, timeless, eager)
 
     def keep(function: _Function) -> _Function:
@@ -111,17 +111,17 @@ class Run:
     def __init__(
         self,
         checks: Iterable[Check],
-        session: object,
+        submission: object,
         second_look: Callable[[bool], bool] = lambda explained: False,
         too_busy: Callable[[], bool] = lambda: False,
     ) -> None:
-        """Take checks, in order, and the session that their functions take.
+        """Take checks, in order, and the submission that their functions take.
 
         second_look(whether a line of the student's is to blame): whether to make a check that does
         not hold again. too_busy(): whether it says nothing if it does not hold then, either.
         """
         self._checks = {check.id: check for check in checks}
-        self._session = session
+        self._submission = submission
         self._second_look, self._too_busy = second_look, too_busy
         self._done: dict[str, Result] = {}
         self._blamed: dict[str, list[Result]] = {}  # for each check that is wrong or unreached
@@ -211,6 +211,6 @@ class Run:
 
     def _verdict(self, check: Check) -> Any:
         try:
-            return check.function(self._session)
+            return check.function(self._submission)
         except (CutShort, FileTooLarge) as end:
             raise wrong_of(end) from None

@@ -7,102 +7,31 @@ import functools
 import itertools
 import json
 import os
-import shlex
 import subprocess
 import threading
 import time
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, Callable, Iterator, cast
+from typing import Any, Callable, Iterator
 
-from node_kit.printable import quotable
 from tutorial_check.checking.ask_once import HANDED_IN, Answers, Ask, AskOnce
 from tutorial_check.checking.checks import Run, checks_of
-from tutorial_check.checking.manifest_errors import unreadable
-from tutorial_check.checking.results import Outcome, Result, Wrong, wrong_of
+from tutorial_check.checking.results import Outcome, Result
+from tutorial_check.checking.submission import Submission
 from tutorial_check.course.definition import SUITE, Course, copy_sources, read_course
-from tutorial_check.course.tasks import Task, task_of
-from tutorial_check.processes.errors import UNREADABLE, CannotCheck, CutShort
-from tutorial_check.recording.data import as_json, from_json, must_be_whole, recorded_by
+from tutorial_check.course.tasks import task_of
+from tutorial_check.processes.errors import CannotCheck
 from tutorial_check.recording.worker_process import Ended, Worker, no_more
 from tutorial_check.sandbox import bubblewrap, privileges
 from tutorial_check.sandbox.environment import environment_of
 from tutorial_check.submission import workspace as workspaces
-from tutorial_check.submission.files import Recorded, Recorder, Session
-from tutorial_check.submission.order import Line, Order
+from tutorial_check.submission.order import Order
 
 # Of a shell of the suite: roscore.xml, for a faster roslaunch; what CMake 4 needs for catkin.
 OF_SUITE = ("ROS_ETC_DIR", "CMAKE_POLICY_VERSION_MINIMUM")
 NUMBERS = itertools.count(os.getpid() * 100)
 
 Report = Callable[[Outcome, Result], None]
-
-
-class Case(Session):
-    """What the files of a workspace say, as they were handed in, and what the worker records."""
-
-    def __init__(self, order: Order, task: Task, ask: Ask) -> None:
-        super().__init__(order, task)
-        self.source = self.folder / workspaces.COPY
-        visible = [self.source, *order.shown, *map(Path, bubblewrap.SYSTEM)]
-        self._visible = [Path(os.path.realpath(each)) for each in visible]
-        self._ask = ask
-        self._runs: dict[object, Any] = {}  # what was recorded, or the Wrong in its place
-        self.asked: list[Line] = []  # each question with its answer
-        self._strained = self.hopeless = False  # the machine was, as something was recorded last
-
-    def recording(self, recorder: Recorder[Recorded], *arguments: object) -> Recorded:
-        """Ask for a recording, at the first call. Raises CannotCheck, or Wrong if there is none."""
-        key = recorder.__module__, recorder.__name__, *arguments
-        if key not in self._runs:
-            self._runs[key] = self._asked(recorder, arguments)
-        if isinstance(self._runs[key], Wrong):
-            raise self._runs[key]
-        return cast(Recorded, self._runs[key])
-
-    def _asked(self, recorder: Recorder[object], arguments: tuple[object, ...]) -> object:
-        kind = recorded_by(recorder)
-        must_be_whole(kind)
-        name = f"{recorder.__module__}:{recorder.__name__}"
-        question = {"recorder": name, "arguments": as_json(arguments)}
-        answer = self._ask(question)
-        self.asked.append({**question, **answer})
-        self._strained = bool(answer.get("strained"))
-        self.hopeless = bool(answer.get("hopeless"))
-        if "cannot" in answer:
-            raise CannotCheck(str(answer["cannot"]))
-        if "cut_short" in answer:
-            end = CutShort(**answer["cut_short"])
-            if end.kind == UNREADABLE and self.broken:
-                return unreadable(self.broken)
-            return wrong_of(end)
-        return from_json(kind, answer["recording"])
-
-    def second_look(self, explained: bool) -> bool:
-        """Return whether to look again at what programs do; then forget what they did.
-
-        It is worth it on a busy machine, or if no line explains it: nodes of a launch file meet in
-        any order, and rospy may never end that Ctrl-C meets in the middle of a publish.
-        """
-        if explained and not self._strained:
-            return False
-        self._runs.clear()
-        return True
-
-    def as_sent(self, result: Result) -> Result:
-        """Return a result with the student's own paths, in words that a terminal may show."""
-        layout = self.layout
-        copied = f"{self.source.parent}/" if layout.is_workspace else f"{self.source}/"
-        # Commands work in any folder, where the workspace is known.
-        is_known = self.order.own and self.folder not in layout.root.parents
-        root = f"{shlex.quote(str(layout.root))}/" if is_known else ""
-        roots = {"hint": root, "look": root}
-        found: dict[str, Any] = {
-            name: quotable(words.replace(copied, roots.get(name, "")))
-            for name, words in vars(result).items()
-            if isinstance(words, str)
-        }
-        return replace(result, **found)
 
 
 def examine(
@@ -251,7 +180,7 @@ def judge(
     checks = checks_of(course)
     task = task_of(course)(order.variant)  # its class is among the checks
     checks = [replace(one, title=task.fill(one.title), look=task.fill(one.look)) for one in checks]
-    case = Case(order, task, ask)
+    case = Submission(order, task, ask)
     run = Run(checks, case, case.second_look, lambda: case.hopeless)
     known = ((name, course.exercises[name]) for name in order.exercises)
     outcomes = [Outcome(name, title=one.title, points=one.points) for name, one in known]
@@ -268,7 +197,9 @@ def judge(
     return outcomes
 
 
-def _make_checks(run: Run, case: Case, outcome: Outcome, only_first: bool, report: Report) -> None:
+def _make_checks(
+    run: Run, case: Submission, outcome: Outcome, only_first: bool, report: Report
+) -> None:
     began_s, already = time.monotonic(), len(case.asked)
     try:
         for found in run.exercise(outcome.id, only_first):

@@ -4,55 +4,56 @@ from __future__ import annotations
 
 import difflib
 import os
-import re
 from pathlib import Path
-from typing import Sequence, Tuple
+from typing import Sequence
 
-from courses.handout.launch_files.record import facts_of_files
 from tutorial_check.checking import launch_errors
 from tutorial_check.checking.files import File
-from tutorial_check.checking.manifest_errors import must_be_launchable
-from tutorial_check.checking.packages import package_of
+from tutorial_check.checking.packages import must_be_launchable, package_of
 from tutorial_check.checking.results import Wrong
+from tutorial_check.checking.submission import Submission
 from tutorial_check.checking.texts import text_of_file
 from tutorial_check.recording.launch_facts import Node
-from tutorial_check.recording.ros_session import Stage
+from tutorial_check.recording.launch_files import read_launch_files
 from tutorial_check.submission import launch_xml
-from tutorial_check.submission.files import Session
-
-DIED = re.compile(r"^\[([^\]]+)-\d+\] process has died", re.MULTILINE)
 
 
 class LaunchFile(File):
     """A launch file that roslaunch can read. path: within src; text: without comments."""
 
-    def __init__(self, session: Session, package: str, path: Path, nodes: Sequence[Node]) -> None:
+    def __init__(
+        self, submission: Submission, package: str, path: Path, nodes: Sequence[Node]
+    ) -> None:
         """nodes: with package, type, name, namespace, args, remaps, ..."""
-        super().__init__(session, package, os.path.relpath(path, session.package(package).folder))
-        self.path, self.nodes = os.path.relpath(path, session.source), tuple(nodes)
+        super().__init__(
+            submission, package, os.path.relpath(path, submission.package(package).folder)
+        )
+        self.path, self.nodes = os.path.relpath(path, submission.source), tuple(nodes)
         self.text = launch_xml.without_comments(self.text)
 
 
-def launch_file(session: Session, package: str, name: str) -> LaunchFile:
+def launch_file(submission: Submission, package: str, name: str) -> LaunchFile:
     """Return a launch file, whose nodes all exist. Raises Wrong."""
-    folder = package_of(session, package).folder
-    must_be_launchable(session)
+    folder = package_of(submission, package).folder
+    must_be_launchable(submission)
     paths = {path.name: path for path in sorted(folder.rglob("*launch*"))[::-1] if path.is_file()}
     if name not in paths:
         seen, hint = "no such file in the package", f"write it: launch/{name}"
         for near in difflib.get_close_matches(name, paths, 1, 0.6):
             seen, hint = f"a file {near}", f"call it {name}"
         raise Wrong(f"{package}/launch/{name}", seen, hint=hint)
-    facts = session.recording(facts_of_files, os.path.relpath(paths[name], session.source)).files
+    facts = submission.recording(
+        read_launch_files, os.path.relpath(paths[name], submission.source)
+    ).files
     if facts is None:
         hint = "roslaunch --nodes FILE"
         raise Wrong("a launch file that roslaunch can read", "reading it does not end", hint=hint)
     if facts[0]["fault"]:
         fault = launch_xml.Fault(**facts[0]["fault"])
-        path, line = launch_errors.blamed(fault, session.is_own)
+        path, line = launch_errors.blamed(fault, submission.is_own)
         text, where = text_of_file(Path(path)), os.path.relpath(path, folder)
-        raise launch_errors.parse_error(fault, where, line, text, session.may_see)
-    file = LaunchFile(session, package, paths[name], facts[0]["nodes"])
+        raise launch_errors.parse_error(fault, where, line, text, submission.may_see)
+    file = LaunchFile(submission, package, paths[name], facts[0]["nodes"])
     for node in file.nodes:
         seen = f"Cannot locate node of type [{node['type']}] in package [{node['package']}]"
         hint = "look at pkg= and type=: the name of the program's file, which is executable"
@@ -60,27 +61,3 @@ def launch_file(session: Session, package: str, name: str) -> LaunchFile:
         words = f'"{node["type"]}" {node["type"]}'
         file.must(node["found"], words, "nodes that exist", seen, hint)
     return file
-
-
-class Launch:
-    """A launch file that runs on a stage."""
-
-    def __init__(self, stage: Stage, path: str, *arguments: str) -> None:
-        """Start it. path: within src; arguments: such as x:=1."""
-        self._stage = stage
-        self.program = stage.launch(["roslaunch", str(stage.session.source / path), *arguments])
-
-    @property
-    def nodes(self) -> Tuple[str, ...]:
-        """The nodes that the master knows, without the checker's."""
-        return tuple(sorted(self._stage.driver.state()[0].get("/rosout", ())))
-
-    @property
-    def died(self) -> Tuple[str, ...]:
-        """Nodes of which roslaunch printed that they have died."""
-        return tuple(DIED.findall(self.program.output))
-
-    @property
-    def is_over(self) -> bool:
-        """Whether it has ended, or a node of it."""
-        return self.program.ended or bool(self.died)

@@ -8,7 +8,6 @@ from typing import Sequence
 from tutorial_check.checking.causes import explained
 from tutorial_check.checking.results import Wrong
 from tutorial_check.checking.texts import read
-from tutorial_check.submission.files import Session
 from tutorial_check.submission.launch_xml import place_of
 from tutorial_check.submission.packages import Package
 from tutorial_check.submission.student_files import TOO_LARGE
@@ -29,17 +28,6 @@ def unreadable(package: Package) -> Wrong:
     so = "no node of the workspace starts" if package.malformed else "roslaunch starts nothing"
     hint += f". Until then catkin_make fails, and {so}"
     return Wrong("a package.xml that can be read", package.error, where, hint, sure=True)
-
-
-def must_be_launchable(session: Session) -> None:
-    """Raise Wrong for a package.xml that keeps roslaunch from starting anything; it asks catkin."""
-    if session.broken:
-        raise unreadable(session.broken)
-    for package in session.packages:
-        if package.error:
-            raise unreadable(package)
-    for package in session.packages:
-        must_be_one([each for each in session.packages if each.name == package.name])
 
 
 def must_be_one(packages: Sequence[Package]) -> None:

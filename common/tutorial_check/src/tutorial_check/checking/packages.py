@@ -2,16 +2,27 @@
 
 from __future__ import annotations
 
+from tutorial_check.checking.manifest_errors import must_be_one, unreadable
 from tutorial_check.checking.results import Wrong
-from tutorial_check.course.definition import read_course
-from tutorial_check.submission.files import Session
+from tutorial_check.checking.submission import Submission
 from tutorial_check.submission.packages import Package
 
 
-def package_of(session: Session, name: str) -> Package:
+def package_of(submission: Submission, name: str) -> Package:
     """Return the package of that name. Raises Wrong."""
-    if not session.has(name):
-        there = ", ".join(each.name for each in session.packages) or "no package at all"
-        depends = read_course(session.order.course).packages.get(name, "rospy")
+    if not submission.has(name):
+        there = ", ".join(each.name for each in submission.packages) or "no package at all"
+        depends = submission.course.packages.get(name, "rospy")
         raise Wrong(f"a package {name} in src", there, hint=f"catkin_create_pkg {name} {depends}")
-    return session.package(name)
+    return submission.package(name)
+
+
+def must_be_launchable(submission: Submission) -> None:
+    """Raise Wrong for a package.xml that keeps roslaunch from starting anything; it asks catkin."""
+    if submission.broken:
+        raise unreadable(submission.broken)
+    for package in submission.packages:
+        if package.error:
+            raise unreadable(package)
+    for package in submission.packages:
+        must_be_one([each for each in submission.packages if each.name == package.name])

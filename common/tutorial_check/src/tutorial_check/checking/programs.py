@@ -11,23 +11,23 @@ from typing import Iterator
 from tutorial_check.checking.causes import explain, hider, traced
 from tutorial_check.checking.packages import package_of
 from tutorial_check.checking.results import Note, Wrong
+from tutorial_check.checking.submission import Submission
 from tutorial_check.processes.program import Ran
 from tutorial_check.recording.build import built, installed
 from tutorial_check.submission import student_files
-from tutorial_check.submission.files import Session
 from tutorial_check.submission.python_facts import PythonFacts
 from tutorial_check.submission.python_text import unreadable
 from tutorial_check.submission.tracebacks import Traceback, first_traceback, last_lines
 
-COPY = re.compile(r"checked_\d+_")  # a program with one thing changed; see Session.sibling
+COPY = re.compile(r"checked_\d+_")  # a program with one thing changed; see Submission.sibling
 # env -S takes arguments.
 INTERPRETER = re.compile(rb"#!\s*(?:\S*/env\s+(?:-S\s*)?(?:\w+=\S*\s+)*)?(\S+)")
 PYTHON3 = "#!/usr/bin/env python3"
 
 
-def find_script(session: Session, package: str, name: str) -> str:
+def find_script(submission: Submission, package: str, name: str) -> str:
     """Return the path of a program within its package. Raises Wrong."""
-    folder = session.package(package).folder
+    folder = submission.package(package).folder
     files = sorted(path for path in folder.rglob("*") if path.is_file())
     found = must_be_one(folder, name)
     # One without .py counts where there is none with it.
@@ -43,24 +43,24 @@ def find_script(session: Session, package: str, name: str) -> str:
     near = near or difflib.get_close_matches(name, [o for o in texts if name not in o], 1, 0.75)
     if near:
         other = others[near[0]]
-        paths = (session.whole(path, package) for path in (other, other.with_name(name)))
+        paths = (submission.whole(path, package) for path in (other, other.with_name(name)))
         hint = f"mv {' '.join(paths)}: capitals, underscores and the ending count"
         raise Wrong(f"a program {name}", f"a file {near[0]}", str(other.relative_to(folder)), hint)
     if compiled:
         seen = f"a program in C++, {compiled[0].name}"
         hint = f"the exercise asks for Python, rospy: write scripts/{name}; the C++ may stay"
         raise Wrong(f"a program {name}", seen, str(compiled[0].relative_to(folder)), hint)
-    expected = f"a program {name} in the package {session.task.shown(package)}"
+    expected = f"a program {name} in the package {submission.task.shown(package)}"
     hint = f"create scripts/{name} in YOUR package; ./tutorial shell without --in has one of OURS"
-    look = f"ls {session.whole('scripts', package)}"
+    look = f"ls {submission.whole('scripts', package)}"
     raise Wrong(expected, "no such file anywhere in it", "", hint, look=look)
 
 
-def program_of(session: Session, package: str, name: str) -> str:
+def program_of(submission: Submission, package: str, name: str) -> str:
     """Return the path of a program that can be run, within its package. Raises Wrong."""
-    package_of(session, package)
-    script = find_script(session, package, name)
-    check_file(session, package, script)
+    package_of(submission, package)
+    script = find_script(submission, package, name)
+    check_file(submission, package, script)
     return script
 
 
@@ -76,16 +76,19 @@ def must_be_one(folder: Path, name: str) -> list[Path]:
     return runnable
 
 
-def check_file(session: Session, package: str, script: str) -> None:
+def check_file(submission: Submission, package: str, script: str) -> None:
     """Raise Wrong for a program that rosrun does not start, or Python does not read."""
-    for wrong in _faults(session, package, script):  # the first counts
-        wrong.look = wrong.look or f"rosrun {session.task.shown(package)} {Path(script).name}"
+    for wrong in _faults(submission, package, script):  # the first counts
+        wrong.look = wrong.look or f"rosrun {submission.task.shown(package)} {Path(script).name}"
         raise wrong
 
 
-def _faults(session: Session, package: str, script: str) -> Iterator[Wrong]:
-    path, whole = session.package(package).folder / script, session.whole(script, package)
-    data, facts = student_files.read(session.folder, path), session.scripts(package).get(script)
+def _faults(submission: Submission, package: str, script: str) -> Iterator[Wrong]:
+    path, whole = submission.package(package).folder / script, submission.whole(script, package)
+    data, facts = (
+        student_files.read(submission.folder, path),
+        submission.scripts(package).get(script),
+    )
     yield from _faults_of_bytes(data, script, whole)
     line, text = (facts and unreadable(data)) or (0, "")
     if line:
@@ -101,7 +104,7 @@ def _faults(session: Session, package: str, script: str) -> Iterator[Wrong]:
         yield Wrong("Python that can be read", seen, where, hint, look=look)
     yield from _faults_of_first_line(data, script, whole)
     may_be_run = path.stat().st_mode & 0o100  # or catkin makes it so, in devel
-    if not may_be_run and not session.recording(installed, package, script).installed:
+    if not may_be_run and not submission.recording(installed, package, script).installed:
         seen = f"{path.name} is not executable (rosrun: Couldn't find executable)"
         hint, look = f"chmod +x {whole}", f"ls -l {whole}"
         yield Wrong("a program that may be run", seen, script, hint, look=look)
@@ -155,9 +158,9 @@ def _faults_of_first_line(data: bytes, script: str, whole: str) -> Iterator[Wron
         yield Wrong("Python 3", line, where, hint, look=look)
 
 
-def odd_node(session: Session, package: str, script: str) -> Note | None:
+def odd_node(submission: Submission, package: str, script: str) -> Note | None:
     """Return a Note on the name of a node of which ROS warns, or None."""
-    facts = session.scripts(package).get(script)
+    facts = submission.scripts(package).get(script)
     if not facts or not facts.odd_node:
         return None
     line, name = facts.odd_node
@@ -166,36 +169,40 @@ def odd_node(session: Session, package: str, script: str) -> Note | None:
     return Note(seen, f"{script}:{line}", f"letters, digits and _ only: {right!r}")
 
 
-def cause_of(session: Session, package: str, trace: Traceback, name: str = "") -> tuple[str, str]:
+def cause_of(
+    submission: Submission, package: str, trace: Traceback, name: str = ""
+) -> tuple[str, str]:
     """Return (the line to blame, what to do) for a Traceback of a program, maybe of that name."""
     name = COPY.sub("", name)
-    script = next((each for each in session.scripts(package) if Path(each).name == name), "")
+    script = next((each for each in submission.scripts(package) if Path(each).name == name), "")
     script = COPY.sub("", trace.where.rpartition(":")[0] or script)  # with the same lines
     if not script:
         return trace.where, explain(trace.error, trace.text)
-    facts = PythonFacts(session.text(package, script))
+    facts = PythonFacts(submission.text(package, script))
     function = re.search(r"(\w+)\(\) (?:takes|missing)", trace.error)
     line = int(trace.where.rpartition(":")[2] or 0)
     if not line and function:  # called by rospy itself
         line = facts.names.get(function[1], 0)
     line, hint = traced(trace.error, line, facts)
-    hint = hint or explain(trace.error, trace.text, session.whole(script, package))
-    file, hides = hider(trace.error, script, session.scripts(package))
+    hint = hint or explain(trace.error, trace.text, submission.whole(script, package))
+    file, hides = hider(trace.error, script, submission.scripts(package))
     if hides:
         return file or f"{script}:{line}", hides
     is_import = re.match("ImportError|ModuleNotFoundError", trace.error)
-    if is_import and session.needs_build() and session.recording(built).code != 0:
+    if is_import and submission.needs_build() and submission.recording(built).code != 0:
         fails = "catkin_make, which may have to make it, fails: run it, it says why"
         hint = "; ".join(filter(None, (hint, fails)))
     return f"{script}:{line}" if line else "", hint
 
 
-def crash(session: Session, package: str, program: Ran, expected: str, hint: str = "") -> Wrong:
+def crash(
+    submission: Submission, package: str, program: Ran, expected: str, hint: str = ""
+) -> Wrong:
     """Return the Wrong for a program that ended or failed, with the cause that its output shows."""
-    trace = first_traceback(program.output, str(session.package(package).folder))
+    trace = first_traceback(program.output, str(submission.package(package).folder))
     if trace and not (program.was_stopped and trace.error.startswith("KeyboardInterrupt")):
         seen = trace.error + (f"   in: {trace.text}" if trace.text else "")
-        place, cause = cause_of(session, package, trace, program.name)
+        place, cause = cause_of(submission, package, trace, program.name)
         return Wrong(expected, seen, place, cause or hint, sure=True)
     if program.code is not None and program.code < 0:
         return Wrong(expected, f"the program was ended by signal {-program.code}", "", hint)
@@ -210,17 +217,17 @@ def crash(session: Session, package: str, program: Ran, expected: str, hint: str
 
 
 def check_end(
-    session: Session, package: str, script: str, taken_s: float | None, output: str
+    submission: Submission, package: str, script: str, taken_s: float | None, output: str
 ) -> Note | None:
     """Return a Note on how a program ended after Ctrl-C, or None. taken_s: None if killed."""
     name = Path(script).name
     if taken_s is None:
-        facts = session.scripts(package)[script]
+        facts = submission.scripts(package)[script]
         endless = facts.loops if "is_shutdown" not in facts.calls else []
         where = f"{script}:{endless[0]}" if endless else script
         hint = "rospy.spin(), or while not rospy.is_shutdown(): and no `except` that hides the end"
         raise Wrong(f"{name} ends within 3 s of Ctrl-C", "it had to be killed", where, hint)
-    trace = first_traceback(output, str(session.package(package).folder))
+    trace = first_traceback(output, str(submission.package(package).folder))
     if trace and "ROSInterrupt" in trace.error:
         seen = f"{name} ends with a traceback, ROSInterruptException"
         return Note(seen, trace.where, "except rospy.ROSInterruptException: pass")

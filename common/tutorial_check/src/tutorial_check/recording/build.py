@@ -14,10 +14,10 @@ class Installed:
     installed: bool
 
 
-def built(ground: Builder) -> Built:
-    return ground.built
+def built(workspace: Builder) -> Built:
+    return workspace.built
 
 
-def installed(ground: Builder, package: str, script: str) -> Installed:
+def installed(workspace: Builder, package: str, script: str) -> Installed:
     """Look for a program in devel. script: its path within the package."""
-    return Installed("/devel/lib/" in ground.command(package, script)[0])
+    return Installed("/devel/lib/" in workspace.command(package, script)[0])

@@ -13,7 +13,7 @@ from tutorial_check.processes.program import Program
 from tutorial_check.processes.runner import Runner
 from tutorial_check.sandbox.environment import environment_of
 from tutorial_check.submission import student_files
-from tutorial_check.submission.files import Session
+from tutorial_check.submission.files import SubmissionFiles
 from tutorial_check.submission.manifests import is_stand_in
 from tutorial_check.submission.order import Order
 
@@ -29,8 +29,8 @@ class Built:
     unbuilt: str = ""  # what it printed of packages that the exercises do not need
 
 
-class Builder(Session):
-    """A Session whose programs can be built."""
+class Builder(SubmissionFiles):
+    """A SubmissionFiles whose programs can be built."""
 
     def __init__(self, order: Order, task: Task, runner: Runner) -> None:
         super().__init__(order, task)

@@ -14,7 +14,7 @@ from typing import Any, Dict, List, Optional, Sequence, Tuple
 
 from tutorial_check.processes.errors import NO_TYPE, CannotCheck, CutShort
 from tutorial_check.processes.program import Program, Ran
-from tutorial_check.recording.ros_session import START_S, Stage
+from tutorial_check.recording.ros_session import START_S, RosSession
 from tutorial_check.submission.tracebacks import last_lines
 
 Heard = Tuple[float, str, Dict[str, Any]]  # (when it came [s], from which node, its fields)
@@ -56,21 +56,21 @@ def _fault(why: object) -> CannotCheck:
 
 
 class Client:
-    """A node on a stage; see common/doc/COURSES.md.
+    """A node on a ros; see common/doc/COURSES.md.
 
     If a type of the student's workspace is missing or does not fit the values, that is their
     mistake, and ends the recording; with another type it is the course's. See client_node, too.
     """
 
-    def __init__(self, stage: Stage) -> None:
+    def __init__(self, ros: RosSession) -> None:
         """Start it, with the student's rights: it imports what their workspace generates."""
-        self._stage, self._numbers, self._buffer = stage, itertools.count(), b""
+        self._ros, self._numbers, self._buffer = ros, itertools.count(), b""
         self._answers: dict[int, Any] = {}
         self._kinds: dict[str, str] = {}  # of topics that are advertised
         self._line, theirs = socket.socketpair()
         self._line.settimeout(SLOW_S)
         command = ["/usr/bin/python3", str(Path(__file__).with_name("client_node.py"))]
-        self._node = stage.runner.start(command, stage.environment, stdin=theirs.fileno())
+        self._node = ros.runner.start(command, ros.environment, stdin=theirs.fileno())
         theirs.close()
         self._tell("services")  # it is up: what programs do soon is not missed
 
@@ -103,7 +103,7 @@ class Client:
     def seen(self, program: Program, *names: str, answers: Sequence[object] = ()) -> Seen:
         """Return what was seen until now. names: of topics and services."""
         heard = {name: tuple(values for *_, values in self.heard(name)) for name in names}
-        return Seen(program.ran, heard, tuple(answers), self._stage.driver.types())
+        return Seen(program.ran, heard, tuple(answers), self._ros.peer.types())
 
     def count(self, name: str) -> int:
         return int(self._tell("count", name))
@@ -117,13 +117,13 @@ class Client:
         return float(self._tell("send", topic, values, of=self._kinds[topic]))
 
     def meet(self, program: Program, *topics: str) -> bool:
-        """Return whether a program has connected on these topics; wait for that. See Stage.meet."""
+        """Wait until a program has connected on these topics, and return whether it has."""
 
         def has_met() -> bool:
             return all(self._tell("connections", topic) for topic in topics)
 
-        self._stage.wait_for_start(lambda: program.ended or has_met())
-        return self._stage.meet(program) and has_met()
+        self._ros.wait_for_start(lambda: program.ended or has_met())
+        return self._ros.meet(program) and has_met()
 
     def parameter(self, name: str) -> object:
         """Return the value of a parameter, or None."""
@@ -131,7 +131,7 @@ class Client:
 
     def lookup(self, target: str, source: str, seconds: float = START_S) -> Optional[Transform]:
         """Return the newest transform, or None if there is none within that time."""
-        found = self._stage.wait(lambda: self._tell("lookup", target, source), seconds)
+        found = self._ros.wait(lambda: self._tell("lookup", target, source), seconds)
         return Transform(*map(tuple, found)) if found else None
 
     def transforms(self) -> Tuple[str, ...]:
@@ -148,12 +148,12 @@ class Client:
         with contextlib.suppress(OSError):  # it has ended, or hangs
             self._line.sendall(f"{line}\n".encode())
         if seconds is None:
-            self._stage.wait(lambda: self._has(number), SLOW_S)
-        elif not self._stage.wait_for_start(lambda: self._has(number), seconds):
+            self._ros.wait(lambda: self._has(number), SLOW_S)
+        elif not self._ros.wait_for_start(lambda: self._has(number), seconds):
             return None
         words = f"what uses {of or 'ROS'} ends, or hangs. {last_lines(self._node.output)}".strip()
         answer = self._answers.pop(number, {"fault": words})
-        own = [each.name for each in self._stage.session.packages]
+        own = [each.name for each in self._ros.workspace.packages]
         if "fault" in answer and of.partition("/")[0] in own:
             raise CutShort(NO_TYPE, answer["fault"])
         if "value" not in answer:

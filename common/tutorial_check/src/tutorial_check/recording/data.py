@@ -82,7 +82,7 @@ def recorded_by(recorder: Callable[..., Recording]) -> type[Recording]:
 
 
 def arguments_of(recorder: Callable[..., object], values: List[object]) -> List[object]:
-    """Return the arguments of a recorder, after the ground, that as_json() has made."""
+    """Return the arguments of a recorder, after the workspace, that as_json() has made."""
     kinds, names = get_type_hints(recorder), list(inspect.signature(recorder).parameters.values())
     found = []
     for number, value in enumerate(values, 1):

@@ -84,7 +84,7 @@ class Echo:
         return bool(self._publisher.get_num_connections() > 0)
 
 
-class Driver:
+class Peer:
     """A node with which the checker exchanges messages with the student's."""
 
     def __init__(self) -> None:
@@ -176,7 +176,7 @@ class Driver:
         """Return publishers and subscribers, without ourselves."""
         with contextlib.suppress(OSError, rosgraph.MasterException):
             return tuple(map(_others, self._master.getSystemState()[:2]))
-        return {}, {}  # the master has gone; see Stage.master_lives
+        return {}, {}  # the master has gone; see RosSession.master_lives
 
     def types(self) -> dict[str, str]:
         with contextlib.suppress(OSError, rosgraph.MasterException):

@@ -15,46 +15,46 @@ from tutorial_check.processes.runner import Value
 from tutorial_check.recording.builder import Builder
 
 if TYPE_CHECKING:  # The module loads ROS.
-    from tutorial_check.recording.peer import Driver, Echo
+    from tutorial_check.recording.peer import Echo, Peer
 
 START_S = 8.0  # a node of the student's has this long to appear
 SETTLE_S = 0.5  # once connected, a thread of it has this long to attach its callback
 
 
-class Stage:
-    """A master, a driver, and the student's programs."""
+class RosSession:
+    """A master, a peer, and the student's programs."""
 
-    def __init__(self, session: Builder, renamed: bool = True) -> None:
-        """Start a master and a driver. renamed: topics have the names of the student's task."""
+    def __init__(self, workspace: Builder, renamed: bool = True) -> None:
+        """Start a master and a peer. renamed: topics have the names of the student's task."""
         # ROS, for all that are forked from here on. Not every check needs it, and it takes time.
         import rosmaster.master  # noqa: F401, PLC0415
 
-        from tutorial_check.recording import peer as driver  # noqa: PLC0415
+        from tutorial_check.recording import peer  # noqa: PLC0415
 
-        self.session, self.runner, self.wait = session, session.runner, session.runner.wait
-        self._topics = dict(session.task.topics) if renamed else {}
+        self.workspace, self.runner, self.wait = workspace, workspace.runner, workspace.runner.wait
+        self._topics = dict(workspace.task.topics) if renamed else {}
         with socket.socket() as probe:
             probe.bind(("127.0.0.1", 0))
             port = probe.getsockname()[1]
         master = {"ROS_MASTER_URI": f"http://127.0.0.1:{port}"}
-        self.environment = {**session.environment, **master}
+        self.environment = {**workspace.environment, **master}
         # Our programs are found in the underlay alone, whatever the student has of their name. Logs
         # are elsewhere: the student's may not write in folders of ours.
-        own = dict.fromkeys(("HOME", "ROS_HOME", "ROS_LOG_DIR"), str(session.folder / "ours"))
-        self._ours = {**session.underlay_environment, **master, **own}
+        own = dict.fromkeys(("HOME", "ROS_HOME", "ROS_LOG_DIR"), str(workspace.folder / "ours"))
+        self._ours = {**workspace.underlay_environment, **master, **own}
         self._helpers: list[Helper[Any]] = []
         self._master = self.help(lambda: MasterProcess(port))
         if not self._master.remote.uri():
             raise CannotCheck("no ROS master can be started here")
-        self._driver = self.help(driver.Driver)
-        self.driver = cast("Driver", Remote(self._call))
+        self._peer = self.help(peer.Peer)
+        self.peer = cast("Peer", Remote(self._call))
         # As roscore does; else two roslaunch at once would each make up one, and one of them fail.
-        self.driver.set_parameter("/run_id", str(uuid.uuid4()))
+        self.peer.set_parameter("/run_id", str(uuid.uuid4()))
         # As common/node_kit/etc/ros/roscore.xml, which says why.
-        self.driver.set_parameter("/rosout_disable_topics_generation", False)
+        self.peer.set_parameter("/rosout_disable_topics_generation", False)
 
     def start(self, package: str, script: str, *arguments: str) -> Program:
-        return self.launch([*self.session.command(package, script), *arguments])
+        return self.launch([*self.workspace.command(package, script), *arguments])
 
     def help(self, make: Callable[[], Served]) -> Helper[Served]:
         helper = Helper(make, self._ours)
@@ -64,14 +64,14 @@ class Stage:
 
     def echo(self, axis: int) -> tuple[Echo, str]:
         """Return an Echo of an axis, and the topic on which it answers."""
-        from tutorial_check.recording import peer as driver  # noqa: PLC0415
+        from tutorial_check.recording import peer  # noqa: PLC0415
 
-        joy = self._topics.get(driver.JOY, driver.JOY)
-        return self.help(lambda: driver.Echo(joy, axis)).remote, driver.ECHO
+        joy = self._topics.get(peer.JOY, peer.JOY)
+        return self.help(lambda: peer.Echo(joy, axis)).remote, peer.ECHO
 
     def start_ours(self, package: str, program: str, *arguments: str) -> Program:
         """Start a program of the suite's. Without rosrun, which searches it for half a second."""
-        path = Path(self.session.order.underlay).parent / "lib" / package / program
+        path = Path(self.workspace.order.underlay).parent / "lib" / package / program
         renamed = [f"{topic}:={own}" for topic, own in self._topics.items()]
         return self.launch([str(path), *renamed, *arguments], trusted=True)
 
@@ -83,10 +83,10 @@ class Stage:
             raise CutShort(CANNOT_START, seen) from None
 
     def _call(self, method: str, *arguments: object) -> object:
-        """Call the driver. Stop waiting if the master has ended: rospy would retry without end."""
+        """Call the peer. Stop waiting if the master has ended: rospy would retry without end."""
         if arguments:
             arguments = (self._topics.get(str(arguments[0]), arguments[0]), *arguments[1:])
-        return self._driver.call(method, *arguments, in_vain=lambda: not self.master_lives)
+        return self._peer.call(method, *arguments, in_vain=lambda: not self.master_lives)
 
     @property
     def master_lives(self) -> bool:
@@ -105,7 +105,7 @@ class Stage:
         """
 
         def has_met() -> bool:
-            return all([self.driver.has_met(topic) for topic in topics])
+            return all([self.peer.has_met(topic) for topic in topics])
 
         self.wait_for_start(lambda: program.ended or has_met())
         self.wait(lambda: program.ended or program.rests(), SETTLE_S)
@@ -115,4 +115,4 @@ class Stage:
         self.runner.clear()
         for helper in reversed(self._helpers):
             helper.end()
-        shutil.rmtree(self.session.folder / "home" / ".ros", ignore_errors=True)
+        shutil.rmtree(self.workspace.folder / "home" / ".ros", ignore_errors=True)

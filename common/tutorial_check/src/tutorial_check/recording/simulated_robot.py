@@ -1,4 +1,4 @@
-"""The simulated TurtleBot on a stage: started by the checker, driven by a student's program."""
+"""The simulated TurtleBot on a ros: started by the checker, driven by a student's program."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Sequence
 
 from tutorial_check.processes.errors import CannotCheck
 from tutorial_check.processes.program import Program
-from tutorial_check.recording.ros_session import START_S, Stage
+from tutorial_check.recording.ros_session import START_S, RosSession
 
 BUMPER, TRUTH = "/mobile_base/events/bumper", "/base_pose_ground_truth"
 ODOM = "/odom"  # in an empty plane there is no other truth
@@ -31,39 +31,39 @@ class Sample:
 class SimulatedRobot:
     """A robot that drives as /cmd_vel says, and what it did."""
 
-    def __init__(self, stage: Stage, *arguments: str) -> None:
+    def __init__(self, ros: RosSession, *arguments: str) -> None:
         """Start it, with parameters such as _world:=room or _initial_x:=1.0. Raises CannotCheck."""
-        self._stage = stage
+        self._ros = ros
         self._poses = TRUTH if any("_world:=" in each for each in arguments) else ODOM
-        stage.driver.listen(self._poses, "Odometry")
-        stage.driver.listen(BUMPER, "BumperEvent")
-        robot = stage.start_ours("fake_turtlebot_sim", "fake_turtlebot.py", *arguments)
-        stage.wait(lambda: robot.ended or stage.driver.count(self._poses), START_S)
-        if robot.ended or not stage.driver.count(self._poses):
+        ros.peer.listen(self._poses, "Odometry")
+        ros.peer.listen(BUMPER, "BumperEvent")
+        robot = ros.start_ours("fake_turtlebot_sim", "fake_turtlebot.py", *arguments)
+        ros.wait(lambda: robot.ended or ros.peer.count(self._poses), START_S)
+        if robot.ended or not ros.peer.count(self._poses):
             raise CannotCheck(f"the simulated robot does not start: {robot.output[-200:]}")
 
     @property
     def path(self) -> tuple[Sample, ...]:
         """All that it did so far, 50 samples a second."""
-        return tuple(map(_sample, self._stage.driver.received(self._poses)))
+        return tuple(map(_sample, self._ros.peer.received(self._poses)))
 
     @property
     def moves(self) -> bool:
         """Whether it moved within the last second."""
-        count = self._stage.driver.count(self._poses)
-        newest = self._stage.driver.received(self._poses, max(0, count - NEWEST))
+        count = self._ros.peer.count(self._poses)
+        newest = self._ros.peer.received(self._poses, max(0, count - NEWEST))
         return any(one.v or one.w for one in map(_sample, newest))
 
     @property
     def bumps(self) -> int:
         """How often a bumper was pressed or released."""
-        return int(self._stage.driver.count(BUMPER))
+        return int(self._ros.peer.count(BUMPER))
 
     def drive(self, program: Program, longest_s: float = LONGEST_DRIVE_S) -> tuple[Sample, ...]:
         """Return its path until it has moved and rests for a second, or for longest_s."""
-        self._stage.wait(lambda: program.ended or self.moves, START_S)
+        self._ros.wait(lambda: program.ended or self.moves, START_S)
         if self.moves:
-            self._stage.wait(lambda: not self.moves, longest_s)
+            self._ros.wait(lambda: not self.moves, longest_s)
         return self.path
 
 

@@ -25,7 +25,7 @@ from tutorial_check.course.tasks import task_of
 from tutorial_check.processes.errors import CannotCheck, CutShort, fault
 from tutorial_check.processes.runner import Runner
 from tutorial_check.recording.data import VERSION, arguments_of, as_json, from_json
-from tutorial_check.recording.ground import Ground
+from tutorial_check.recording.workspace import Workspace
 from tutorial_check.sandbox import bubblewrap, environment, landlock, privileges
 from tutorial_check.submission import workspace
 from tutorial_check.submission.order import Line, Order
@@ -56,29 +56,29 @@ def main() -> None:
 def _answers(order: Order, reader: int, questions: Iterable[Line]) -> Iterator[Line]:
     """Yield that it is ready, then the answer to each question. reader: see Runner."""
     try:
-        ground = _prepared(order, reader)
+        workspace = _prepared(order, reader)
     except Exception as error:
         yield _cannot(error)
         return
     try:
         yield {"ready": True}
-        yield from (answer(ground, each) for each in questions)
+        yield from (answer(workspace, each) for each in questions)
     finally:
-        ground.runner.clear()  # a build, too, is ended; without a namespace nothing else ends it
+        workspace.runner.clear()  # a build, too, is ended; without a namespace nothing else ends it
 
 
-def answer(ground: Ground, asked: Line) -> Line:
+def answer(workspace: Workspace, asked: Line) -> Line:
     """Return the answer to a question; both as above."""
     module, _, name = asked["recorder"].partition(":")
     try:
         recorder = getattr(importlib.import_module(module), name)
-        recorded = recorder(ground, *arguments_of(recorder, asked["arguments"]))
+        recorded = recorder(workspace, *arguments_of(recorder, asked["arguments"]))
         found: Line = {"recording": as_json(recorded)}
     except CutShort as end:
         found = {"cut_short": {"kind": end.kind, "seen": end.seen}}
     except Exception as error:
         found = _cannot(error)
-    clock = ground.runner.clock
+    clock = workspace.runner.clock
     return {"version": VERSION, **found, "strained": clock.strained(), "hopeless": clock.hopeless()}
 
 
@@ -89,7 +89,7 @@ def _cannot(error: Exception) -> Line:
     return {"cannot": fault(error)}
 
 
-def _prepared(order: Order, reader: int) -> Ground:
+def _prepared(order: Order, reader: int) -> Workspace:
     scratch = order.folder
     shutil.copytree(scratch / workspace.COPY, scratch / "ws" / "src", symlinks=True)
     environment.prepare(scratch)
@@ -100,7 +100,7 @@ def _prepared(order: Order, reader: int) -> Ground:
     course = read_course(order.course)
     load(course)  # its recorders
     runner = Runner(variables, order.apart, reader, ruleset)
-    return Ground(order, task_of(course)(order.variant), runner)
+    return Workspace(order, task_of(course)(order.variant), runner)
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any, Callable, Iterator, Mapping, TypeVar
 
+from tutorial_check.course.definition import Course, read_course
 from tutorial_check.course.tasks import Task
 from tutorial_check.submission import student_files
 from tutorial_check.submission.manifests import first_broken
@@ -24,10 +25,10 @@ NEEDS_BUILD = re.compile(
 )
 Recorded = TypeVar("Recorded")
 Value = TypeVar("Value")
-Recorder = Callable[..., Recorded]  # called with a ground.Ground and arguments
+Recorder = Callable[..., Recorded]  # called with a workspace.Workspace and arguments
 
 
-class Session:
+class SubmissionFiles:
     """One workspace: what its files say, and what its programs were recorded to do."""
 
     def __init__(self, order: Order, task: Task) -> None:
@@ -55,9 +56,10 @@ class Session:
         found: Value = self._memory[key]
         return found
 
-    def recording(self, recorder: Recorder[Recorded], *arguments: object) -> Recorded:
-        """Return what a recorder writes down; recorded once, unless it is looked at again."""
-        raise NotImplementedError
+    @cached_property
+    def course(self) -> Course:
+        """The course that it is checked by."""
+        return read_course(self.order.course)
 
     @cached_property
     def broken(self) -> Package | None:
@@ -103,7 +105,7 @@ class Session:
         return self.read(self.package(package).folder / script)
 
     def whole(self, path: str | Path, package: str = "") -> str:
-        """Return a path, here, for a shell; Case.as_sent makes it the student's own."""
+        """Return a path, here, for a shell; Submission.as_sent makes it the student's own."""
         own = self.package(package).folder if package else self.source.parent
         return shlex.quote(str(own / path))
 

@@ -7,28 +7,28 @@ from typing import Iterator
 
 from tutorial_check.processes.errors import MASTER_GONE, UNREADABLE, CannotCheck, CutShort
 from tutorial_check.recording.builder import Builder
-from tutorial_check.recording.ros_session import Stage
+from tutorial_check.recording.ros_session import RosSession
 
 EXIT_S = 1.0  # a master that is killed together with the driver has this long to exit
 
 
-class Ground(Builder):
+class Workspace(Builder):
     """A workspace whose programs can be started."""
 
     @contextlib.contextmanager
-    def stage(self, renamed: bool = True) -> Iterator[Stage]:
-        """Yield a Stage, all ends with it; renamed: topics are called as in the student's task."""
+    def ros_session(self, renamed: bool = True) -> Iterator[RosSession]:
+        """Yield a RosSession, with which all ends; renamed: topics are as in the task."""
         if self.broken:
             raise CutShort(UNREADABLE)
         self.runner.clock.begin()
-        stage = Stage(self, renamed)
+        ros = RosSession(self, renamed)
         try:
-            yield stage
+            yield ros
         except (CannotCheck, CutShort, LookupError) as error:
             if isinstance(error, CannotCheck):  # A driver has ended, maybe with its master.
-                stage.wait(lambda: not stage.master_lives, EXIT_S)
-            if stage.master_lives:
+                ros.wait(lambda: not ros.master_lives, EXIT_S)
+            if ros.master_lives:
                 raise
             raise CutShort(MASTER_GONE) from error
         finally:
-            stage.end()
+            ros.end()

@@ -1,0 +1,88 @@
+"""A submission under examination: its files, and what its programs were recorded to do."""
+
+from __future__ import annotations
+
+import os
+import shlex
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, cast
+
+from node_kit.printable import quotable
+from tutorial_check.checking.ask_once import Ask
+from tutorial_check.checking.manifest_errors import unreadable
+from tutorial_check.checking.results import Result, Wrong, wrong_of
+from tutorial_check.course.tasks import Task
+from tutorial_check.processes.errors import UNREADABLE, CannotCheck, CutShort
+from tutorial_check.recording.data import as_json, from_json, must_be_whole, recorded_by
+from tutorial_check.sandbox import bubblewrap
+from tutorial_check.submission import workspace as workspaces
+from tutorial_check.submission.files import Recorded, Recorder, SubmissionFiles
+from tutorial_check.submission.order import Line, Order
+
+
+class Submission(SubmissionFiles):
+    """What the files of a workspace say, as they were handed in, and what the worker records."""
+
+    def __init__(self, order: Order, task: Task, ask: Ask) -> None:
+        super().__init__(order, task)
+        self.source = self.folder / workspaces.COPY
+        visible = [self.source, *order.shown, *map(Path, bubblewrap.SYSTEM)]
+        self._visible = [Path(os.path.realpath(each)) for each in visible]
+        self._ask = ask
+        self._runs: dict[object, Any] = {}  # what was recorded, or the Wrong in its place
+        self.asked: list[Line] = []  # each question with its answer
+        self._strained = self.hopeless = False  # the machine was, as something was recorded last
+
+    def recording(self, recorder: Recorder[Recorded], *arguments: object) -> Recorded:
+        """Ask for a recording, at the first call. Raises CannotCheck, or Wrong if there is none."""
+        key = recorder.__module__, recorder.__name__, *arguments
+        if key not in self._runs:
+            self._runs[key] = self._asked(recorder, arguments)
+        if isinstance(self._runs[key], Wrong):
+            raise self._runs[key]
+        return cast(Recorded, self._runs[key])
+
+    def _asked(self, recorder: Recorder[object], arguments: tuple[object, ...]) -> object:
+        kind = recorded_by(recorder)
+        must_be_whole(kind)
+        name = f"{recorder.__module__}:{recorder.__name__}"
+        question = {"recorder": name, "arguments": as_json(arguments)}
+        answer = self._ask(question)
+        self.asked.append({**question, **answer})
+        self._strained = bool(answer.get("strained"))
+        self.hopeless = bool(answer.get("hopeless"))
+        if "cannot" in answer:
+            raise CannotCheck(str(answer["cannot"]))
+        if "cut_short" in answer:
+            end = CutShort(**answer["cut_short"])
+            if end.kind == UNREADABLE and self.broken:
+                return unreadable(self.broken)
+            return wrong_of(end)
+        return from_json(kind, answer["recording"])
+
+    def second_look(self, explained: bool) -> bool:
+        """Return whether to look again at what programs do; then forget what they did.
+
+        It is worth it on a busy machine, or if no line explains it: nodes of a launch file meet in
+        any order, and rospy may never end that Ctrl-C meets in the middle of a publish.
+        """
+        if explained and not self._strained:
+            return False
+        self._runs.clear()
+        return True
+
+    def as_sent(self, result: Result) -> Result:
+        """Return a result with the student's own paths, in words that a terminal may show."""
+        layout = self.layout
+        copied = f"{self.source.parent}/" if layout.is_workspace else f"{self.source}/"
+        # Commands work in any folder, where the workspace is known.
+        is_known = self.order.own and self.folder not in layout.root.parents
+        root = f"{shlex.quote(str(layout.root))}/" if is_known else ""
+        roots = {"hint": root, "look": root}
+        found: dict[str, Any] = {
+            name: quotable(words.replace(copied, roots.get(name, "")))
+            for name, words in vars(result).items()
+            if isinstance(words, str)
+        }
+        return replace(result, **found)

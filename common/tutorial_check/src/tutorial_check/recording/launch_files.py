@@ -1,0 +1,66 @@
+"""Launch files as roslaunch reads them, and a launch file at work."""
+
+from __future__ import annotations
+
+import json
+import re
+from dataclasses import dataclass
+from typing import Any, Dict, Optional, Tuple
+
+from tutorial_check.processes.errors import CannotCheck
+from tutorial_check.recording import launch_facts
+from tutorial_check.recording.ros_session import RosSession
+from tutorial_check.recording.workspace import Workspace
+from tutorial_check.submission.tracebacks import last_lines
+
+READ_S = 15.0  # for all four files
+DIED = re.compile(r"^\[([^\]]+)-\d+\] process has died", re.MULTILINE)
+
+
+@dataclass(frozen=True)
+class ReadLaunchFiles:
+    """What roslaunch makes of launch files; see launch_facts."""
+
+    files: Optional[Tuple[Dict[str, Any], ...]]  # None: reading them does not end
+
+
+def read_launch_files(workspace: Workspace, *paths: str) -> ReadLaunchFiles:
+    """Read launch files as roslaunch does, and start nothing. paths: within src."""
+    whole = [str(workspace.source / path) for path in paths]
+    command = ["/usr/bin/python3", launch_facts.__file__, *whole]
+    program = workspace.runner.start(command, workspace.environment)
+    ended = workspace.runner.wait(lambda: program.ended, READ_S)
+    workspace.runner.end(program)
+    if not ended and workspace.runner.clock.strained():
+        raise CannotCheck("launch files cannot be read in time: the machine is too busy")
+    if not ended:
+        return ReadLaunchFiles(None)
+    lines = (line for line in program.output.splitlines() if line.startswith(launch_facts.MARK))
+    found = tuple(json.loads(line[len(launch_facts.MARK) :]) for line in lines)
+    if sorted(one["path"] for one in found) != sorted(whole):
+        raise CannotCheck(f"launch files cannot be read: {last_lines(program.output)}")
+    return ReadLaunchFiles(found)
+
+
+class Launch:
+    """A launch file that runs on a ros."""
+
+    def __init__(self, ros: RosSession, path: str, *arguments: str) -> None:
+        """Start it. path: within src; arguments: such as x:=1."""
+        self._ros = ros
+        self.program = ros.launch(["roslaunch", str(ros.workspace.source / path), *arguments])
+
+    @property
+    def nodes(self) -> Tuple[str, ...]:
+        """The nodes that the master knows, without the checker's."""
+        return tuple(sorted(self._ros.peer.state()[0].get("/rosout", ())))
+
+    @property
+    def died(self) -> Tuple[str, ...]:
+        """Nodes of which roslaunch printed that they have died."""
+        return tuple(DIED.findall(self.program.output))
+
+    @property
+    def is_over(self) -> bool:
+        """Whether it has ended, or a node of it."""
+        return self.program.ended or bool(self.died)
