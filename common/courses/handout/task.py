@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Mapping, Sequence, Tuple, TypeVar
 
-from tutorial_check.course.tasks import Task, Variant
+from tutorial_check import Task, Variant
 
 PACKAGE = "joy2twist"
 LB = 4  # the dead-man button of the handout's memo

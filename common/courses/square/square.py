@@ -4,11 +4,7 @@ import math
 from dataclasses import dataclass
 from typing import Tuple
 
-from tutorial_check.checking.checks import check
-from tutorial_check.checking.programs import crash, program_of
-from tutorial_check.checking.results import Wrong
-from tutorial_check.processes.program import Ran
-from tutorial_check.recording.simulated_robot import Sample, SimulatedRobot, has_moved
+from tutorial_check import Ran, Sample, SimulatedRobot, Wrong, check, crash, has_moved, program_of
 
 CORNERS = [(1, 0), (1, 1), (0, 1), (0, 0)]  # [m], to the left; to the right the y are negative
 NEAR_M = 0.1

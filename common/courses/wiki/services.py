@@ -2,12 +2,7 @@
 
 import re
 
-from courses.handout.package.checks import must_build
-from tutorial_check.checking.checks import check
-from tutorial_check.checking.files import File, recorded
-from tutorial_check.checking.packages import package_of
-from tutorial_check.checking.results import Wrong
-from tutorial_check.recording.client import Client, Seen
+from tutorial_check import Client, File, Seen, Wrong, check, must_build, package_of, recorded
 
 from .turtles import PACKAGE, START_S
 

@@ -2,12 +2,7 @@
 
 import math
 
-from tutorial_check.checking.checks import check
-from tutorial_check.checking.files import File, recorded
-from tutorial_check.checking.launches import launch_file
-from tutorial_check.checking.programs import program_of
-from tutorial_check.recording.client import Client, Seen
-from tutorial_check.recording.launch_files import Launch
+from tutorial_check import Client, File, Launch, Seen, check, launch_file, program_of, recorded
 
 from .turtles import KINDS, POSE, START_S, gap, turtles
 

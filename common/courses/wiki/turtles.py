@@ -3,15 +3,18 @@
 import math
 from contextlib import contextmanager
 
-from tutorial_check.checking.checks import check
-from tutorial_check.checking.files import recorded
-from tutorial_check.checking.launches import launch_file
-from tutorial_check.checking.packages import package_of
-from tutorial_check.checking.results import Wrong
-from tutorial_check.processes.errors import CannotCheck
-from tutorial_check.recording.client import Client, Seen
-from tutorial_check.recording.launch_files import Launch
-from tutorial_check.submission.tracebacks import last_lines
+from tutorial_check import (
+    CannotCheck,
+    Client,
+    Launch,
+    Seen,
+    Wrong,
+    check,
+    last_lines,
+    launch_file,
+    package_of,
+    recorded,
+)
 
 PACKAGE = "beginner_tutorials"
 POSE, COMMAND, START_S = "/turtle1/pose", "/turtle1/cmd_vel", 8.0

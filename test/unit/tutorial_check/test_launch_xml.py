@@ -5,7 +5,7 @@ from xml.parsers import expat
 
 import pytest
 
-from tutorial_check.checking.launch_errors import QUOTES, not_xml, parse_error
+from tutorial_check.checking.launch_errors import QUOTES, launch_error, not_xml
 from tutorial_check.submission.launch_xml import Fault
 
 ENCODING = 'Python cannot read the encoding of its first line: write encoding="utf-8"'
@@ -53,5 +53,5 @@ def test_a_name_is_suggested_only_from_what_programs_may_see(tmp_path, kind, may
     if kind == "no such arg":
         words = f"unused args [grade] for include of [{tmp_path}/grades.launch]"
     fault = Fault("RLException", words, "include", [("a.launch", 1)])
-    wrong = parse_error(fault, "a.launch", 1, "<launch/>", lambda _: may_see)
+    wrong = launch_error(fault, "a.launch", 1, "<launch/>", lambda _: may_see)
     assert ("grades" in wrong.hint) == may_see

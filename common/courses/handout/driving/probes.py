@@ -7,7 +7,7 @@ import math
 import re
 from typing import Iterable, NamedTuple, Sequence, Tuple
 
-from tutorial_check.checking.rows import Row, find
+from tutorial_check import Row, find
 
 from ..task import AXES, HANDOUT, LB, Joy, JoystickTask
 from . import rules

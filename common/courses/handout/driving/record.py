@@ -8,9 +8,7 @@ import time
 from dataclasses import dataclass, replace
 from typing import Any, Callable, Sequence
 
-from tutorial_check.processes.runner import GRACE_S
-from tutorial_check.recording.ros_session import START_S, RosSession
-from tutorial_check.recording.workspace import Workspace
+from tutorial_check import GRACE_S, START_S, RosSession, Workspace
 
 from ..task import PACKAGE, Joy
 from . import probes

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tutorial_check.checking.rows import Row, find
+from tutorial_check import Row, find
 
 from .evidence import RIGHT, SMALL, Evidence, Field, factor_of, no_number
 

@@ -6,8 +6,7 @@ import statistics
 from dataclasses import dataclass, field, replace
 from typing import Dict, Optional, Tuple
 
-from tutorial_check.processes.program import Ran
-from tutorial_check.recording.data import Topics
+from tutorial_check import Ran, Topics
 
 from ..task import HANDOUT, Joy, JoystickTask
 from . import probes

@@ -6,12 +6,22 @@ import re
 import statistics
 from dataclasses import replace
 
-from tutorial_check.checking.checks import check
-from tutorial_check.checking.programs import check_end, check_file, find_script, odd_node
-from tutorial_check.checking.results import Note, Wrong, wrong_of
-from tutorial_check.checking.rows import Row, demand, find
-from tutorial_check.checking.submission import Submission
-from tutorial_check.processes.errors import MASTER_GONE, CutShort
+from tutorial_check import (
+    MASTER_GONE,
+    CutShort,
+    Note,
+    Row,
+    Submission,
+    Wrong,
+    check,
+    check_end,
+    check_file,
+    demand,
+    find,
+    find_script,
+    odd_node,
+    wrong_of,
+)
 
 from ..driving.probes import ROUNDED, SILENCES
 from ..driving.record import COUNT, drive, found, loaded

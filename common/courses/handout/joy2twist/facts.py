@@ -8,13 +8,17 @@ import functools
 import re
 from typing import Sequence
 
-from tutorial_check.checking.causes import with_import
-from tutorial_check.checking.programs import check_file, crash, ended
-from tutorial_check.checking.results import Wrong
-from tutorial_check.checking.submission import Submission
-from tutorial_check.submission.python_facts import shows
-from tutorial_check.submission.python_text import unmasked
-from tutorial_check.submission.tracebacks import first_traceback
+from tutorial_check import (
+    Submission,
+    Wrong,
+    check_file,
+    crash,
+    ended,
+    first_traceback,
+    shows,
+    unmasked,
+    with_import,
+)
 
 from ..driving import probes
 from ..driving.record import COLOUR, COUNT, drive

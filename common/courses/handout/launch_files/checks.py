@@ -6,14 +6,17 @@ import os
 import re
 from pathlib import Path
 
-from tutorial_check.checking.checks import check
-from tutorial_check.checking.programs import cause_of
-from tutorial_check.checking.results import Note, Wrong
-from tutorial_check.checking.submission import Submission
-from tutorial_check.recording.launch_facts import Node
-from tutorial_check.recording.simulated_robot import ODOM
-from tutorial_check.submission.launch_xml import attribute
-from tutorial_check.submission.tracebacks import first_traceback
+from tutorial_check import (
+    ODOM,
+    Node,
+    Note,
+    Submission,
+    Wrong,
+    attribute,
+    cause_of,
+    check,
+    first_traceback,
+)
 
 from ..driving.record import CMD_VEL, JOY
 from ..s4.checks import check_recording

@@ -9,19 +9,30 @@ import shlex
 from pathlib import Path
 from typing import Any
 
-from tutorial_check.checking import launch_errors
-from tutorial_check.checking.causes import meant
-from tutorial_check.checking.checks import check
-from tutorial_check.checking.packages import must_be_launchable
-from tutorial_check.checking.programs import find_script
-from tutorial_check.checking.results import Note, Wrong
-from tutorial_check.checking.submission import Submission
-from tutorial_check.checking.texts import Lines, read, text_of_file
-from tutorial_check.recording.launch_facts import Node
-from tutorial_check.recording.launch_files import read_launch_files
-from tutorial_check.submission import launch_xml
-from tutorial_check.submission.launch_xml import line_of, place_of
-from tutorial_check.submission.manifests import is_stand_in
+from tutorial_check import (
+    GAPS,
+    UNSET,
+    Fault,
+    Lines,
+    Node,
+    Note,
+    Submission,
+    Wrong,
+    attribute,
+    blamed_place,
+    check,
+    find_script,
+    is_stand_in,
+    launch_error,
+    line_of,
+    meant,
+    must_be_launchable,
+    package_hint,
+    place_of,
+    read_launch_files,
+    read_xml,
+    text_of_file,
+)
 
 from ..joy2twist.checks import NAME
 from ..task import PACKAGE
@@ -52,7 +63,7 @@ class LaunchFile(Lines):
         self.submission, self.name = submission, name
         self.path = find_launch(submission, name)
         self.where = shown(submission, self.path)
-        self.text = read(self.path)
+        self.text = read_xml(self.path)
         self.facts = _read(submission)[name]
         self.nodes: list[Node] = self.facts["nodes"]  # that it starts
         self.package = submission.task.named(PACKAGE)
@@ -62,8 +73,8 @@ class LaunchFile(Lines):
         """Return FILE:LINE of a node, which may be in an included file."""
         path = Path(node["filename"])
         path = path if self.submission.is_own(path) else self.path
-        words = (*launch_xml.attribute("type", node["type"]), Path(node["type"]).name)
-        return place_of(shown(self.submission, path), read(path), *words)
+        words = (*attribute("type", node["type"]), Path(node["type"]).name)
+        return place_of(shown(self.submission, path), read_xml(path), *words)
 
     def of(self, *roles: str) -> list[Node]:
         """Return the nodes that it starts of any of these ROLES."""
@@ -152,12 +163,12 @@ def check_file(submission: Submission, name: str) -> LaunchFile:
 
 def _check_text(file: LaunchFile) -> None:
     one = file.facts
-    for gap in filter(None, (re.search(each, file.text) for each in launch_xml.GAPS)):
+    for gap in filter(None, (re.search(each, file.text) for each in GAPS)):
         whole = gap[0].replace(gap[1], "_".join(gap[1].split()))
         hint = f"a name has no space, the PDF shows _ as a gap: {whole}"
         raise Wrong("names in one word", gap[0], file.at(gap[0]), hint)
     if one["fault"]:
-        raise _fault(file, launch_xml.Fault(**one["fault"]))
+        raise _fault(file, Fault(**one["fault"]))
     said = one["said"] + " ".join(one.get("errors", []))
     _check_words(file, said)
     inside = re.search(r"unrecognized '(\w+)' child tag", said)
@@ -170,16 +181,14 @@ def _check_text(file: LaunchFile) -> None:
         raise Wrong(expected, seen, f"{file.where}:{line_of(file.text, found.start())}", hint)
 
 
-def _fault(file: LaunchFile, fault: launch_xml.Fault) -> Wrong:
+def _fault(file: LaunchFile, fault: Fault) -> Wrong:
     """Return the Wrong for what roslaunch cannot read, in this file or in an included one."""
     submission = file.submission
-    path, line = launch_errors.blamed(fault, submission.is_own)
+    path, line = blamed_place(fault, submission.is_own)
     text = text_of_file(Path(path))
-    wrong = launch_errors.parse_error(
-        fault, shown(submission, path), line, text, submission.may_see
-    )
+    wrong = launch_error(fault, shown(submission, path), line, text, submission.may_see)
     inner, number = fault.places[-1]
-    if not submission.is_own(inner) and fault.kind != launch_errors.UNSET:
+    if not submission.is_own(inner) and fault.kind != UNSET:
         wrong.seen += f" (in {inner}:{number})"
     hiding = (each for each in submission.packages if each.folder in Path(path).parents)
     for name in (each.name for each in hiding if is_stand_in(each.name)):
@@ -198,9 +207,9 @@ def _check_words(file: LaunchFile, said: str) -> None:
         hint = f"lower case: <{tag.lower()}>"
     written = rf"<{tag}\b" if tag else rf"\s{name}\s*="
     for path in (file.path, *map(Path, file.facts["files"])):
-        found = file.submission.is_own(path) and re.search(written, read(path))
+        found = file.submission.is_own(path) and re.search(written, read_xml(path))
         if found:  # else it is in a file of others
-            where = f"{shown(file.submission, path)}:{line_of(read(path), found.end())}"
+            where = f"{shown(file.submission, path)}:{line_of(read_xml(path), found.end())}"
             expected = "tags and attributes that roslaunch knows"
             raise Wrong(expected, f"{tag or name}: ignored by roslaunch", where, hint)
 
@@ -218,7 +227,7 @@ def _check_node(file: LaunchFile, node: Node) -> None:
     submission, seen = file.submission, f"Cannot locate node of type [{kind}]"
     if package != file.package:
         hint = "look at pkg= and type=: rosrun PACKAGE and Tab twice lists its programs"
-        hint = launch_errors.package_hint(package) if node["found"] is None else hint
+        hint = package_hint(package) if node["found"] is None else hint
         if difflib.get_close_matches(kind, ["joy_node"], 1, 0.8):
             hint = JOY_HINT
         raise Wrong("nodes that exist", f"{seen} in package [{package}]", place, hint)

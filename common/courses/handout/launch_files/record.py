@@ -8,17 +8,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Callable, Dict, Tuple
 
-from tutorial_check.processes.errors import CannotCheck
-from tutorial_check.processes.program import Ran
-from tutorial_check.recording.ros_session import RosSession
-from tutorial_check.recording.simulated_robot import ODOM
-from tutorial_check.recording.workspace import Workspace
+from tutorial_check import ODOM, CannotCheck, Ran, RosSession, Workspace
 
 from ..driving.record import NEUTRAL
-from ..s4.record import held, plug_in
+from ..s4.record import held
 
 if TYPE_CHECKING:  # judges need no gamepad
-    from tutorial_check.recording.gamepad import Gamepad
+    from tutorial_check import Gamepad
 
 BAG_S = 1.2  # length of the recording that takes the place of the student's, and is played again
 START_S = 20.0  # for all nodes of a launch on a busy machine
@@ -158,7 +154,7 @@ def plug_in_for(workspace: Workspace, ros: RosSession, plan: Plan) -> Gamepad:
     if plan.device and not workspace.order.apart:
         name = Path(plan.path).name
         raise CannotCheck(f"the system grants no {plan.device} to try {name} with")
-    gamepad, path = plug_in(workspace, ros, *filter(None, [plan.device]))
+    gamepad, path = ros.plug_in(*filter(None, [plan.device]))
     for node in plan.joysticks if not workspace.order.apart else ():
         ros.peer.set_parameter(f"{node}/dev", str(path))
     return gamepad

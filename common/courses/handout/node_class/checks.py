@@ -5,14 +5,23 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from tutorial_check.checking.checks import check
-from tutorial_check.checking.packages import must_be_launchable
-from tutorial_check.checking.programs import cause_of, check_file, crash, must_be_one
-from tutorial_check.checking.results import Note, Wrong
-from tutorial_check.checking.submission import Submission
-from tutorial_check.submission.python_facts import ClassFacts, PythonFacts, with_bases
-from tutorial_check.submission.python_text import without_name
-from tutorial_check.submission.tracebacks import first_traceback, last_lines
+from tutorial_check import (
+    ClassFacts,
+    Note,
+    PythonFacts,
+    Submission,
+    Wrong,
+    cause_of,
+    check,
+    check_file,
+    crash,
+    first_traceback,
+    last_lines,
+    must_be_launchable,
+    must_be_one_program,
+    with_bases,
+    without_name,
+)
 
 from ..joy2twist import checks as judge
 from ..joy2twist.checks import NAME, check_manifest
@@ -98,7 +107,7 @@ def _check_given(path: str, one: ClassFacts, facts: PythonFacts, name: str, plac
        timeless=True)  # fmt: skip
 def is_class(submission: Submission) -> Note | str | None:
     script, path, one = program(submission)
-    must_be_one(submission.package(PACKAGE).folder, Path(script).name)
+    must_be_one_program(submission.package(PACKAGE).folder, Path(script).name)
     check_file(submission, PACKAGE, script)
     check_manifest(submission, script)
     facts, scripts = submission.scripts(PACKAGE)[path], submission.scripts(PACKAGE).values()

@@ -8,13 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Dict, Optional
 
-from tutorial_check.processes.errors import CannotCheck
-from tutorial_check.processes.program import Program, Ran
-from tutorial_check.recording.data import Heard
-from tutorial_check.recording.ros_session import RosSession
-from tutorial_check.recording.simulated_robot import ODOM
-from tutorial_check.recording.workspace import Workspace
-from tutorial_check.submission import student_files
+from tutorial_check import ODOM, CannotCheck, Heard, Program, Ran, RosSession, Workspace, put_file
 
 from ..driving.record import CMD_VEL, JOY, NEUTRAL
 from ..s4.record import held
@@ -102,7 +96,7 @@ def _start(workspace: Workspace, ros: RosSession, script: str, way: str) -> Prog
     file = workspace.folder / "tmp" / "ended.launch"
     package, program = workspace.task.named(PACKAGE), Path(script).name
     text = LAUNCH_FILE.format(package=package, program=program, name=name)
-    student_files.put(workspace.folder, file, text)
+    put_file(workspace.folder, file, text)
     return ros.launch(["roslaunch", str(file)])
 
 

@@ -8,19 +8,28 @@ import re
 from pathlib import Path
 from typing import Sequence
 
-from tutorial_check.checking.build_errors import build_error, missing_in, not_found
-from tutorial_check.checking.causes import is_lacking, packages_of_ros
-from tutorial_check.checking.checks import check
-from tutorial_check.checking.manifest_errors import must_be_one, unreadable
-from tutorial_check.checking.results import Note, Wrong
-from tutorial_check.checking.submission import Submission
-from tutorial_check.checking.texts import read
-from tutorial_check.recording.build import built
-from tutorial_check.recording.builder import Built
-from tutorial_check.recording.own_build import own_built
-from tutorial_check.submission.launch_xml import place_of
-from tutorial_check.submission.manifests import is_stand_in
-from tutorial_check.submission.packages import Package, packages_beside, underlays
+from tutorial_check import (
+    Note,
+    Package,
+    Submission,
+    Wrong,
+    build_error,
+    build_output,
+    check,
+    cmake_of,
+    is_lacking,
+    is_stand_in,
+    missing_in,
+    must_be_unique,
+    must_build,
+    not_found,
+    packages_beside,
+    packages_of_ros,
+    place_of,
+    read_xml,
+    underlays,
+    unreadable,
+)
 
 SUITE = ("node_kit", "fake_turtlebot_sim")  # packages of the underlay
 AGAIN = "in the workspace: rm -r build devel, then catkin_make"
@@ -108,7 +117,7 @@ def _package(submission: Submission, name: str) -> Package:
     broken = [each for each in packages if each.error and own in (each.name, each.folder.name)]
     if broken:
         raise unreadable(broken[0])
-    must_be_one(named)
+    must_be_unique(named)
     if not named:
         raise _missing(submission, name, expected)
     outer = [each for each in packages if each.folder in named[0].folder.parents]
@@ -170,7 +179,7 @@ def _dependencies(submission: Submission, name: str) -> Package:
     seen = f"no {', '.join(missing)}"
     if missing[0] in package.depends:
         seen = f"{near[missing[0]][0]}, which is no package"
-    text = read(package.folder / "package.xml")
+    text = read_xml(package.folder / "package.xml")
     place = place_of(where, text, "exec_depend>", "run_depend>", "depend>", "</package>")
     # Format 1 knows no <depend>.
     kinds = ("build_depend", "run_depend") if package.format == 1 else ("depend",)
@@ -200,9 +209,11 @@ def beginner_dependencies(submission: Submission) -> None:
        timeless=True)  # fmt: skip
 def joy2twist(submission: Submission) -> Note | str | None:
     package = _dependencies(submission, "joy2twist")
-    found = re.search(r"find_package\s*\(\s*catkin\b[^)]*\bCOMPONENTS\b([^)]*)\)", _cmake(package))
+    found = re.search(
+        r"find_package\s*\(\s*catkin\b[^)]*\bCOMPONENTS\b([^)]*)\)", cmake_of(package)
+    )
     for name in found[1].split() if found else ():
-        if not _is_known(submission, name) and name in missing_in(_printed(submission)):
+        if not _is_known(submission, name) and name in missing_in(build_output(submission)):
             raise Wrong("packages that catkin can find", *not_found(submission, name))
     return f"src/{package.inside}"
 
@@ -216,14 +227,6 @@ def _is_known(submission: Submission, name: str) -> bool:
     found = (Path(prefix, "share", name, file).is_file() for prefix in (*prefixes, "/usr"))
     # Of a package with a library, as roscpp, Debian has it there.
     return any(found) or any(Path("/usr/lib").glob(f"*/cmake/{name}/{name}Config.cmake"))
-
-
-def _cmake(package: Package) -> str:
-    """Return the text of a package's CMakeLists.txt without comments. Raises Wrong."""
-    if package.cmake is None:
-        expected, hint = "a package as catkin_create_pkg makes it", "take it from a new package"
-        raise Wrong(expected, "the file CMakeLists.txt is missing", package.inside, hint)
-    return package.cmake
 
 
 @check("C4", "catkin_make builds", "2.1", "C2", look="catkin_make")
@@ -240,31 +243,3 @@ def build(submission: Submission) -> Note | None:
     seen = f"it builds what the exercises need; another package fails: {wrong.seen}"
     hint = f"{wrong.hint}; or put an empty file CATKIN_IGNORE into that package"
     return Note(seen, wrong.where, hint)
-
-
-def must_build(submission: Submission) -> Built:
-    """Return what catkin_make has built. Raises Wrong."""
-    for each in submission.needed:
-        _cmake(each)
-    made = submission.recording(built)
-    if made.code is None:
-        hint = "catkin_make in your workspace"
-        raise Wrong("catkin_make ends", "it runs for more than two minutes", hint=hint)
-    if made.code != 0:
-        wrong, own = (
-            build_error(submission, made.output),
-            build_error(submission, _printed(submission)),
-        )
-        if (own.seen, own.where) != (wrong.seen, wrong.where):
-            place = f" ({wrong.where})" if wrong.where else ""
-            own.seen += f"; another package fails, too: {wrong.seen}{place}"
-        raise own
-    return made
-
-
-def _printed(submission: Submission) -> str:
-    """Return what catkin_make prints of the packages of the exercises, whatever others do."""
-    made = submission.recording(built)
-    if not made.code or len(submission.needed) == len(submission.packages):
-        return made.output
-    return submission.recording(own_built).output

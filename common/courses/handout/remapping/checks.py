@@ -5,10 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import replace
 
-from tutorial_check.checking.checks import check
-from tutorial_check.checking.results import Wrong
-from tutorial_check.checking.submission import Submission
-from tutorial_check.submission.tracebacks import last_lines
+from tutorial_check import Submission, Wrong, check, last_lines
 
 from ..driving.record import CMD_VEL, JOY
 from ..launch_files import checks as launch_nodes

@@ -6,9 +6,7 @@ import re
 from dataclasses import dataclass
 from typing import Tuple
 
-from tutorial_check.processes.errors import CannotCheck
-from tutorial_check.recording.data import Topics
-from tutorial_check.recording.workspace import Workspace
+from tutorial_check import CannotCheck, Topics, Workspace
 
 from ..launch_files.record import Launch, Plan, Run, drives_forwards, plug_in_for
 from ..s4.record import held, rest

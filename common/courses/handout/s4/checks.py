@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import shlex
 
-from tutorial_check.checking.checks import check
-from tutorial_check.checking.programs import crash
-from tutorial_check.checking.results import Note, Wrong
-from tutorial_check.checking.submission import Submission
+from tutorial_check import Note, Submission, Wrong, check, crash
 
 from ..driving.evidence import ANGULAR, LINEAR
 from ..joy2twist.checks import main_script

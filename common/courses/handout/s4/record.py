@@ -5,22 +5,23 @@ from __future__ import annotations
 import math
 import statistics
 from dataclasses import dataclass
-from pathlib import Path
-from typing import TYPE_CHECKING, Optional, Tuple
+from typing import Optional, Tuple
 
-from tutorial_check.processes.errors import CannotCheck
-from tutorial_check.processes.program import Program, Ran
-from tutorial_check.recording.ros_session import START_S, RosSession
-from tutorial_check.recording.simulated_robot import ODOM, SimulatedRobot
-from tutorial_check.recording.workspace import Workspace
-from tutorial_check.submission.files import SubmissionFiles
+from tutorial_check import (
+    ODOM,
+    START_S,
+    CannotCheck,
+    Program,
+    Ran,
+    RosSession,
+    SimulatedRobot,
+    SubmissionFiles,
+    Workspace,
+)
 
 from ..driving.evidence import ANGULAR, LINEAR
 from ..driving.record import CMD_VEL, JOY, NEUTRAL
 from ..task import LB, PACKAGE, Joy
-
-if TYPE_CHECKING:  # judges need no gamepad
-    from tutorial_check.recording.gamepad import Gamepad
 
 FORWARDS, LEFT = 0.5, 0.8  # positions of the stick
 SLOW_S = 4.0  # for a program that sleeps in its callback to answer what has gathered
@@ -145,23 +146,11 @@ def _driven(
     return speeds, last
 
 
-def plug_in(
-    workspace: Workspace, ros: RosSession, device: str = "/dev/input/js0"
-) -> tuple[Gamepad, Path]:
-    """Make a virtual F710 behind a device, or a FIFO where that cannot be; (Gamepad, path)."""
-    from tutorial_check.recording.gamepad import Gamepad  # noqa: PLC0415
-
-    path = Path(device) if workspace.order.apart else workspace.folder / "js0"
-    gamepad = ros.help(lambda: Gamepad(str(path), workspace.task.joy)).remote
-    gamepad.connected()
-    return gamepad, path
-
-
 def stick(workspace: Workspace, script: str) -> Stick:
     with workspace.ros_session() as ros:
         ros.peer.listen(JOY, "Joy")
         ros.peer.listen(CMD_VEL, "Twist")
-        gamepad, path = plug_in(workspace, ros)
+        gamepad, path = ros.plug_in()
         node = ros.start_ours("gamepad", "joy_node", f"_dev:={path}", "_autorepeat_rate:=20")
         program = ros.start(PACKAGE, script)
 

@@ -5,21 +5,24 @@ from __future__ import annotations
 import statistics
 from typing import Iterable, Mapping
 
-from tutorial_check.checking.causes import with_import
-from tutorial_check.checking.checks import check
-from tutorial_check.checking.programs import (
+from tutorial_check import (
+    MASTER_GONE,
+    CutShort,
+    Note,
+    PythonFacts,
+    Submission,
+    Wrong,
+    check,
     check_end,
     check_file,
     crash,
     ended,
     find_script,
+    flipped_anonymous,
     odd_node,
+    with_import,
+    wrong_of,
 )
-from tutorial_check.checking.results import Note, Wrong, wrong_of
-from tutorial_check.checking.submission import Submission
-from tutorial_check.processes.errors import MASTER_GONE, CutShort
-from tutorial_check.submission.python_facts import PythonFacts
-from tutorial_check.submission.python_text import flipped_anonymous
 
 from . import record
 from .record import KIND, PACKAGE, STRINGS, TOPIC, Pair, Talk

@@ -5,10 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Dict, Optional, Tuple
 
-from tutorial_check.processes.program import Program, Ran
-from tutorial_check.recording.data import HeardText, Topics
-from tutorial_check.recording.ros_session import SETTLE_S, RosSession
-from tutorial_check.recording.workspace import Workspace
+from tutorial_check import SETTLE_S, HeardText, Program, Ran, RosSession, Topics, Workspace
 
 PACKAGE = "beginner_tutorials"
 LISTEN_S = 1.5  # to the talker

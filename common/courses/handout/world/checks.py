@@ -6,12 +6,17 @@ import math
 import re
 from typing import Sequence
 
-from tutorial_check.checking.checks import check
-from tutorial_check.checking.programs import crash, program_of
-from tutorial_check.checking.results import Wrong
-from tutorial_check.checking.submission import Submission
-from tutorial_check.recording.data import Topics
-from tutorial_check.recording.simulated_robot import BUMPER, Sample, has_moved
+from tutorial_check import (
+    BUMPER,
+    Sample,
+    Submission,
+    Topics,
+    Wrong,
+    check,
+    crash,
+    has_moved,
+    program_of,
+)
 
 from ..driving.record import CMD_VEL
 from ..talker_listener.record import PACKAGE

@@ -6,11 +6,18 @@ import re
 from dataclasses import dataclass
 from typing import Dict, Optional, Sequence, Tuple
 
-from tutorial_check.processes.program import Program, Ran
-from tutorial_check.recording.data import Heard, Topics
-from tutorial_check.recording.ros_session import RosSession
-from tutorial_check.recording.simulated_robot import BUMPER, TRUTH, Sample, SimulatedRobot
-from tutorial_check.recording.workspace import Workspace
+from tutorial_check import (
+    BUMPER,
+    TRUTH,
+    Heard,
+    Program,
+    Ran,
+    RosSession,
+    Sample,
+    SimulatedRobot,
+    Topics,
+    Workspace,
+)
 
 from ..driving.record import CMD_VEL
 from ..talker_listener.record import PACKAGE

@@ -1,5 +1,79 @@
-"""Checks the exercises of the tutorial in a student's workspace: ./tutorial check.
+"""The checker of the exercises, and all that a check or a recorder of a course uses.
 
-command_line -> launcher -> handout/.../judge, which asks for a recording -> worker, isolated ->
-handout/.../record. What was recorded comes back, and becomes results (model) for report.
+Nothing else of this package is imported by a course; common/doc/COURSES.md shows one.
 """
+
+from typing import TYPE_CHECKING
+
+from tutorial_check.checking.build_errors import build_error, missing_in, not_found
+from tutorial_check.checking.builds import build_output, cmake_of, must_build
+from tutorial_check.checking.causes import is_lacking, meant, packages_of_ros, with_import
+from tutorial_check.checking.checks import check
+from tutorial_check.checking.files import File, recorded
+from tutorial_check.checking.launch_errors import UNSET, blamed_place, launch_error, package_hint
+from tutorial_check.checking.launches import LaunchFile, launch_file
+from tutorial_check.checking.manifest_errors import must_be_unique, unreadable
+from tutorial_check.checking.packages import must_be_launchable, package_of
+from tutorial_check.checking.programs import (
+    cause_of,
+    check_end,
+    check_file,
+    crash,
+    ended,
+    find_script,
+    must_be_one_program,
+    odd_node,
+    program_of,
+)
+from tutorial_check.checking.results import Note, Wrong, wrong_of
+from tutorial_check.checking.rows import Row, demand, find
+from tutorial_check.checking.submission import Submission
+from tutorial_check.checking.texts import Lines, read_xml, text_of_file
+from tutorial_check.course.tasks import Task, Variant
+from tutorial_check.processes.errors import MASTER_GONE, CannotCheck, CutShort
+from tutorial_check.processes.program import Program, Ran
+from tutorial_check.processes.runner import GRACE_S
+from tutorial_check.recording.build import built
+from tutorial_check.recording.builder import Built
+from tutorial_check.recording.client import Answer, Client, Seen, Transform
+from tutorial_check.recording.data import Heard, HeardText, Topics
+from tutorial_check.recording.launch_facts import Node
+from tutorial_check.recording.launch_files import Launch, read_launch_files
+from tutorial_check.recording.own_build import own_built
+from tutorial_check.recording.ros_session import SETTLE_S, START_S, RosSession
+from tutorial_check.recording.simulated_robot import (
+    BUMPER,
+    ODOM,
+    TRUTH,
+    Sample,
+    SimulatedRobot,
+    has_moved,
+)
+from tutorial_check.recording.workspace import Workspace
+from tutorial_check.submission.files import SubmissionFiles
+from tutorial_check.submission.launch_xml import GAPS, Fault, attribute, line_of, place_of
+from tutorial_check.submission.manifests import is_stand_in
+from tutorial_check.submission.packages import Package, packages_beside, underlays
+from tutorial_check.submission.python_facts import ClassFacts, PythonFacts, shows, with_bases
+from tutorial_check.submission.python_text import flipped_anonymous, unmasked, without_name
+from tutorial_check.submission.student_files import put_file
+from tutorial_check.submission.tracebacks import first_traceback, last_lines
+
+if TYPE_CHECKING:  # its module loads ROS
+    from tutorial_check.recording.gamepad import Gamepad as Gamepad
+
+__all__ = [
+    "BUMPER", "GAPS", "GRACE_S", "MASTER_GONE", "ODOM", "SETTLE_S", "START_S", "TRUTH", "UNSET",
+    "Answer", "Built", "CannotCheck", "ClassFacts", "Client", "CutShort", "Fault", "File", "Heard",
+    "HeardText", "Launch", "LaunchFile", "Lines", "Node", "Note", "Package", "Program",
+    "PythonFacts", "Ran", "RosSession", "Row", "Sample", "Seen", "SimulatedRobot", "Submission",
+    "SubmissionFiles", "Task", "Topics", "Transform", "Variant", "Workspace", "Wrong", "attribute",
+    "blamed_place", "build_error", "build_output", "built", "cause_of", "check", "check_end",
+    "check_file", "cmake_of", "crash", "demand", "ended", "find", "find_script", "first_traceback",
+    "flipped_anonymous", "has_moved", "is_lacking", "is_stand_in", "last_lines", "launch_error",
+    "launch_file", "line_of", "meant", "missing_in", "must_be_launchable", "must_be_one_program",
+    "must_be_unique", "must_build", "not_found", "odd_node", "own_built", "package_hint",
+    "package_of", "packages_beside", "packages_of_ros", "place_of", "program_of", "put_file",
+    "read_launch_files", "read_xml", "recorded", "shows", "text_of_file", "underlays", "unmasked",
+    "unreadable", "with_bases", "with_import", "without_name", "wrong_of",
+]  # fmt: skip

@@ -9,7 +9,7 @@ from xml.parsers import expat
 
 from tutorial_check.checking.causes import advice, explained, is_lacking, meant, packages_of_ros
 from tutorial_check.checking.results import Wrong
-from tutorial_check.checking.texts import read
+from tutorial_check.checking.texts import read_xml
 from tutorial_check.submission.launch_xml import (
     COMMENT_END,
     Fault,
@@ -96,7 +96,7 @@ def package_hint(name: str) -> str:
     return hint or advice(name, packages_of_ros(name)) or spelling
 
 
-def blamed(fault: Fault, is_own: Callable[[str], bool]) -> tuple[str, int]:
+def blamed_place(fault: Fault, is_own: Callable[[str], bool]) -> tuple[str, int]:
     """Return (file, line) of the innermost tag in a file of the student's.
 
     An arg without a value is the fault of the <include>, where the included file declares it.
@@ -105,12 +105,12 @@ def blamed(fault: Fault, is_own: Callable[[str], bool]) -> tuple[str, int]:
     if fault.kind == UNSET:
         file = own[-1][0]
         declared = rf"<arg\b[^<>]*\bname\s*=\s*[\"']{re.escape(fault.words)}[\"']"
-        if re.search(declared, read(Path(file))):
+        if re.search(declared, read_xml(Path(file))):
             own = [place for place in own if place[0] != file] or own
     return own[-1]
 
 
-def parse_error(
+def launch_error(
     fault: Fault, where: str, line: int, text: str, may_see: Callable[[Path], bool]
 ) -> Wrong:
     """Return the Wrong for a file that roslaunch cannot read. text: with comments."""
@@ -139,7 +139,7 @@ def parse_error(
     unused = re.search(UNUSED, words)
     if unused:
         path = Path(unused[2])
-        text = read(path) if may_see(path) and path.is_file() else ""
+        text = read_xml(path) if may_see(path) and path.is_file() else ""
         known = re.findall(r"<arg\b[^<>]*\bname\s*=\s*[\"']([^\"']+)[\"']", text)
         hint = meant(unused[1], known, 0.6)
         hint = hint or f"leave it out; it has {', '.join(known) or 'none'}"

@@ -7,15 +7,15 @@ import os
 from pathlib import Path
 from typing import Sequence
 
-from tutorial_check.checking import launch_errors
 from tutorial_check.checking.files import File
+from tutorial_check.checking.launch_errors import blamed_place, launch_error, package_hint
 from tutorial_check.checking.packages import must_be_launchable, package_of
 from tutorial_check.checking.results import Wrong
 from tutorial_check.checking.submission import Submission
 from tutorial_check.checking.texts import text_of_file
 from tutorial_check.recording.launch_facts import Node
 from tutorial_check.recording.launch_files import read_launch_files
-from tutorial_check.submission import launch_xml
+from tutorial_check.submission.launch_xml import Fault, without_comments
 
 
 class LaunchFile(File):
@@ -29,7 +29,7 @@ class LaunchFile(File):
             submission, package, os.path.relpath(path, submission.package(package).folder)
         )
         self.path, self.nodes = os.path.relpath(path, submission.source), tuple(nodes)
-        self.text = launch_xml.without_comments(self.text)
+        self.text = without_comments(self.text)
 
 
 def launch_file(submission: Submission, package: str, name: str) -> LaunchFile:
@@ -49,15 +49,15 @@ def launch_file(submission: Submission, package: str, name: str) -> LaunchFile:
         hint = "roslaunch --nodes FILE"
         raise Wrong("a launch file that roslaunch can read", "reading it does not end", hint=hint)
     if facts[0]["fault"]:
-        fault = launch_xml.Fault(**facts[0]["fault"])
-        path, line = launch_errors.blamed(fault, submission.is_own)
+        fault = Fault(**facts[0]["fault"])
+        path, line = blamed_place(fault, submission.is_own)
         text, where = text_of_file(Path(path)), os.path.relpath(path, folder)
-        raise launch_errors.parse_error(fault, where, line, text, submission.may_see)
+        raise launch_error(fault, where, line, text, submission.may_see)
     file = LaunchFile(submission, package, paths[name], facts[0]["nodes"])
     for node in file.nodes:
         seen = f"Cannot locate node of type [{node['type']}] in package [{node['package']}]"
         hint = "look at pkg= and type=: the name of the program's file, which is executable"
-        hint = launch_errors.package_hint(node["package"]) if node["found"] is None else hint
+        hint = package_hint(node["package"]) if node["found"] is None else hint
         words = f'"{node["type"]}" {node["type"]}'
         file.must(node["found"], words, "nodes that exist", seen, hint)
     return file

@@ -7,7 +7,7 @@ from typing import Sequence
 
 from tutorial_check.checking.causes import explained
 from tutorial_check.checking.results import Wrong
-from tutorial_check.checking.texts import read
+from tutorial_check.checking.texts import read_xml
 from tutorial_check.submission.launch_xml import place_of
 from tutorial_check.submission.packages import Package
 from tutorial_check.submission.student_files import TOO_LARGE
@@ -24,13 +24,13 @@ def unreadable(package: Package) -> Wrong:
         hint = "repair that line or the one before: each <tag> needs its </tag>"
     else:
         *words, hint = explained("package.xml", package.error)
-        where = place_of(where, read(package.folder / "package.xml"), *words)
+        where = place_of(where, read_xml(package.folder / "package.xml"), *words)
     so = "no node of the workspace starts" if package.malformed else "roslaunch starts nothing"
     hint += f". Until then catkin_make fails, and {so}"
     return Wrong("a package.xml that can be read", package.error, where, hint, sure=True)
 
 
-def must_be_one(packages: Sequence[Package]) -> None:
+def must_be_unique(packages: Sequence[Package]) -> None:
     """Raise Wrong for several packages of one name."""
     if len(packages) > 1:
         seen = f"{len(packages)}: {', '.join(each.inside for each in packages)}"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tutorial_check.checking.manifest_errors import must_be_one, unreadable
+from tutorial_check.checking.manifest_errors import must_be_unique, unreadable
 from tutorial_check.checking.results import Wrong
 from tutorial_check.checking.submission import Submission
 from tutorial_check.submission.packages import Package
@@ -25,4 +25,4 @@ def must_be_launchable(submission: Submission) -> None:
         if package.error:
             raise unreadable(package)
     for package in submission.packages:
-        must_be_one([each for each in submission.packages if each.name == package.name])
+        must_be_unique([each for each in submission.packages if each.name == package.name])

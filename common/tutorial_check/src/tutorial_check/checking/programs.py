@@ -29,7 +29,7 @@ def find_script(submission: Submission, package: str, name: str) -> str:
     """Return the path of a program within its package. Raises Wrong."""
     folder = submission.package(package).folder
     files = sorted(path for path in folder.rglob("*") if path.is_file())
-    found = must_be_one(folder, name)
+    found = must_be_one_program(folder, name)
     # One without .py counts where there is none with it.
     found += [path for each in (name, name[:-3]) for path in files if path.name == each]
     if found:
@@ -64,7 +64,7 @@ def program_of(submission: Submission, package: str, name: str) -> str:
     return script
 
 
-def must_be_one(folder: Path, name: str) -> list[Path]:
+def must_be_one_program(folder: Path, name: str) -> list[Path]:
     """Return the programs of that name that rosrun finds: one, or none. Raises Wrong."""
     found = sorted(path for path in folder.rglob(name) if path.is_file())
     runnable = [path for path in found if path.stat().st_mode & 0o100]

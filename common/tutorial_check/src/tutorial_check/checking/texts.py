@@ -18,7 +18,7 @@ def text_of_file(path: Path) -> str:
         raise wrong_of(error) from None
 
 
-def read(path: Path) -> str:
+def read_xml(path: Path) -> str:
     """Return the text of a launch file, or manifest, without its comments. Raises Wrong."""
     return without_comments(text_of_file(path))
 

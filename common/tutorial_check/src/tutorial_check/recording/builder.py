@@ -42,7 +42,7 @@ class Builder(SubmissionFiles):
         original = self.package(package).folder / script
         self._siblings += 1
         changed = original.with_name(f"checked_{self._siblings}_{original.name}")
-        student_files.put(self.folder, changed, text, 0o755)
+        student_files.put_file(self.folder, changed, text, 0o755)
         return str(Path(script).with_name(changed.name))
 
     def _ended(self, *command: str) -> tuple[Program, bool]:
@@ -64,7 +64,7 @@ class Builder(SubmissionFiles):
             return Built(code, output)
         for each in self.packages:  # the suite's own takes the place of such a one
             if is_stand_in(each.name):
-                student_files.put(self.folder, each.folder / "CATKIN_IGNORE", "")
+                student_files.put_file(self.folder, each.folder / "CATKIN_IGNORE", "")
         return Built(found, printed, output or " ")
 
     def _made(self, *words: str) -> tuple[int | None, str]:

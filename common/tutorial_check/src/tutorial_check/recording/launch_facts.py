@@ -56,7 +56,7 @@ def place_of_tag(file: str, tag: Element) -> tuple[str, int]:
 
 
 def fault_of(error: BaseException, path: str) -> dict[str, object]:
-    """Return the cause of an error of roslaunch's, for launch_xml.Fault. path: the launch file."""
+    """Return the cause of an error of roslaunch's, for Fault. path: the launch file."""
     chain = [error]
     while chain[-1].__context__:
         chain.append(chain[-1].__context__)

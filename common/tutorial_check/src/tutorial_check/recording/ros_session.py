@@ -15,6 +15,7 @@ from tutorial_check.processes.runner import Value
 from tutorial_check.recording.builder import Builder
 
 if TYPE_CHECKING:  # The module loads ROS.
+    from tutorial_check.recording.gamepad import Gamepad
     from tutorial_check.recording.peer import Echo, Peer
 
 START_S = 8.0  # a node of the student's has this long to appear
@@ -68,6 +69,16 @@ class RosSession:
 
         joy = self._topics.get(peer.JOY, peer.JOY)
         return self.help(lambda: peer.Echo(joy, axis)).remote, peer.ECHO
+
+    def plug_in(self, device: str = "/dev/input/js0") -> tuple[Gamepad, Path]:
+        """Return a virtual F710 and its device, which is a FIFO elsewhere without namespaces."""
+        from tutorial_check.recording.gamepad import Gamepad  # noqa: PLC0415
+
+        workspace = self.workspace
+        path = Path(device) if workspace.order.apart else workspace.folder / "js0"
+        gamepad = self.help(lambda: Gamepad(str(path), workspace.task.joy)).remote
+        gamepad.connected()
+        return gamepad, path
 
     def start_ours(self, package: str, program: str, *arguments: str) -> Program:
         """Start a program of the suite's. Without rosrun, which searches it for half a second."""

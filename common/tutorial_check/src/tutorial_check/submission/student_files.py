@@ -26,7 +26,7 @@ def text_of_file(path: Path) -> str:
     return path.read_text(errors="replace")
 
 
-def put(base: Path, path: Path, text: str, mode: int = 0o644) -> None:
+def put_file(base: Path, path: Path, text: str, mode: int = 0o644) -> None:
     """Make a new file below a folder; what is there is removed. Raises CannotCheck."""
     with _folder_of(base, path) as (folder, name):
         with contextlib.suppress(FileNotFoundError):

@@ -1,0 +1,47 @@
+"""What catkin_make makes of a submission: it has to build."""
+
+from __future__ import annotations
+
+from tutorial_check.checking.build_errors import build_error
+from tutorial_check.checking.results import Wrong
+from tutorial_check.checking.submission import Submission
+from tutorial_check.recording.build import built
+from tutorial_check.recording.builder import Built
+from tutorial_check.recording.own_build import own_built
+from tutorial_check.submission.packages import Package
+
+
+def cmake_of(package: Package) -> str:
+    """Return the text of a package's CMakeLists.txt without comments. Raises Wrong."""
+    if package.cmake is None:
+        expected, hint = "a package as catkin_create_pkg makes it", "take it from a new package"
+        raise Wrong(expected, "the file CMakeLists.txt is missing", package.inside, hint)
+    return package.cmake
+
+
+def must_build(submission: Submission) -> Built:
+    """Return what catkin_make has built. Raises Wrong."""
+    for each in submission.needed:
+        cmake_of(each)
+    made = submission.recording(built)
+    if made.code is None:
+        hint = "catkin_make in your workspace"
+        raise Wrong("catkin_make ends", "it runs for more than two minutes", hint=hint)
+    if made.code != 0:
+        wrong, own = (
+            build_error(submission, made.output),
+            build_error(submission, build_output(submission)),
+        )
+        if (own.seen, own.where) != (wrong.seen, wrong.where):
+            place = f" ({wrong.where})" if wrong.where else ""
+            own.seen += f"; another package fails, too: {wrong.seen}{place}"
+        raise own
+    return made
+
+
+def build_output(submission: Submission) -> str:
+    """Return what catkin_make prints of the packages of the exercises, whatever others do."""
+    made = submission.recording(built)
+    if not made.code or len(submission.needed) == len(submission.packages):
+        return made.output
+    return submission.recording(own_built).output
