@@ -38,6 +38,11 @@ def pytest_collection_modifyitems(config, items):
     items[:] = [item for item in items if item not in left_out]
 
 
+def pytest_sessionfinish(session):
+    if session.config.getoption("--store", False) and not hasattr(session.config, "workerinput"):
+        stored.merge()
+
+
 @pytest.fixture(scope="session")
 def underlay():
     return os.environ["TUTORIAL_UNDERLAY"]

@@ -10,6 +10,7 @@ import re
 from pathlib import Path
 
 FOLDER = Path(os.environ["OUTCOMES"])
+NO_WORD = re.compile(r"[^\w.-]+")
 MADE = re.compile(r"/tmp/(pytest-of-[^/]*/[^\"' ]*?(?=judged)|tmp\w{8})")
 
 
@@ -28,7 +29,8 @@ def pytest_collection_finish(session):
         for path, name in names.items():
             text = text.replace(path, name)
         FOLDER.mkdir(exist_ok=True)
-        file = FOLDER / f"{stored.path_of(test).name[:-8]}.json"
+        name = NO_WORD.sub("_", test)[:120]
+        file = FOLDER / f"{name}.json"
         file.write_text(MADE.sub("made", text))
         return outcomes
 

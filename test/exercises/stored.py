@@ -9,6 +9,7 @@ import itertools
 import json
 import lzma
 import re
+import shutil
 import tokenize
 from pathlib import Path
 
@@ -17,15 +18,23 @@ from tutorial_check.course.definition import read_course
 from tutorial_check.submission.order import Order
 
 FOLDER = Path(__file__).resolve().parent / "recordings"
+NEW = FOLDER / "new"
 REPOSITORY = FOLDER.parents[2]
 BEFORE_A_STATEMENT = (tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT)
 OURS = ("tutorial_check", "courses")  # The rest is the standard library and ROS.
 
 
-def path_of(test):
-    """Return where the recordings of a test are, from its name with the row."""
-    name = re.sub(r"[^\w.-]+", "_", test)[:120]
-    return FOLDER / f"{name}.json.xz"
+def section_of(test):
+    """Return the file that a row's recordings are in: that of its exercise, or of its test."""
+    exercise = re.search(r"test_a_mistake_is_found\[([\d.]+) ", test)
+    return FOLDER / f"{exercise[1] if exercise else test.partition('[')[0][5:]}.jsonl.xz"
+
+
+@functools.lru_cache(maxsize=None)
+def rows_of(section):
+    """Return {test: what is stored of it} of a section, in which each row is a line."""
+    text = lzma.decompress(section.read_bytes()).decode() if section.exists() else ""
+    return {row.pop("row"): row for row in map(json.loads, text.splitlines())}
 
 
 def names(workspace, underlay):
@@ -35,23 +44,43 @@ def names(workspace, underlay):
 
 
 def write(test, outcomes, workspace, underlay):
+    """Keep what was recorded in a file of its own, until merge() has those of all tests."""
     recordings = [each for one in outcomes for each in one.recordings]
-    text = json.dumps({"code": code_of(recordings), "recordings": recordings})
+    text = json.dumps({"row": test, "code": code_of(recordings), "recordings": recordings})
     for path, name in names(workspace, underlay).items():
         text = text.replace(path, name)
-    FOLDER.mkdir(exist_ok=True)
-    path_of(test).write_bytes(lzma.compress(text.encode(), preset=9))
+    NEW.mkdir(parents=True, exist_ok=True)
+    name = hashlib.sha256(test.encode()).hexdigest()
+    (NEW / f"{name}.json").write_text(text)
+
+
+def merge():
+    """Put what write() has kept into the files of the sections."""
+    new = [json.loads(file.read_text()) for file in NEW.glob("*.json")]
+    for section in {section_of(row["row"]) for row in new}:
+        rows = {
+            **rows_of(section),
+            **{r.pop("row"): r for r in new if section_of(r["row"]) == section},
+        }
+        store(section, rows)
+    shutil.rmtree(NEW, ignore_errors=True)
+
+
+def store(section, rows):
+    lines = (json.dumps({"row": name, **rows[name]}, sort_keys=True) for name in sorted(rows))
+    section.parent.mkdir(exist_ok=True)
+    section.write_bytes(lzma.compress("".join(f"{line}\n" for line in lines).encode(), preset=9))
 
 
 def judged(test, workspace, underlay, exercises, folder, **about):
     """Return the Outcomes of a workspace, judged from what is stored. folder: for its copy, empty."""
-    path = path_of(test)
-    assert path.exists(), f"{path.name} is missing: ./tutorial test exercises --store -k 'A and B'"
-    text = lzma.decompress(path.read_bytes()).decode()
+    row = rows_of(section_of(test)).get(test)
+    assert row, f"{test} is not stored: ./tutorial test exercises --store -k 'A and B'"
+    text = json.dumps(row["recordings"])
     for path, name in {**names(workspace, underlay), str(folder): HANDED_IN}.items():
         text = text.replace(name, path)
     answers = {}
-    for one in json.loads(text)["recordings"]:
+    for one in json.loads(text):
         answers.setdefault(_question(one), []).append(one)
 
     def ask(question):
