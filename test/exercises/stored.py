@@ -67,7 +67,7 @@ def merge():
 
 
 def store(section, rows):
-    lines = (json.dumps({"row": name, **rows[name]}, sort_keys=True) for name in sorted(rows))
+    lines = (json.dumps({"row": name, **rows[name]}) for name in sorted(rows))
     section.parent.mkdir(exist_ok=True)
     section.write_bytes(lzma.compress("".join(f"{line}\n" for line in lines).encode(), preset=9))
 
