@@ -212,3 +212,8 @@ def test_a_firmware_of_another_major_version_is_not_driven():
     assert [str(version) for version in (newest, old, other)] == ["1.2.0", "1.1.3", "2.0.0"]
     assert [version.is_driven for version in (newest, old, other)] == [True, True, False]
     assert [version.is_recommended for version in (newest, old, other)] == [True, False, False]
+
+
+@pytest.mark.parametrize(("data", "version"), [("7b00", "1.0.0"), ("7527", "1.1.1")])
+def test_the_first_firmware_wrote_its_version_in_two_bytes(data, version):
+    assert str(FirmwareVersion.parse(bytes.fromhex(data))) == version

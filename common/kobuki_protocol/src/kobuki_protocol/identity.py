@@ -7,6 +7,10 @@ from struct import Struct
 from typing import ClassVar
 
 DRIVEN_MAJOR = 1  # another major version of the firmware has another protocol
+# How the first firmware wrote its version, in two bytes (firmware.hpp): patch, minor, major.
+OLD_STYLE = {
+    123: (0, 0, 1), 110: (0, 1, 1), 10100: (0, 1, 1), 111: (1, 1, 1), 10101: (1, 1, 1),
+}  # fmt: skip
 RECOMMENDED = (1, 1, 4)  # or newer, by its driver (firmware.cpp)
 
 
@@ -65,6 +69,9 @@ class FirmwareVersion:
     @classmethod
     def parse(cls, data: bytes) -> FirmwareVersion:
         """Return the part of these data."""
+        number = int.from_bytes(data, "little")
+        if len(data) == 2 and number in OLD_STYLE:
+            return cls(*OLD_STYLE[number])
         return cls(*cls.LAYOUT.unpack(data))
 
 

@@ -18,10 +18,6 @@ GYRO_FRAME, DOCK_FRAME = "gyro_link", "dock_ir_link"  # kobuki_description
 # Of heading and turning [rad2, rad2/s2]: about x and y nothing is known (slot_callbacks.cpp).
 COVARIANCE = (float_info.max, 0.0, 0.0, 0.0, float_info.max, 0.0, 0.0, 0.0, 0.05)
 ALL_FEATURES = VersionInfo.SMOOTH_MOVE_START | VersionInfo.GYROSCOPE_3D_DATA
-# Diagonal of the pose covariance [m2, rad2]: huge for what a robot on a plane cannot know, and
-# more for the heading without the gyro. The twist's is zero, "unknown" (odometry.cpp).
-POSE_COVARIANCE = (0.1, 0.1, 1e10, 1e10, 1e10, 0.05)
-YAW_VARIANCE_OF_WHEELS = 0.2
 
 
 def sensor_state(feedback: Feedback, stamp: Any) -> SensorState:

@@ -1,9 +1,4 @@
-"""From the state of a robot to its messages, all with one stamp, and from a pose message back.
-
-Frames as REP-105 orders them: the pose of the base in the odometry frame, the twist in the frame
-of the base. The message objects are made once and filled again for every state: rospy copies a
-message when it publishes it, and making a new Odometry would cost more than all the rest.
-"""
+"""From the state of a robot to its messages, all with one stamp, and from a pose message back."""
 
 from __future__ import annotations
 
@@ -12,12 +7,11 @@ from typing import Any, Sequence, Tuple
 
 from geometry_msgs.msg import TransformStamped, Vector3
 from nav_msgs.msg import Odometry
-from sensor_msgs.msg import JointState
 
 from fake_turtlebot_sim.simulator.differential_drive import Pose, composed
 from fake_turtlebot_sim.simulator.parameters import Parameters
-from fake_turtlebot_sim.simulator.simulated_robot import RobotState, SimulatedRobot
-from kobuki_protocol.messages import POSE_COVARIANCE
+from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
+from kobuki_protocol.odometry_messages import OdometryMessages, fill_odometry
 
 Place = Tuple[float, float, float]  # x, y, z [m]
 ORIGIN: Place = (0.0, 0.0, 0.0)
@@ -26,40 +20,27 @@ X_Y_YAW = (0, 1, 5)  # where x, y and yaw stand in the 6 x 6 covariance of a mes
 LEAST_VARIANCE = 1e-9  # [m2, rad2]
 
 
-class RobotMessages:
+class RobotMessages(OdometryMessages):
     """The odometry, transform and wheel joints of one robot, and the truth if that differs."""
 
     def __init__(self, parameters: Parameters, prefix: str = "") -> None:
         """Take the names of frames and joints from the Parameters; the prefix is for the frames."""
         odom_frame, base_frame = prefix + parameters.odom_frame, prefix + parameters.base_frame
-        self.odometry, self.ground_truth = Odometry(), Odometry()
-        for odometry in (self.odometry, self.ground_truth):
-            odometry.header.frame_id = odom_frame
-            odometry.child_frame_id = base_frame
+        joints = parameters.left_wheel_joint, parameters.right_wheel_joint
+        super().__init__(odom_frame, base_frame, joints)
+        self.ground_truth = Odometry()
+        self.ground_truth.header.frame_id = odom_frame
+        self.ground_truth.child_frame_id = base_frame
         self.in_map = TransformStamped()  # where the odometry began, in the frame of the world
         self.in_map.header.frame_id, self.in_map.child_frame_id = parameters.map_frame, odom_frame
         if parameters.world:
             self.ground_truth.header.frame_id = parameters.map_frame
-        self.odometry.pose.covariance = [0.0] * 36
-        self.odometry.pose.covariance[::7] = POSE_COVARIANCE
-        self.transform = TransformStamped()
-        self.transform.header.frame_id = odom_frame
-        self.transform.child_frame_id = base_frame
-        # One quaternion in both, so that they are equal to the last bit.
-        self.transform.transform.rotation = self.odometry.pose.pose.orientation
-        self.joints = JointState()
-        self.joints.name = [parameters.left_wheel_joint, parameters.right_wheel_joint]
         self.joints.effort = [0.0, 0.0] if parameters.kobuki else []  # as kobuki_node has it
 
     def fill(self, robot: SimulatedRobot, stamp: Any) -> None:
         """Write what the robot does at the instant `stamp` into all messages."""
         state = robot.state()
-        fill_odometry(self.odometry, state, stamp)
-        self.transform.header.stamp = self.joints.header.stamp = stamp
-        self.transform.transform.translation.x = state.x
-        self.transform.transform.translation.y = state.y
-        self.joints.position = (state.left_angle, state.right_angle)
-        self.joints.velocity = (state.left_rate, state.right_rate)
+        self.write(state, stamp)
         covariance = robot.covariance()
         if covariance is not None:
             self._fill_covariance(covariance)
@@ -78,17 +59,6 @@ class RobotMessages:
                 value = float(covariance[row, column])
                 self.odometry.pose.covariance[6 * message_row + message_column] = value
             self.odometry.pose.covariance[7 * message_row] += LEAST_VARIANCE
-
-
-def fill_odometry(odometry: Odometry, state: RobotState, stamp: Any) -> None:
-    """Write the pose and the twist of a RobotState into an Odometry."""
-    odometry.header.stamp = stamp
-    odometry.pose.pose.position.x = state.x
-    odometry.pose.pose.position.y = state.y
-    odometry.pose.pose.orientation.z = sin(0.5 * state.yaw)
-    odometry.pose.pose.orientation.w = cos(0.5 * state.yaw)
-    odometry.twist.twist.linear.x = state.v
-    odometry.twist.twist.angular.z = state.w
 
 
 def between_frames(outer: Pose, inner: Pose) -> Pose:

@@ -1,0 +1,1 @@
+"""The serial port, and what this computer knows of its ports."""

@@ -1,0 +1,1 @@
+"""What the driver knows of the robot and makes of commands (pure)."""

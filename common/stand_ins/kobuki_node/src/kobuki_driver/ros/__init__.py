@@ -1,0 +1,1 @@
+"""The node, and the choice between a robot and its simulation."""

@@ -1,0 +1,185 @@
+"""The robot at an open port: packets in, messages and commands out."""
+
+from __future__ import annotations
+
+import threading
+from collections import deque
+from typing import Any, Callable
+
+import rospy
+from kobuki_msgs.msg import RobotStateEvent
+
+from kobuki_driver.io.ports import ports
+from kobuki_driver.io.serial_port import PortError, SerialPort
+from kobuki_driver.link import port_advice
+from kobuki_driver.link.watch import Finding, Watch
+from kobuki_driver.parameters import DriverParameters
+from kobuki_driver.robot.driving import ZERO, Driving, Verdict
+from kobuki_driver.robot.introduction import Introduction
+from kobuki_driver.ros.base_topics import BaseTopics
+from kobuki_protocol import commands, messages, robot_packets
+from kobuki_protocol.base_control import Velocity, base_control
+from kobuki_protocol.events import events
+from kobuki_protocol.feedback import Core, Feedback
+from kobuki_protocol.framing import Framer
+from kobuki_protocol.identity import Controller, FirmwareVersion
+from kobuki_protocol.odometry import Odometry
+
+SOFTWARE = "1.0.0"  # of this driver, for version_info
+MOST_WAITING = 100  # commands, while the port is shut
+LAST_ZEROS = 3  # at the end: one may be damaged
+
+
+class RobotLine:
+    """Serves the robot. The main thread reads and writes; callbacks only change what is wanted."""
+
+    def __init__(
+        self, parameters: DriverParameters, topics: BaseTopics, report: Callable[..., None]
+    ) -> None:
+        """Begin without a port; report(line, is_bad) shows a line."""
+        self._parameters, self._topics, self._report = parameters, topics, report
+        self._lock = threading.Lock()
+        self.driving = Driving(parameters.cmd_vel_timeout, parameters.acceleration_limiter)
+        self.feedback = Feedback()
+        self._odometry = Odometry(parameters.use_imu_heading)
+        self._introduction = Introduction()
+        self._waiting: deque[commands.Command] = deque(maxlen=MOST_WAITING)
+        self._port: SerialPort | None = None
+        self._topics.rare("events/robot_state", RobotStateEvent(RobotStateEvent.OFFLINE))
+
+    @property
+    def is_online(self) -> bool:
+        """Return whether packets come."""
+        return self.driving.is_online
+
+    def open(self, port: SerialPort, now_s: float) -> None:
+        """Take a port that was just opened."""
+        self._port, self._framer, self._watch = port, Framer(), Watch(now_s)
+
+    def close(self) -> None:
+        """Take it that the port is closed."""
+        self._port = None
+        self._switch(is_online=False)
+
+    def take(self, data: bytes, now_s: float, stamp: rospy.Time) -> None:
+        """Take what was read, which may be nothing; publish it, and command the robot."""
+        payloads = self._framer.feed(data)
+        packets = [(payload, robot_packets.parse(payload)) for payload in payloads]
+        cores = sum(any(isinstance(part, Core) for part in parts) for _, parts in packets)
+        damaged = self._framer.damaged
+        for finding in self._watch.take(len(data), cores, damaged, now_s):
+            self._tell(finding, now_s)
+        for payload, parts in packets:
+            self._take_packet(parts, now_s, stamp)
+            self._topics.stream(payload)
+        if cores:
+            self._topics.odometry(self._odometry.state, stamp)
+        if cores or (self._watch.was_online and not (data or self._watch.is_online)):
+            self._command(now_s)
+
+    def _take_packet(self, parts: list[Any], now_s: float, stamp: rospy.Time) -> None:
+        before, self.feedback = self.feedback, self.feedback.updated(parts)
+        now = self.feedback
+        self._topics.events(events(before, now, self._parameters.battery))
+        if any(isinstance(part, Core) for part in parts):
+            with self._lock:
+                self._odometry.update(now.core, now.inertia, now_s)
+            self._topics.sensors(now, self._odometry.gyro_heading, stamp)
+        for answer in self._introduction.take(parts):
+            self._introduce(answer)
+
+    def _introduce(self, answer: object) -> None:
+        known = self._introduction
+        if isinstance(answer, Controller):
+            self._topics.rare("controller_info", messages.controller_info(answer))
+        elif known.hardware and known.firmware and known.unique_id:
+            about = known.hardware, known.firmware, known.unique_id
+            self._topics.rare("version_info", messages.version_info(*about, software=SOFTWARE))
+        if isinstance(answer, FirmwareVersion) and known.objection():
+            self._report(known.objection(), is_bad=True)
+
+    def _command(self, now_s: float) -> None:
+        """Send a base control, and what waits."""
+        with self._lock:
+            if self.driving.expires(now_s):
+                timeout_s = self._parameters.cmd_vel_timeout
+                self._report(
+                    f"no velocity came for {timeout_s:.2f} s: the robot stops until the next one",
+                    is_bad=True,
+                )
+            velocity = self.driving.velocity(now_s)
+            if not self._introduction.may_drive(now_s):
+                velocity = ZERO
+            waiting = list(self._waiting)
+            self._waiting.clear()
+        self._write(base_control(*velocity))
+        self._topics.control(velocity)
+        for command in (*waiting, *self._introduction.questions(now_s)):
+            self._write(command)
+
+    def _write(self, command: commands.Command) -> None:
+        if self._port:
+            data = commands.build(command)
+            self._port.write(data)
+            self._topics.sent(data)
+
+    def rest(self) -> None:
+        """Stop the robot, as the driver ends."""
+        self.stop()
+        try:
+            for _ in range(LAST_ZEROS if self._watch.was_online else 0):
+                self._write(base_control(*ZERO))
+        except PortError:
+            pass  # it has gone first
+
+    def _tell(self, finding: Finding, now_s: float) -> None:
+        path, watch = self._parameters.device_port, self._watch
+        if finding is Finding.ONLINE:
+            self._introduction.begin(now_s)
+            self._switch(is_online=True)
+            self._report(port_advice.online(path))
+        elif finding is Finding.LOST:
+            self._framer.reset()
+            self._switch(is_online=False)
+            self._report(port_advice.lost(path), is_bad=True)
+        elif finding is Finding.SILENT:
+            self._report(port_advice.silent(path), is_bad=True)
+        elif finding is Finding.FOREIGN:
+            self._report(port_advice.foreign(path, watch.count, ports()), is_bad=True)
+        else:
+            self._report(port_advice.damaged(path, watch.damaged), is_bad=True)
+
+    def _switch(self, is_online: bool) -> None:
+        if is_online == self.is_online:
+            return
+        with self._lock:
+            self.driving.switch_robot(is_online)
+            if not is_online:
+                self._odometry.rest()
+        state = RobotStateEvent.ONLINE if is_online else RobotStateEvent.OFFLINE
+        self._topics.rare("events/robot_state", RobotStateEvent(state))
+
+    def command(self, velocity: Velocity, now_s: float) -> Verdict:
+        """Take a velocity from a callback, as the next ones."""
+        with self._lock:
+            return self.driving.command(velocity, now_s)
+
+    def stop(self) -> None:
+        """Stand until the next velocity."""
+        with self._lock:
+            self.driving.stop()
+
+    def switch_motors(self, is_on: bool) -> None:
+        """Obey velocities, or none."""
+        with self._lock:
+            self.driving.switch_motors(is_on)
+
+    def reset_odometry(self) -> None:
+        """Begin again at the origin."""
+        with self._lock:
+            self._odometry.reset()
+
+    def send(self, command: commands.Command) -> None:
+        """Send a command with the next base control."""
+        with self._lock:
+            self._waiting.append(command)
