@@ -25,7 +25,7 @@ from tutorial_check.checking.programs import (
     odd_node,
     program_of,
 )
-from tutorial_check.checking.results import Note, Wrong, wrong_of
+from tutorial_check.checking.results import Note, Wrong, first_of, wrong_of
 from tutorial_check.checking.rows import Row, demand, find
 from tutorial_check.checking.submission import Submission
 from tutorial_check.checking.texts import Lines, read_xml, text_of_file
@@ -69,11 +69,11 @@ __all__ = [
     "PythonFacts", "Ran", "RosSession", "Row", "Sample", "Seen", "SimulatedRobot", "Submission",
     "SubmissionFiles", "Task", "Topics", "Transform", "Variant", "Workspace", "Wrong", "attribute",
     "blamed_place", "build_error", "build_output", "built", "cause_of", "check", "check_end",
-    "check_file", "cmake_of", "crash", "demand", "ended", "find", "find_script", "first_traceback",
-    "flipped_anonymous", "has_moved", "is_lacking", "is_stand_in", "last_lines", "launch_error",
-    "launch_file", "line_of", "meant", "missing_in", "must_be_launchable", "must_be_one_program",
-    "must_be_unique", "must_build", "not_found", "odd_node", "own_built", "package_hint",
-    "package_of", "packages_beside", "packages_of_ros", "place_of", "program_of", "put_file",
-    "read_launch_files", "read_xml", "recorded", "shows", "text_of_file", "underlays", "unmasked",
-    "unreadable", "with_bases", "with_import", "without_name", "wrong_of",
+    "check_file", "cmake_of", "crash", "demand", "ended", "find", "find_script", "first_of",
+    "first_traceback", "flipped_anonymous", "has_moved", "is_lacking", "is_stand_in", "last_lines",
+    "launch_error", "launch_file", "line_of", "meant", "missing_in", "must_be_launchable",
+    "must_be_one_program", "must_be_unique", "must_build", "not_found", "odd_node", "own_built",
+    "package_hint", "package_of", "packages_beside", "packages_of_ros", "place_of", "program_of",
+    "put_file", "read_launch_files", "read_xml", "recorded", "shows", "text_of_file", "underlays",
+    "unmasked", "unreadable", "with_bases", "with_import", "without_name", "wrong_of",
 ]  # fmt: skip

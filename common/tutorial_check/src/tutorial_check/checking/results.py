@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Callable, Iterable, TypeVar
 
 from tutorial_check.processes.errors import (
     CANNOT_START,
@@ -16,6 +16,8 @@ from tutorial_check.processes.errors import (
 from tutorial_check.submission.student_files import TOO_LARGE
 
 OK, WRONG, NOTE, UNREACHED = "ok", "wrong", "note", "unreached"
+Facts = TypeVar("Facts")
+Verdict = TypeVar("Verdict")
 
 
 @dataclass(frozen=True)
@@ -55,6 +57,14 @@ class Wrong(Exception):
     hint: str = ""
     sure: bool = False  # whatever else the machine had to do, it is no matter of time
     look: str = ""  # a command that shows it, if not that of the check
+
+
+def first_of(
+    diagnoses: Iterable[Callable[[Facts], Verdict | None]], facts: Facts
+) -> Verdict | None:
+    """Return what the first diagnosis that applies to the facts says: a Wrong or Note, or None."""
+    verdicts = (diagnosis(facts) for diagnosis in diagnoses)
+    return next((verdict for verdict in verdicts if verdict is not None), None)
 
 
 # {kind of a CutShort: what is expected, what was seen, what to do}; all but CANNOT_START are sure.
