@@ -34,10 +34,13 @@ def config(package, name):
 class Rig(Robot):
     """The nodes, each a program of its own; a context manager that ends them all."""
 
+    base = BASE
+
     def __init__(self, with_mux=True, screen=None, **joy2twist):
         """screen: path of what the nodes write to, or None. joy2twist: more of its parameters."""
         super().__init__()
-        self.nodes = [JOYSTICK, DRIVER, *([MUX] if with_mux else []), BASE]  # from hand to wheel
+        # From hand to wheel.
+        self.nodes = [JOYSTICK, DRIVER, *([MUX] if with_mux else []), self.base]
         self._screen, self._joy2twist = screen, joy2twist
         self._velocities = "cmd_vel_mux/input/teleop" if with_mux else "cmd_vel"
         folder = self._stack.enter_context(tempfile.TemporaryDirectory())

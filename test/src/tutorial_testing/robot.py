@@ -57,6 +57,8 @@ class Moment(NamedTuple):
 class Robot(Started):
     """A robot, and what a test starts to see it: a context manager that ends all of that."""
 
+    odometry_topic = "odom"
+
     def __init__(self, namespace=""):
         """namespace: of its topics, with a slash at the end."""
         super().__init__()
@@ -69,7 +71,7 @@ class Robot(Started):
     def listen(self):
         """Hear the odometry in this process."""
         hear = lambda message: self.odometry.append(Moment.of(message))  # noqa: E731
-        topic = f"{self.namespace}odom"
+        topic = f"{self.namespace}{self.odometry_topic}"
         subscriber = rospy.Subscriber(topic, Odometry, hear, queue_size=1000, tcp_nodelay=True)
         self._stack.callback(subscriber.unregister)
 

@@ -28,3 +28,23 @@ def test_a_base_that_was_restarted_under_a_held_stick_waits(about, fault, hands,
     stream += [Event(1.0, BEGINS, fault), Event(1.5, ENDS, fault)]
     stream += odometry(0.0, 1.0, DRIVES) + odometry(2.5, 3.5, back)
     assert "".join(violation.invariant for violation in Trial(stream).violations) == letters, about
+
+
+@pytest.mark.parametrize(
+    ("about", "fault", "rests_s", "then", "letters"),
+    [
+        ("the firmware stops the wheels", "kill:base", 1.6, RESTS, ""),
+        ("nothing does", "kill:base", 2.0, RESTS, "d"),
+        ("they drive on under a held stick", "kill:base", 1.6, DRIVES, "b"),
+        ("the cable is in again", "unplug:cable", 1.6, DRIVES, ""),
+        ("the cable is out, and nothing stops them", "unplug:cable", 2.0, RESTS, "d"),
+    ],
+)
+def test_wheels_that_are_seen_without_their_base_are_judged_too(
+    about, fault, rests_s, then, letters
+):
+    stream = [Event(0.0, HANDS, DRIVE), Event(1.0, BEGINS, fault), Event(2.5, ENDS, fault)]
+    stream += odometry(0.0, rests_s, DRIVES) + odometry(rests_s, 3.0, RESTS)
+    stream += odometry(3.0, 3.5, then)
+    trial = Trial(stream, sees_truth=True)
+    assert "".join(violation.invariant for violation in trial.violations) == letters, about

@@ -16,7 +16,7 @@ from typing import NamedTuple
 from node_kit.arguments import Parser, above_zero
 from tutorial_faults.live.judge import VELOCITIES, Trial
 from tutorial_faults.live.table import FAULTS
-from tutorial_faults.live.world import World
+from tutorial_faults.live.world import SerialWorld, World
 from tutorial_faults.worlds import moves
 from tutorial_testing.hands import DRIVE, RELEASED, STICK, TURBO, TURN
 from tutorial_testing.processes import free_port
@@ -70,14 +70,29 @@ def parse(arguments):
     names = sorted({*FAULTS, *(fault.family for fault in FAULTS.values())})
     add("--kinds", choices=names, nargs="+", metavar="KIND", help=", ".join(FAULTS))
     text = f"a command in place of joy2twist; {HANDOUT}: the handout's own class"
+    text = "a Kobuki's driver and a robot on a serial line, in place of the simulated base"
+    add("--serial", action="store_true", help=text)
     add("--node", type=shlex.split, default=[], metavar="COMMAND", help=text)
-    return parser.parse_args(arguments)
+    options = parser.parse_args(arguments)
+    if options.kinds and not named(options):
+        parser.error("these --kinds need --serial: there is no line without it")
+    return options
+
+
+def named(options):
+    """Return the names of the faults that are wanted, and that hit what there is."""
+    wanted = {*(options.kinds or FAULTS)}
+    return [
+        name
+        for name, fault in FAULTS.items()
+        if {name, fault.family} & wanted and (options.serial or not fault.of_line)
+    ]
 
 
 def tried(world, plan):
     """Return the judge.Trial of a Plan. Raises TimeoutError."""
     for _ in range(ATTEMPTS):
-        trial = Trial(world.act(plan))
+        trial = Trial(world.act(plan), world.sees_truth)
         if not trial.violations or not trial.was_late:
             return trial
     raise TimeoutError("this machine was too late")
@@ -98,24 +113,24 @@ def show(options, plan, trial):
         last[what] = changed
     again = ["--seed", str(plan.seed), "--trials", "1"]
     again += ["--node", shlex.join(options.node)] if options.node else []
+    again += ["--serial"] if options.serial else []
     again += ["--kinds", *options.kinds] if options.kinds else []
     print(f"  again: ./tutorial test faults {shlex.join(again)}", flush=True)
 
 
 def hunt(options):
     """Yield a Trial after the other; the world is replaced when it cannot be repaired."""
-    wanted = {*(options.kinds or FAULTS)}
-    names = [name for name, fault in FAULTS.items() if {name, fault.family} & wanted]
+    names = named(options)
     node = [LITERAL] if options.node == [HANDOUT] else options.node
     end_s = time.monotonic() + (math.inf if options.trials else options.seconds or SHORTEST_S)
-    world = None
+    world, kind = None, SerialWorld if options.serial else World
     with contextlib.ExitStack() as stack:
         for seed in itertools.islice(itertools.count(options.seed), options.trials or None):
             if time.monotonic() > end_s:
                 return
             plan = draw(seed, names)
             try:
-                world = world or stack.enter_context(World(node))
+                world = world or stack.enter_context(kind(node))
                 trial = tried(world, plan)
                 yield trial
             except (AssertionError, OSError) as error:

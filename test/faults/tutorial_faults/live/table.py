@@ -13,14 +13,17 @@ from geometry_msgs.msg import Twist, Vector3
 from sensor_msgs.msg import Joy
 
 from tutorial_testing.nodes import serialised
-from tutorial_testing.rig import BASE, DRIVER, JOYSTICK, MUX
+from tutorial_testing.rig import DRIVER, JOYSTICK, MUX
 
-NODES = {"joy_node": JOYSTICK, "joy2twist": DRIVER, "mux": MUX, "base": BASE}
+BASE = "base"  # whichever there is: World.base
+NODES = {"joy_node": JOYSTICK, "joy2twist": DRIVER, "mux": MUX, BASE: BASE}
 TELEOP = "cmd_vel_mux/input/teleop"
 TOPICS = {"teleop": TELEOP, "navi": "cmd_vel_mux/input/navi", "cmd_vel": "cmd_vel"}
 # What must hold: the wheels rest in time, and then wait for the release of all; they wait for it
-# if they were at rest; the robot is driven on meanwhile; it may stop and drive on: no loss.
+# if they were at rest; the robot is driven on meanwhile; it may stop and drive on: no loss; the
+# wheels rest in time, and may then drive on, as after a cable that was out.
 RESTS, WAITS, DRIVES_ON, MAY_STOP = "rests", "waits", "drives on", "may stop"
+PAUSES = "pauses"
 
 VIGILANCE_S = 1.0  # joy2twist's ~vigilance_timeout here, for more trials
 PERIOD_S = 0.05  # messages of other programs
@@ -38,6 +41,7 @@ class Fault(NamedTuple):
     lasts_s: tuple  # the shortest and the longest time
     do: Any
     late_s: float = 0.0  # what it may add to the time until the wheels are at rest
+    of_line: bool = False  # hits a Kobuki's serial line, which the simulated base lacks
 
     @property
     def name(self):
@@ -107,6 +111,18 @@ def hands(name, during, world):
     act(not during)
 
 
+def asks(service, during, world):
+    """Set a switch of the robot on the serial line, and set it back."""
+    world.ask(service, during)
+    yield
+    world.ask(service, not during)
+
+
+def restarts_robot(world):
+    world.ask("reboot")
+    yield
+
+
 def rows():
     for name, node in NODES.items():
         yield Fault("kill", name, RESTS, (0.05, 0.7), partial(ends, node, signal.SIGKILL))
@@ -119,6 +135,13 @@ def rows():
     yield Fault("stop", "gamepad", RESTS, (0.7, 1.5), freezes)
     # Out of reach: the receiver keeps the last state, and only joy2twist can notice.
     yield Fault("silence", "gamepad", RESTS, (0.1, 2.5), freezes, VIGILANCE_S)
+    for family, part, do in (
+        ("unplug", "cable", partial(asks, "plug_in", False)),
+        ("off", "robot", partial(asks, "switch_on", False)),
+        ("garbage", "cable", partial(asks, "send_garbage", True)),
+        ("reboot", "robot", restarts_robot),
+    ):
+        yield Fault(family, part, PAUSES, (0.05, 1.5), do, of_line=True)
     nan = lambda random: Twist(linear=Vector3(x=random.choice(ODD[:3])))  # noqa: E731
     raw = lambda kind: lambda random: kind(random.choice(BROKEN))  # noqa: E731
     for family, part, topic, must, kind, make in (

@@ -10,11 +10,12 @@ from geometry_msgs.msg import Twist
 from node_kit.ros_api import call
 from node_kit.rospy_patches.connections import sender_of
 from tutorial_faults.live import judge
-from tutorial_faults.live.table import FAULTS, TELEOP, VIGILANCE_S
+from tutorial_faults.live.table import BASE, FAULTS, TELEOP, VIGILANCE_S
 from tutorial_testing import rig
 from tutorial_testing.hands import DRIVE, RELEASED
 from tutorial_testing.nodes import init_node
 from tutorial_testing.processes import Program, signal_all
+from tutorial_testing.serial_rig import SerialRig
 from tutorial_testing.waiting import BUSY_S, wait_for
 
 ENDS_S = 1.5 + BUSY_S  # for a node to exit, when asked to
@@ -28,6 +29,8 @@ class World(rig.Rig):
 
     This process is also the other programs that send nonsense.
     """
+
+    sees_truth = False  # whether wheels are seen also while their base is gone
 
     def __init__(self, command):
         """command: in place of joy2twist, if any."""
@@ -64,11 +67,13 @@ class World(rig.Rig):
         return program, parameters, remaps
 
     def signal(self, part, number):
+        part = self.base if part == BASE else part
         if not self.programs[part].ended:
             signal_all([self.programs[part].pid], number)
 
     def restart(self, node):
         """Wait until a node that was asked to exit does; report it if it does not; start it."""
+        node = self.base if node == BASE else node
         program, now = self.programs[node], time.time()
         with contextlib.suppress(AssertionError):
             program.wait(ENDS_S)
@@ -107,7 +112,8 @@ class World(rig.Rig):
 
     def _release(self, plan):
         """Release all, but not before the wheels of a base that was restarted are seen."""
-        if any(name in ("kill:base", "end:base") for *_, name in plan.hits):
+        restarts = any(name in ("kill:base", "end:base") for *_, name in plan.hits)
+        if restarts and not self.sees_truth:
             restarted_s = max(at_s for at_s, what, _ in self._stream if what == judge.ENDS)
             wait_for(lambda: self.since(restarted_s), "base that was restarted")
             back_s = self.since(restarted_s)[0].stamp
@@ -137,3 +143,9 @@ class World(rig.Rig):
             velocity = judge.velocity(moment.v, moment.w)
             stream.append(judge.Event(moment.stamp, judge.WHEELS, velocity))
         return [*stream, *self._stream]
+
+
+class SerialWorld(World, SerialRig):
+    """With a Kobuki on a serial line, and its driver as the base."""
+
+    sees_truth = True

@@ -26,8 +26,8 @@ from fake_turtlebot_sim.serial_kobuki.parameters import (
     Parameters,
     parse_parameters,
 )
-from fake_turtlebot_sim.simulator.ros_messages import fill_odometry
 from fake_turtlebot_sim.simulator.simulated_robot import RobotState
+from kobuki_protocol.odometry_messages import fill_odometry
 from node_kit.ros_api import Answer, call
 from node_kit.rospy_patches.prompt_publisher import PromptPublisher
 from node_kit.start import run
