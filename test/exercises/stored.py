@@ -92,7 +92,13 @@ def judged(test, workspace, underlay, exercises, folder, **about):
 
 
 # {recorder of what is stored: what it is called now}, until all is recorded anew.
-MOVED = {}
+OLD, HANDOUT = "courses.handout.s4.record", "courses.handout"
+MOVED = {
+    f"{OLD}:bag": f"{HANDOUT}.driving.bag:bag",
+    f"{OLD}:follow": f"{HANDOUT}.simulated_robot.record:follow",
+    f"{OLD}:stick": f"{HANDOUT}.gamepad.record:stick",
+    f"{HANDOUT}.driving.record:loaded": f"{HANDOUT}.joy2twist.record:loaded",
+}
 
 
 def _question(one):

@@ -7,15 +7,18 @@ stands for what a variant may change.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Mapping, Sequence, Tuple, TypeVar
+from typing import Iterable, Mapping, Sequence, Tuple, TypeVar
 
 from tutorial_check import Task, Variant
 
-PACKAGE = "joy2twist"
+PACKAGE, NAME = "joy2twist", "joy2twist.py"
+JOY, CMD_VEL = "/joy", "/cmd_vel"
 LB = 4  # the dead-man button of the handout's memo
 FIELDS = {"axis_linear": (1, "scale_linear"), "axis_angular": (0, "scale_angular")}
 AXES = 6
-TOPICS = {"joy": "/joy", "cmd_vel": "/cmd_vel"}
+NEUTRAL = ((0.0,) * AXES, (0,) * 12)  # a Joy at rest
+OF_ALL = ("/rosout", "/rosout_agg", "/clock")  # topics of every node
+TOPICS = {"joy": JOY, "cmd_vel": CMD_VEL}
 
 T = TypeVar("T")
 Joy = Tuple[Tuple[float, ...], Tuple[int, ...]]  # (axes, buttons)
@@ -86,6 +89,11 @@ class JoystickTask(Task):
         axes = [self.signs.get(index, 1) * value for index, value in enumerate(joy[0])]
         return moved(axes, self.axes), moved(joy[1], self.buttons)
 
+    def held(self, left: float, forwards: float) -> Joy:
+        """Return the Joy of this program with LB held and the stick at these positions."""
+        buttons = tuple(int(index == LB) for index in range(12))
+        return self.joy(((left, forwards, 0.0, 0.0, 0.0, 0.0), buttons))
+
     def product(self, factor: float, axis: int) -> str:
         """Return what a program multiplies, in a message."""
         return f"{self.signs.get(axis, 1) * factor:.2f} * {self.names.axes[axis]}"
@@ -104,3 +112,9 @@ class JoystickTask(Task):
 
 
 HANDOUT = JoystickTask({})
+
+
+def other_topic(topics: Iterable[str], wanted: str, types: Mapping[str, str], kind: str) -> str:
+    """Return another topic than the one wanted, with its type if that is another; or empty."""
+    topic = min(set(topics) - {wanted, *OF_ALL}, default="")
+    return topic if types.get(topic, kind) == kind else f"{topic}, of type {types[topic]}"

@@ -4,11 +4,10 @@ from types import SimpleNamespace
 
 import pytest
 
-from courses.handout.driving.record import CMD_VEL, JOY
+from courses.handout.driving import behaviour as c
+from courses.handout.driving.facts import Facts, repetition
 from courses.handout.driving.run import Drive
-from courses.handout.joy2twist import checks as c
-from courses.handout.joy2twist.facts import Facts, repetition
-from courses.handout.task import JoystickTask
+from courses.handout.task import CMD_VEL, JOY, JoystickTask
 from tutorial_check.checking.rows import find
 from tutorial_check.submission.python_facts import PythonFacts
 

@@ -6,11 +6,13 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from courses.handout.driving.bag import Bag
 from courses.handout.driving.run import Drive
+from courses.handout.gamepad.record import Stick
 from courses.handout.launch_files.record import Run
 from courses.handout.node_class.record import Alone, Endings
 from courses.handout.remapping.record import Remap
-from courses.handout.s4.record import Bag, Follow, Stick
+from courses.handout.simulated_robot.record import Follow
 from courses.handout.talker_listener.record import Talk
 from courses.handout.world import record as s7
 from tutorial_check.recording.data import as_json, from_json

@@ -10,20 +10,18 @@ from typing import Any, Callable, Sequence
 
 from tutorial_check import GRACE_S, START_S, RosSession, Workspace
 
-from ..task import PACKAGE, Joy
+from ..task import CMD_VEL, JOY, NEUTRAL, PACKAGE, Joy
 from . import probes
 from .evidence import FIELDS, LINEAR, RIGHT, rule_of
 from .run import Drive
 
-JOY, CMD_VEL = "/joy", "/cmd_vel"
 COUNT = 20
 RATE, STREAM_S = 50.0, 2.5
-NEUTRAL = ((0.0,) * 6, (0,) * 12)
 RATED = frozenset(["4.3", "6.2"])  # the exercises that look at the rate
-STARTS = 10  # under load, all at once
 ANSWER_S = 1.0  # for one Twist, before it counts as missing
 SETTLE_S = 0.15  # after it, in which more of them may come
 QUIET_S = 0.25  # without a Joy, or longer for a slow one: a clock of its own makes itself received
+REST_S = 0.5  # for a Twist at rest; not every program sends one
 SAME_S = 0.06  # in which several Twists answer one Joy
 COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 
@@ -33,13 +31,6 @@ class Found:
     """Whether rospack finds a package."""
 
     found: bool
-
-
-@dataclass(frozen=True)
-class Loaded:
-    """Starts while Joys stream."""
-
-    failed: bool  # in one of them a callback found no publisher
 
 
 def drive(workspace: Workspace, script: str, wants_twist: bool = True, text: str = "") -> Drive:
@@ -56,23 +47,11 @@ def found(workspace: Workspace, package: str) -> Found:
     return Found(not program.process.returncode)
 
 
-def loaded(workspace: Workspace, script: str) -> Loaded:
-    """Start it ten times while 200 Joys a second come."""
-    with workspace.ros_session() as ros:
-        ros.peer.advertise(JOY, "Joy")
-        ros.peer.listen(CMD_VEL, "Twist")
-        ros.peer.stream(JOY, [NEUTRAL], 200.0, True)
-        names = [f"__name:=loaded_{number}" for number in range(STARTS)]
-        programs = [ros.start(PACKAGE, script, name) for name in names]
-
-        def one_has_failed() -> bool:
-            return any("NameError" in each.output for each in programs)
-
-        def all_publish() -> bool:
-            return len({caller for _, caller, _ in ros.peer.received(CMD_VEL)}) >= STARTS
-
-        ros.wait(lambda: all_publish() or one_has_failed(), START_S)
-        return Loaded(one_has_failed())
+def rest(ros: RosSession, *topics: str, joys: str = JOY) -> None:
+    """Send Joys at rest until a Twist answers, or for a while: some drive only after it."""
+    ros.peer.stream(joys, [NEUTRAL], 20.0, True)
+    ros.wait(lambda: any(ros.peer.count(topic) for topic in topics), REST_S)
+    ros.peer.end_stream(joys)
 
 
 class _Driver:

@@ -18,9 +18,8 @@ from tutorial_check import (
     first_traceback,
 )
 
-from ..driving.record import CMD_VEL, JOY
-from ..s4.checks import check_recording
-from ..task import PACKAGE
+from ..driving.bag_checks import check_recording
+from ..task import CMD_VEL, JOY, PACKAGE
 from .files import BAG, JOY_HINT, STICK, LaunchFile, copy_bag
 from .record import BAG_S, Plan, Run, bag_run, stick_run
 

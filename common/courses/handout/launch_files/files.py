@@ -34,8 +34,7 @@ from tutorial_check import (
     text_of_file,
 )
 
-from ..joy2twist.checks import NAME
-from ..task import PACKAGE
+from ..task import NAME, PACKAGE
 
 BAG, STICK = "launch_bag.launch", "launch_joy_node.launch"
 TURTLEBOT, REAL = "joy2twist_turtlebot.launch", "launch_joy_node_realTurtlebot.launch"

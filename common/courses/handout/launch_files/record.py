@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Callable, Dict, Tuple
 
 from tutorial_check import ODOM, CannotCheck, Ran, RosSession, Workspace
 
-from ..driving.record import NEUTRAL
-from ..s4.record import held
+from ..task import NEUTRAL
 
 if TYPE_CHECKING:  # judges need no gamepad
     from tutorial_check import Gamepad
@@ -127,7 +126,7 @@ def _own_bag(workspace: Workspace, path: Path, length_s: float) -> None:
     with rosbag.Bag(str(path), "w") as bag:
         for k in range(int(length_s * 20)):
             stamp = rospy.Time(1_600_000_000 + k / 20)
-            axes, buttons = held(workspace, 0.0, 1.0) if k > 4 else NEUTRAL
+            axes, buttons = workspace.task.held(0.0, 1.0) if k > 4 else NEUTRAL
             joy = Joy(axes=axes, buttons=buttons)
             joy.header.stamp = stamp
             bag.write("/joy", joy, stamp)

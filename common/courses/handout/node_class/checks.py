@@ -23,9 +23,9 @@ from tutorial_check import (
     without_name,
 )
 
-from ..joy2twist import checks as judge
-from ..joy2twist.checks import NAME, check_manifest
-from ..task import PACKAGE
+from ..driving import behaviour
+from ..driving.program import check_manifest
+from ..task import NAME, PACKAGE
 from .record import LAUNCH, End, Endings, alone, endings
 
 NAMES_IT = re.compile(r"not defined|NameError")  # what the lack of the import leads to
@@ -138,8 +138,8 @@ def is_class(submission: Submission) -> Note | str | None:
        look="rostopic echo {n.cmd_vel}")  # fmt: skip
 def behaves(submission: Submission) -> Note | str | None:
     script, _, _ = program(submission)
-    notes: list[object] = [judge.displays(submission, script, few_are_enough=True)]
-    notes += [each(submission, script) for each in (judge.topics, judge.mapping, judge.rate)]
+    notes: list[object] = [behaviour.displays(submission, script, few_are_enough=True)]
+    notes += [each(submission, script) for each in (behaviour.topics, behaviour.mapping, behaviour.rate)]
     return next((note for note in notes if isinstance(note, Note)), None)
 
 

@@ -10,9 +10,7 @@ from typing import Dict, Optional
 
 from tutorial_check import ODOM, CannotCheck, Heard, Program, Ran, RosSession, Workspace, put_file
 
-from ..driving.record import CMD_VEL, JOY, NEUTRAL
-from ..s4.record import held
-from ..task import PACKAGE
+from ..task import CMD_VEL, JOY, NEUTRAL, PACKAGE
 
 CTRL_C, KILL, LAUNCH = "Ctrl-C", "rosnode kill", "the end of a launch"
 # One node for each way, all at once: each ends in its way, and the robot stands when all have gone.
@@ -129,7 +127,7 @@ def _drive(workspace: Workspace, ros: RosSession, programs: dict[str, Program]) 
     ros.peer.stream(JOY, [NEUTRAL], 50.0, True)
     ros.wait(lambda: one_has_ended() or min(map(len, _twists(ros).values())) >= 5, 0.5)
     ros.peer.end_stream(JOY)
-    ros.peer.stream(JOY, [held(workspace, 0.2, 0.3)], 50.0, True)
+    ros.peer.stream(JOY, [workspace.task.held(0.2, 0.3)], 50.0, True)
     ros.wait(lambda: one_has_ended() or (min(moving()) >= 10 and not _robot_rests(ros)), 4.0)
     counts = zip(programs.items(), moving())
     return next((way for (way, each), count in counts if each.ended or not count), "")

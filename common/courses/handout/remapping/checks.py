@@ -7,11 +7,11 @@ from dataclasses import replace
 
 from tutorial_check import Submission, Wrong, check, last_lines
 
-from ..driving.record import CMD_VEL, JOY
 from ..launch_files import checks as launch_nodes
 from ..launch_files.checks import fault_of, plan_of, traced
 from ..launch_files.files import JOY_HINT, REAL, TURTLEBOT, LaunchFile, check_file
 from ..launch_files.record import Plan
+from ..task import CMD_VEL, JOY
 from .record import TELEOP, Remap, real_run, remap_run
 
 EXPECTED = f"Twists on {TELEOP}, none on any other topic"

@@ -8,8 +8,8 @@ from typing import Tuple
 
 from tutorial_check import CannotCheck, Topics, Workspace
 
+from ..driving.record import rest
 from ..launch_files.record import Launch, Plan, Run, drives_forwards, plug_in_for
-from ..s4.record import held, rest
 
 TELEOP, ACTIVE = "/cmd_vel_mux/input/teleop", "/cmd_vel_mux/active"
 
@@ -45,7 +45,7 @@ def remap_run(workspace: Workspace, plan: Plan, own: str) -> Remap:
 
         launch.wait(is_up)
         rest(ros, *topics, joys=plan.joys)
-        ros.peer.stream(plan.joys, [held(workspace, 0.2, 0.3)], 20.0, True)
+        ros.peer.stream(plan.joys, [workspace.task.held(0.2, 0.3)], 20.0, True)
 
         def moving(topic: str) -> bool:
             return any(abs(value[0]) > 0.01 for _, _, value in ros.peer.received(topic))

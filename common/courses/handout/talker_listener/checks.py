@@ -24,6 +24,7 @@ from tutorial_check import (
     wrong_of,
 )
 
+from ..task import other_topic
 from . import record
 from .record import KIND, PACKAGE, STRINGS, TOPIC, Pair, Talk
 
@@ -32,12 +33,6 @@ GOES_ON = "it goes on until Ctrl-C"
 LOOP = "while not rospy.is_shutdown(): ..., rate.sleep() within it"
 RATE_TOLERANCE = 0.2  # part of the expected rate
 FEW = 3  # messages: too few for a rate
-
-
-def other_topic(topics: Iterable[str], asked_for: str, types: Mapping[str, str], kind: str) -> str:
-    """Return another topic than the one asked for, with its type if that is another; or empty."""
-    topic = min(set(topics) - {asked_for, *record.OF_ALL}, default="")
-    return topic if types.get(topic, kind) == kind else f"{topic}, of type {types[topic]}"
 
 
 def scripts(submission: Submission) -> list[str]:

@@ -7,10 +7,11 @@ from typing import Dict, Optional, Tuple
 
 from tutorial_check import SETTLE_S, HeardText, Program, Ran, RosSession, Topics, Workspace
 
+from ..task import OF_ALL
+
 PACKAGE = "beginner_tutorials"
 LISTEN_S = 1.5  # to the talker
 TOPIC, KIND = "/chatter", "std_msgs/String"
-OF_ALL = ("/rosout", "/rosout_agg", "/clock")  # topics of every node
 ANOTHER_S = 3.0  # after another topic, or type, in which a talker makes the right one, or ends
 STRINGS = [f"tutorial check {word} {number}" for word, number in zip("ABCDE", range(21, 36, 3))]
 

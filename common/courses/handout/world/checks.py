@@ -18,7 +18,7 @@ from tutorial_check import (
     program_of,
 )
 
-from ..driving.record import CMD_VEL
+from ..task import CMD_VEL
 from ..talker_listener.record import PACKAGE
 from . import record
 from .record import LONGEST_PUSH_S, SIDES, WANDER_S

@@ -19,7 +19,7 @@ from tutorial_check import (
     Workspace,
 )
 
-from ..driving.record import CMD_VEL
+from ..task import CMD_VEL
 from ..talker_listener.record import PACKAGE
 
 SIDES = ("left", "center", "right")  # kobuki_msgs/BumperEvent: 0, 1, 2

@@ -20,11 +20,10 @@ from tutorial_check import (
     with_import,
 )
 
-from ..driving import probes
-from ..driving.record import COLOUR, COUNT, drive
-from ..driving.run import Drive, Twist
-from ..talker_listener.checks import other_topic
-from ..task import PACKAGE
+from ..task import PACKAGE, other_topic
+from . import probes
+from .record import COLOUR, COUNT, drive
+from .run import Drive, Twist
 
 
 class Facts:

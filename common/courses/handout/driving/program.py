@@ -1,0 +1,37 @@
+"""Which program turns Joys into Twists, and whether its manifest can be loaded."""
+
+from __future__ import annotations
+
+from tutorial_check import Submission, Wrong, find_script
+
+from ..task import NAME, PACKAGE
+from .record import found
+
+
+def main_script(submission: Submission) -> str:
+    """Return the program from Joy to Twist: not joy2twist.py if that is the first version."""
+    script, scripts = find_script(submission, PACKAGE, NAME), submission.scripts(PACKAGE)
+    facts = scripts.get(script)
+    if facts is None:
+        return script  # no Python, as C13 says
+    is_first = "Subscriber" in facts.calls and not {"Publisher", "publish"} & set(facts.calls)
+    is_whole = any(name.startswith("sensor_msgs.msg") for name in facts.imports)
+    if is_first and is_whole and "geometry_msgs.msg.Twist" not in facts.imports:
+        both = [p for p, f in scripts.items() if {"Publisher", "Subscriber"} <= set(f.calls)]
+        # A class comes last: that is section 6.2.
+        return min(both, key=lambda p: any(c.is_node for c in scripts[p].classes), default=script)
+    return script
+
+
+def check_manifest(submission: Submission, script: str) -> None:
+    """Check that roslib.load_manifest names a package that exists. Raises Wrong."""
+    facts = submission.scripts(PACKAGE).get(script)
+    call = facts.first("load_manifest") if facts else None
+    name = call.words[0] if call and call.words else ""
+    # PKG = "joy2twist": what is in it shows when the program runs.
+    is_known = not facts or name in ("", *facts.names, *(each.name for each in submission.packages))
+    if call and not is_known and not submission.recording(found, name).found:
+        expected = "roslib.load_manifest names a package that exists"
+        named = submission.task.named(PACKAGE)
+        hint = f"load_manifest('{named}'); or leave the line out: catkin needs it no more"
+        raise Wrong(expected, f"ResourceNotFound: {name}", f"{script}:{call.line}", hint)

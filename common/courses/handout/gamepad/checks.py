@@ -1,0 +1,26 @@
+"""C20: a joystick drives it."""
+
+from __future__ import annotations
+
+from tutorial_check import Note, Submission, Wrong, check, crash
+
+from ..driving.program import main_script
+from ..task import PACKAGE
+from .record import stick
+
+
+@check("C20", "a joystick drives it", "4.5", "C16", look="rostopic echo /joy/{n.axes[1]}")
+def joystick(submission: Submission) -> Note | str | None:
+    script = main_script(submission)
+    seen = submission.recording(stick, script)
+    if not seen.drives:
+        expected = "the stick pushed forwards moves the robot: linear.x > 0"
+        raise crash(submission, PACKAGE, seen.program, expected)
+    if seen.v < 0:
+        expected = "the stick pushed forwards moves the robot forwards"
+        raise Wrong(expected, "linear.x < 0", script)
+    if seen.survives_eight_axes:
+        return "switch at D and at X"
+    words = "with the switch at X (eight axes) it fails; the handout's does, too"
+    hint = 'as many as there are: ", ".join("%.2f" % axis for axis in data.axes)'
+    return Note(words, script, hint)
