@@ -9,8 +9,8 @@ setup(
                 "checking/*.txt",
                 "checking/*.yaml",
                 "commands/autograder/*",
-                "sandbox/session/bin/*",
-                "sandbox/session/view/*/rviz/*",
+                "sandbox/without_screen/bin/*",
+                "sandbox/without_screen/view/*/rviz/*",
                 "report/class_page.html",
             ]
         },

@@ -13,8 +13,10 @@ import shutil
 import tokenize
 from pathlib import Path
 
-from tutorial_check.checking.launcher import HANDED_IN, judge, prepared
+from tutorial_check.checking.ask_once import HANDED_IN
+from tutorial_check.checking.judging import judge
 from tutorial_check.course.definition import read_course
+from tutorial_check.recording.launcher import prepared
 from tutorial_check.submission.order import Order
 
 FOLDER = Path(__file__).resolve().parent / "recordings"

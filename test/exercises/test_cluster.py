@@ -140,7 +140,8 @@ def test_results_are_those_of_one_machine(literal, folder, underlay, scheduler, 
     call = client()
     assert call.wait(LONGEST_S) == 1, call.output
     for report in checked(folder):
-        (outcome,) = examine(Order(folder / report.stem, underlay, [EXERCISE], own=False))
+        order = Order(folder / report.stem, underlay, [EXERCISE], is_callers_own=False)
+        (outcome,) = examine(order)
         found = json.loads(report.read_text())["exercises"][0]["checks"]
         assert verdicts(found) == verdicts(map(vars, outcome.results)), report.stem
 

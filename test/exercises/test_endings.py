@@ -12,7 +12,7 @@ from stored import REPOSITORY
 from test_awkward import PYTHONPATH, check, command
 from test_hostile import processes_like
 
-from tutorial_check.checking.launcher import prepared
+from tutorial_check.recording.launcher import prepared
 from tutorial_check.recording.worker_process import Worker
 from tutorial_check.sandbox import bubblewrap
 from tutorial_check.submission.order import Order
@@ -120,8 +120,8 @@ def test_nothing_is_left(literal, environment, scratch, how, work):
 def test_a_worker_that_is_ended_while_it_starts_leaves_nothing(literal, underlay, tmp_path):
     folder = tmp_path / "folder"
     folder.mkdir()
-    order = replace(prepared(Order(literal.parent, underlay, ["2"]), folder), apart=True)
-    wrapper = bubblewrap.command(order.folder, order.shown, REPOSITORY)
+    order = replace(prepared(Order(literal.parent, underlay, ["2"]), folder), in_namespaces=True)
+    wrapper = bubblewrap.command(order.folder, order.readable, REPOSITORY)
     for milliseconds in range(0, 20):
         with Worker(order, wrapper):
             time.sleep(milliseconds / 1000)  # it ends at each point of bubblewrap's start

@@ -113,7 +113,7 @@ def test_what_no_student_wrote_is_read_in_bounded_time_and_memory(hostile, under
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     exercises = ("2", "3", "4.3", "5", "6.1", "6.2")
     try:
-        outcomes = examine(Order(workspace, underlay, exercises, own=False))
+        outcomes = examine(Order(workspace, underlay, exercises, is_callers_own=False))
         lines = [result.seen for outcome in outcomes for result in outcome.results]
         lines += [outcome.trouble for outcome in outcomes]
     except CannotCheck as error:

@@ -6,16 +6,16 @@ import threading
 
 import pytest
 
-from tutorial_check.checking import examination, launcher
+from tutorial_check.checking import examination
 from tutorial_check.processes.errors import CannotCheck
 from tutorial_check.recording import worker_process
 from tutorial_check.submission.order import Order
 from tutorial_testing.waiting import wait_for
 
-# In place of the launcher's examine(); Linux counts the time of a processor in whole seconds.
+# In place of judging.examine(); Linux counts the time of a processor in whole seconds.
 PROCESS = """#!/usr/bin/python3
 import os, re, resource, sys, time
-from tutorial_check.checking import examination, launcher
+from tutorial_check.checking import examination, judging
 from tutorial_check.sandbox import privileges
 
 privileges.OF_READER[resource.RLIMIT_CPU] = 1
@@ -23,7 +23,7 @@ privileges.OF_READER[resource.RLIMIT_CPU] = 1
 def examine(order, report, side_by_side):
 {body}
 
-launcher.examine = examine
+judging.examine = examine
 sys.argv = sys.argv[-2:]
 examination.main()
 """
@@ -32,7 +32,7 @@ examination.main()
 @pytest.fixture
 def examine(tmp_path, monkeypatch):
     """examine(body of the function that examines): what it comes to, and what was reported."""
-    monkeypatch.setattr(launcher, "sourced", lambda order: order)
+    monkeypatch.setattr(examination, "sourced", lambda order: order)
 
     def examined(body):
         program = tmp_path / "python"

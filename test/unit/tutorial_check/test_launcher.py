@@ -8,7 +8,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from tutorial_check.checking import launcher
+from tutorial_check.checking import judging
 from tutorial_check.checking.ask_once import AskOnce
 from tutorial_check.checking.checks import Check
 from tutorial_check.processes.errors import CannotCheck
@@ -40,7 +40,7 @@ def examine(tmp_path, monkeypatch):
     setup.parent.mkdir(parents=True)
     setup.touch()
     checks = [Check(f"C{n}", n, "", n, function=looks(n)) for n in ("2", "3", "5")]
-    monkeypatch.setattr(launcher, "checks_of", lambda course: checks)
+    monkeypatch.setattr(judging, "checks_of", lambda course: checks)
 
     def examined(answers, ending="", tell=lambda outcome, result: None, beside=()):
         # The order, and then questions, come from where answers go.
@@ -49,7 +49,7 @@ def examine(tmp_path, monkeypatch):
         command = lambda *_: ["sh", "-c", "\n".join(next(scripts))]  # noqa: E731
         monkeypatch.setattr(bubblewrap, "command", command)
         order = Order(tmp_path, setup, ("2", "3", "5"))
-        return launcher.examine(order, tell, side_by_side=bool(beside))
+        return judging.examine(order, tell, side_by_side=bool(beside))
 
     return examined
 
@@ -87,7 +87,7 @@ def test_what_was_recorded_before_the_worker_ended(examine):
 def test_what_was_found_before_the_time_was_over(examine, monkeypatch):
     clock = SimpleNamespace(monotonic=lambda: 0.0)
     monkeypatch.setattr(worker_process, "time", clock)
-    monkeypatch.setattr(launcher, "time", clock)
+    monkeypatch.setattr(judging, "time", clock)
 
     def let_it_be_over(outcome, _):
         clock.monotonic = lambda: worker_process.LONGEST_S + 1
@@ -108,7 +108,7 @@ def test_a_worker_that_records_nothing_gives_no_verdict(examine, answers, why):
 
 
 def test_a_second_worker_records_for_the_last_exercise_first(examine, monkeypatch, tmp_path):
-    monkeypatch.setattr(launcher.os, "sched_getaffinity", lambda _: {0, 1})
+    monkeypatch.setattr(judging.os, "sched_getaffinity", lambda _: {0, 1})
     monkeypatch.setattr(worker_process, "LONGEST_S", 30.0)
     gate = tmp_path / "gate"
     os.mkfifo(gate)

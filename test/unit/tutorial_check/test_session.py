@@ -9,10 +9,11 @@ from typing import Tuple
 
 import pytest
 
-from tutorial_check.checking.launcher import Submission, must_start_programs
 from tutorial_check.checking.results import Wrong
+from tutorial_check.checking.submission import Submission
 from tutorial_check.course.tasks import Task
 from tutorial_check.processes.errors import CannotCheck
+from tutorial_check.recording.launcher import must_start_programs
 
 
 def test_a_folder_in_which_nothing_can_be_started_is_named(order, monkeypatch):
@@ -101,7 +102,7 @@ def test_a_path_in_a_recording_is_looked_at_only_where_programs_may(order, path,
     source = Path(order.folder) / "handed_in/src"
     source.mkdir(parents=True)
     (source / "link").symlink_to("/root/secret")
-    one = Submission(replace(order, shown=(f"{order.folder}/shown",)), Task({}), None)
+    one = Submission(replace(order, readable=(f"{order.folder}/shown",)), Task({}), None)
     whole = path.format(folder=order.folder)
     assert (one.is_own(whole), one.may_see(whole)) == (is_own, may_see)
 

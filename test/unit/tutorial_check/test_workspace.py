@@ -9,9 +9,9 @@ import pytest
 
 from tutorial_check.checking.manifest_errors import unreadable
 from tutorial_check.processes.errors import CannotCheck
-from tutorial_check.submission import files, packages, workspace
+from tutorial_check.submission import files, handed_in, packages
+from tutorial_check.submission.handed_in import copy, find_layout, hand_in, unpack
 from tutorial_check.submission.packages import Layout, packages_below
-from tutorial_check.submission.workspace import copy, find_layout, hand_in, unpack
 
 XML = """<package format="2"><name>{}</name><version>0.0.0</version><description>x</description>
 <maintainer email="a@b.example">a</maintainer><license>x</license>
@@ -76,8 +76,8 @@ def test_the_suites_own_solutions_are_refused(tmp_path, given):
     (tmp_path / "ws/src/joy2twist").symlink_to(tmp_path / "suite/joy2twist")
     layout = find_layout(tmp_path / given)
     with pytest.raises(CannotCheck, match=r"/joy2twist is this suite's solution, not yours"):
-        workspace.must_be_ones_own(layout, tmp_path / "suite")
-    workspace.must_be_ones_own(layout, tmp_path / "another_copy")
+        handed_in.must_be_ones_own(layout, tmp_path / "suite")
+    handed_in.must_be_ones_own(layout, tmp_path / "another_copy")
 
 
 IN_ZIP = {"ws/src/joy2twist/package.xml": XML.format("joy2twist")}
@@ -189,7 +189,7 @@ def test_a_zip_with_broken_bytes_is_one_line(tmp_path, pack):
 
 
 def test_a_workspace_that_is_too_large_is_one_line(tmp_path, monkeypatch):
-    monkeypatch.setattr(workspace, "MOST_BYTES", 10)
+    monkeypatch.setattr(handed_in, "MOST_BYTES", 10)
     package(tmp_path / "src" / "joy2twist")
     with pytest.raises(CannotCheck, match="more than"):
         copied(tmp_path, tmp_path)
@@ -200,7 +200,7 @@ def test_a_launch_file_or_cmakelists_of_any_text_is_read_at_once(tmp_path, text)
     """In time linear in its length; quadratic time would be minutes."""
     (tmp_path / "a.launch").write_text(text * 99_999)
     began_s = time.process_time()
-    assert workspace.named_outside(tmp_path) == []
+    assert handed_in.named_outside(tmp_path) == []
     assert not files.NEEDS_BUILD.search(text * 99_999)
     assert time.process_time() - began_s < 60.0
 

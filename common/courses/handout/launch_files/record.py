@@ -150,11 +150,11 @@ def stick_run(workspace: Workspace, plan: Plan) -> Run:
 
 def plug_in_for(workspace: Workspace, ros: RosSession, plan: Plan) -> Gamepad:
     """Put a joystick where the joy_node of a launch file will look for it."""
-    if plan.device and not workspace.order.apart:
+    if plan.device and not workspace.order.in_namespaces:
         name = Path(plan.path).name
         raise CannotCheck(f"the system grants no {plan.device} to try {name} with")
     gamepad, path = ros.plug_in(*filter(None, [plan.device]))
-    for node in plan.joysticks if not workspace.order.apart else ():
+    for node in plan.joysticks if not workspace.order.in_namespaces else ():
         ros.peer.set_parameter(f"{node}/dev", str(path))
     return gamepad
 

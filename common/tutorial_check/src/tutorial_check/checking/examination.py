@@ -20,10 +20,11 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any
 
-from tutorial_check.checking import launcher
+from tutorial_check.checking import judging
 from tutorial_check.checking.results import Outcome
 from tutorial_check.course.definition import SOLUTIONS
 from tutorial_check.processes.errors import CannotCheck, fault
+from tutorial_check.recording.launcher import sourced
 from tutorial_check.recording.worker_process import END_S, no_more
 from tutorial_check.sandbox import privileges
 from tutorial_check.submission.order import Order
@@ -37,15 +38,15 @@ Answer = Any  # (an Outcome, a Result that came), the Outcomes at the end, or a 
 
 def examine(
     order: Order,
-    report: launcher.Report = lambda outcome, result: None,
+    report: judging.Report = lambda outcome, result: None,
     side_by_side: bool = False,
 ) -> list[Outcome]:
-    """Return the Outcomes as launcher.examine does, made in another process. Raises CannotCheck."""
+    """Return the Outcomes as judging.examine does, made in another process. Raises CannotCheck."""
     # Compiled before: the time for that must not count as the time for the student's files.
     for folder in (Path(__file__).parents[1], order.course):
         compileall.compile_dir(folder, quiet=2, rx=NOT_COMPILED)
     with _process() as (process, line):
-        line.send((launcher.sourced(order), side_by_side))
+        line.send((sourced(order), side_by_side))
         while True:
             answer = _answer(process, line)
             if isinstance(answer, CannotCheck):
@@ -118,7 +119,7 @@ def main() -> None:
     privileges.limit_reader()
     threading.Thread(target=_end_with, args=[line], daemon=True).start()
     try:
-        answer: Answer = launcher.examine(order, lambda *found: line.send(found), side_by_side)
+        answer: Answer = judging.examine(order, lambda *found: line.send(found), side_by_side)
     except CannotCheck as error:
         answer = error
     except MemoryError:

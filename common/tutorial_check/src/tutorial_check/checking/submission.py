@@ -16,7 +16,7 @@ from tutorial_check.course.tasks import Task
 from tutorial_check.processes.errors import UNREADABLE, CannotCheck, CutShort
 from tutorial_check.recording.data import as_json, from_json, must_be_whole, recorded_by
 from tutorial_check.sandbox import bubblewrap
-from tutorial_check.submission import workspace as workspaces
+from tutorial_check.submission import handed_in
 from tutorial_check.submission.files import Recorded, Recorder, SubmissionFiles
 from tutorial_check.submission.order import Line, Order
 
@@ -26,8 +26,8 @@ class Submission(SubmissionFiles):
 
     def __init__(self, order: Order, task: Task, ask: Ask) -> None:
         super().__init__(order, task)
-        self.source = self.folder / workspaces.COPY
-        visible = [self.source, *order.shown, *map(Path, bubblewrap.SYSTEM)]
+        self.source = self.folder / handed_in.COPY
+        visible = [self.source, *order.readable, *map(Path, bubblewrap.SYSTEM)]
         self._visible = [Path(os.path.realpath(each)) for each in visible]
         self._ask = ask
         self._runs: dict[object, Any] = {}  # what was recorded, or the Wrong in its place
@@ -77,7 +77,7 @@ class Submission(SubmissionFiles):
         layout = self.layout
         copied = f"{self.source.parent}/" if layout.is_workspace else f"{self.source}/"
         # Commands work in any folder, where the workspace is known.
-        is_known = self.order.own and self.folder not in layout.root.parents
+        is_known = self.order.is_callers_own and self.folder not in layout.root.parents
         root = f"{shlex.quote(str(layout.root))}/" if is_known else ""
         roots = {"hint": root, "look": root}
         found: dict[str, Any] = {

@@ -29,9 +29,9 @@ from tutorial_check.course.definition import read_course
 from tutorial_check.processes.errors import CannotCheck
 from tutorial_check.report.memory import digest_of_checks
 from tutorial_check.sandbox import bubblewrap, landlock, privileges
+from tutorial_check.submission.handed_in import MOST_BYTES
 from tutorial_check.submission.order import Order
 from tutorial_check.submission.packages import IGNORED
-from tutorial_check.submission.workspace import MOST_BYTES
 
 MOST_AT_ONCE = 1000  # submissions that the scheduler knows of
 TRIES = 2  # a submission that ends so many workers is abandoned
@@ -105,7 +105,7 @@ class Cluster:
             print(f"no worker yet; on each machine: ./tutorial worker {address}", flush=True)
 
     def examine(self, order: Order) -> list[Outcome]:
-        """Return the Outcomes of a submission, as launcher.examine. Raises CannotCheck, or Gone."""
+        """Return the Outcomes of a submission, as judging.examine. Raises CannotCheck, or Gone."""
         version = _version(order, order.course)
         parts = {"submission": order.workspace, f"course/{order.course.name}": order.course}
         about = _packed(parts), order, version

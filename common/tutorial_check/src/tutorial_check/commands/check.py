@@ -25,8 +25,8 @@ from tutorial_check.report.formats import FORMATS, clear, keep, without_hints, w
 from tutorial_check.report.memory import AGAIN, ALWAYS, Memory, show_solution
 from tutorial_check.report.text import Terminal, summary
 from tutorial_check.sandbox import bubblewrap
+from tutorial_check.submission.handed_in import all_below
 from tutorial_check.submission.order import Order
-from tutorial_check.submission.workspace import all_below
 
 PERIOD_S = 0.5  # between two looks; editors save in several steps, so two must be the same
 OF_EDITORS = ("~", ".swp")
@@ -173,10 +173,10 @@ def _look(options: argparse.Namespace, only_first: bool = False) -> list[Outcome
     try:
         order = Order(
             Path(options.workspace), options.underlay, options.exercises, only_first,
-            own=not (options.gradescope or options.classroom),
+            is_callers_own=not (options.gradescope or options.classroom),
             course=options.course.folder, variant=variant_of(options.course, options, ""),
         )  # fmt: skip
-        outcomes = examine(order, terminal.result, side_by_side=order.own)
+        outcomes = examine(order, terminal.result, side_by_side=order.is_callers_own)
     finally:
         terminal.busy("")
     for one in outcomes:

@@ -174,7 +174,7 @@ class Check:
         if not options.again and self._last_run.is_same(student):
             student.outcomes = student.before
             return "unchanged since the last check"
-        about = {"own": False, "course": options.course.folder, "variant": variant}
+        about = {"is_callers_own": False, "course": options.course.folder, "variant": variant}
         order = Order(student.path, options.underlay, options.exercises, **about)
         outcomes = self._cluster.examine(order) if self._cluster else examine(order)
         student.outcomes = without_hints(outcomes) if options.hints == 0 else outcomes

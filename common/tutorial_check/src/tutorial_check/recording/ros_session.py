@@ -75,7 +75,7 @@ class RosSession:
         from tutorial_check.recording.gamepad import Gamepad  # noqa: PLC0415
 
         workspace = self.workspace
-        path = Path(device) if workspace.order.apart else workspace.folder / "js0"
+        path = Path(device) if workspace.order.in_namespaces else workspace.folder / "js0"
         gamepad = self.help(lambda: Gamepad(str(path), workspace.task.joy)).remote
         gamepad.connected()
         return gamepad, path

@@ -27,7 +27,7 @@ from tutorial_check.processes.runner import Runner
 from tutorial_check.recording.data import VERSION, arguments_of, as_json, from_json
 from tutorial_check.recording.workspace import Workspace
 from tutorial_check.sandbox import bubblewrap, environment, landlock, privileges
-from tutorial_check.submission import workspace
+from tutorial_check.submission import handed_in
 from tutorial_check.submission.order import Line, Order
 
 
@@ -39,7 +39,7 @@ def main() -> None:
     os.dup2(2, 1)  # nothing else gets into the answers
     lines = line.makefile()
     order = from_json(Order, json.loads(next(lines)))
-    if order.apart:
+    if order.in_namespaces:
         privileges.prctl(privileges.PR_SET_PDEATHSIG, signal.SIGKILL)  # ends with bwrap
     else:  # its runner notices that the reader has ended, and ends what was started
         signal.signal(signal.SIGTERM, signal.SIG_IGN)
@@ -91,15 +91,17 @@ def _cannot(error: Exception) -> Line:
 
 def _prepared(order: Order, reader: int) -> Workspace:
     scratch = order.folder
-    shutil.copytree(scratch / workspace.COPY, scratch / "ws" / "src", symlinks=True)
+    shutil.copytree(scratch / handed_in.COPY, scratch / "ws" / "src", symlinks=True)
     environment.prepare(scratch)
     variables = environment.variables(scratch, order.environment)
-    shown: list[str | Path] = [scratch, *order.shown, *bubblewrap.SYSTEM, "/proc"]
+    readable: list[str | Path] = [scratch, *order.readable, *bubblewrap.SYSTEM, "/proc"]
     own = [scratch / name for name in environment.OWN]
-    ruleset = landlock.ruleset(shown, own) if landlock.version() and not order.apart else None
+    ruleset = None
+    if landlock.version() and not order.in_namespaces:
+        ruleset = landlock.ruleset(readable, own)
     course = read_course(order.course)
     load(course)  # its recorders
-    runner = Runner(variables, order.apart, reader, ruleset)
+    runner = Runner(variables, order.in_namespaces, reader, ruleset)
     return Workspace(order, task_of(course)(order.variant), runner)
 
 

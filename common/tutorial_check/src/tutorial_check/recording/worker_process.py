@@ -18,8 +18,8 @@ from typing import cast
 from tutorial_check.processes.errors import CannotCheck
 from tutorial_check.recording.data import as_json
 from tutorial_check.sandbox import bubblewrap, privileges
+from tutorial_check.submission.handed_in import COPY
 from tutorial_check.submission.order import Line, Order
-from tutorial_check.submission.workspace import COPY
 
 # All exercises take 90 s on two quiet processors. Ten times that is enough: if programs have less
 # than a seventh of the time, there is no verdict anyway (cpu_clock.HOPELESS), and a student waits.
@@ -39,7 +39,7 @@ class Worker:
 
     def __init__(self, order: Order, wrapper: list[str]) -> None:
         """Start it. wrapper: the words before its command that isolate it."""
-        if not order.apart:
+        if not order.in_namespaces:
             privileges.keep_to_itself()  # and the end of the socket
         environment = {**order.environment, "LANG": os.environ.get("LANG", "C.UTF-8")}
         # ROS reads these as it loads.
@@ -60,7 +60,7 @@ class Worker:
             stderr=self._log,
             env=environment,
             start_new_session=True,
-            pass_fds=bubblewrap.granted().descriptors if order.apart else (),
+            pass_fds=bubblewrap.granted().descriptors if order.in_namespaces else (),
             cwd="/",
         )
         theirs.close()
@@ -83,7 +83,7 @@ class Worker:
         """Let it answer no more: who waits for an answer gets Ended."""
         with contextlib.suppress(OSError):  # it has ended
             self._line.shutdown(socket.SHUT_RDWR)
-        if self._order.apart:
+        if self._order.in_namespaces:
             self._kill()
 
     def _kill(self) -> None:

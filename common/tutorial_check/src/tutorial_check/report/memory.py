@@ -19,7 +19,7 @@ from tutorial_check.checking.results import WRONG, Outcome, Result
 from tutorial_check.course.definition import HANDOUT, SUITE, Course, sources_of
 from tutorial_check.processes.errors import CannotCheck
 from tutorial_check.report.class_page import Student, cause_of
-from tutorial_check.submission.workspace import all_below
+from tutorial_check.submission.handed_in import all_below
 
 NEVER, AGAIN, ALWAYS = 0, 1, 2  # --hints
 CACHE = Path(os.environ.get("XDG_CACHE_HOME") or "~/.cache", "ros1_tutorial", "checked.json")

@@ -149,10 +149,10 @@ def _tmpfs(path: str, megabytes: int, isolation: Isolation) -> list[str]:
     return [*size, *(["--perms", "1777"] if isolation.has_perms else []), "--tmpfs", path]
 
 
-def command(folder: str | Path, shown: Iterable[str | Path], hidden: str | Path) -> list[str]:
+def command(folder: str | Path, readable: Iterable[str | Path], hidden: str | Path) -> list[str]:
     """Return the words before a command that isolate it; empty without isolation.
 
-    folder: to write into, empty at first; shown: what is seen, read-only; hidden: what is not.
+    folder: to write into, empty at first; readable: what is seen, read-only; hidden: what is not.
     """
     isolation = granted()
     if not isolation.options:
@@ -165,7 +165,7 @@ def command(folder: str | Path, shown: Iterable[str | Path], hidden: str | Path)
             mounts[path] = ["--symlink", os.readlink(path), path]
         elif os.path.exists(path):
             mounts[path] = ["--ro-bind", path, path]
-    given = {str(path) for path in shown if os.path.exists(path)}
+    given = {str(path) for path in readable if os.path.exists(path)}
     real = set(map(os.path.realpath, given))
     # catkin may have written down the name of a link.
     links = {path for path in given - real if not real & set(map(str, Path(path).parents))}

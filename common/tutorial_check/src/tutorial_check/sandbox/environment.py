@@ -43,7 +43,7 @@ def copy_tree(source: Path, target: Path) -> None:
 def prepare(folder: Path) -> None:
     """Make the folders of a session, with stand-ins of programs that need a screen."""
     for name in ("bin", "view"):  # and where ROS finds RViz
-        copy_tree(Path(__file__).parent / "session" / name, folder / name)
+        copy_tree(Path(__file__).parent / "without_screen" / name, folder / name)
     for program in (folder / "bin").iterdir():  # here they are data
         program.chmod(0o755)
     # The handout's listings begin with `env python`, as did all in its time.

@@ -69,12 +69,15 @@ def rights_of(known: int) -> int:
     return sum(rights for since, rights in ADDED.items() if since <= known)
 
 
-def ruleset(shown: Iterable[str | Path], own: Iterable[str | Path]) -> int:
-    """Return a descriptor for confine(). shown: read and run; own: also written. Raises OSError."""
+def ruleset(readable: Iterable[str | Path], own: Iterable[str | Path]) -> int:
+    """Return a descriptor for confine(). Raises OSError.
+
+    readable: what may be read and run; own: also written.
+    """
     everything = rights_of(version())
     about = struct.pack("=QQQ", everything, 0, SIGNALS if version() >= WITH_SCOPES else 0)
     made = _call(CREATE_RULESET, about, ctypes.c_size_t(len(about)), ctypes.c_uint32(0))
-    rows = [(path, EXECUTE | READ | LIST) for path in shown]
+    rows = [(path, EXECUTE | READ | LIST) for path in readable]
     rows += [(path, everything) for path in own]
     rows += [(path, (READ | WRITE | IOCTL) & everything) for path in DEVICES]
     for path, rights in (row for row in rows if os.path.exists(row[0])):

@@ -21,11 +21,11 @@ class Order:
     underlay: str  # setup.bash of the devel space with what students use and never write
     exercises: Tuple[str, ...]
     only_first: bool = False  # end at the first check that is wrong
-    own: bool = True  # the caller's own workspace, whose links may lead into the home folder
+    is_callers_own: bool = True  # its links may lead into the home folder
     course: Path = HANDOUT
     variant: Variant = field(default_factory=dict)  # The student's task names it.
     folder: Path = Path()  # for this order alone; the copy of the workspace is in it
     layout: Layout = field(default_factory=Layout)  # Messages name places as they were handed in.
     environment: Dict[str, str] = field(default_factory=dict)  # A shell with the underlay has it.
-    shown: Tuple[Path, ...] = ()  # what the student's programs may read
-    apart: bool = False  # in namespaces of its own, by bubblewrap
+    readable: Tuple[Path, ...] = ()  # what the student's programs may read
+    in_namespaces: bool = False  # in namespaces of its own, by bubblewrap

@@ -1,0 +1,109 @@
+"""Makes the checks of a workspace from what workers record and what files say."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import threading
+import time
+from dataclasses import replace
+from pathlib import Path
+from typing import Callable, Iterator
+
+from tutorial_check.checking.ask_once import HANDED_IN, Answers, Ask, AskOnce
+from tutorial_check.checking.checks import Run, checks_of
+from tutorial_check.checking.results import Outcome, Result
+from tutorial_check.checking.submission import Submission
+from tutorial_check.course.definition import Course, read_course
+from tutorial_check.course.tasks import task_of
+from tutorial_check.processes.errors import CannotCheck
+from tutorial_check.recording.launcher import sourced, started
+from tutorial_check.recording.worker_process import Ended, no_more
+from tutorial_check.sandbox import bubblewrap
+from tutorial_check.submission.order import Order
+
+Report = Callable[[Outcome, Result], None]
+
+
+def examine(
+    bare: Order,
+    report: Report = lambda outcome, result: None,
+    side_by_side: bool = False,
+) -> list[Outcome]:
+    """Return the Outcomes of a workspace; report each result as it comes. Raises CannotCheck.
+
+    side_by_side: a second worker may record what the last exercises need while the first are made.
+    """
+    bare, course = sourced(bare), read_course(bare.course)
+    try:
+        with contextlib.ExitStack() as stack:
+            order, worker = stack.enter_context(started(bare))
+            ask: Ask = worker.ask
+            several = len(bare.exercises) > 1 and len(os.sched_getaffinity(0)) > 1
+            if side_by_side and several and order.in_namespaces:
+                ask = stack.enter_context(_with_another(bare, course, ask, order.folder))
+            outcomes = judge(order, course, ask, report)
+        remark = "" if order.is_callers_own else bubblewrap.instead()
+        return [replace(one, place=order.layout.place, remark=remark) for one in outcomes]
+    except Ended as error:  # before a first result
+        raise CannotCheck(str(error)) from None
+
+
+@contextlib.contextmanager
+def _with_another(bare: Order, course: Course, ask: Ask, folder: Path) -> Iterator[Ask]:
+    """Yield ask() of a worker, while another one makes the checks from the last exercise on."""
+    shared: Answers = {}
+    with started(replace(bare, exercises=bare.exercises[::-1])) as (order, other):
+
+        def make_checks() -> None:
+            with contextlib.suppress(Exception, Ended):  # What it has recorded is of use.
+                judge(order, course, AskOnce(other.ask, order.folder, shared))
+
+        thread = threading.Thread(target=make_checks)
+        thread.start()
+        try:
+            yield AskOnce(ask, folder, shared)
+        finally:
+            other.end()
+            thread.join()
+
+
+def judge(
+    order: Order, course: Course, ask: Ask, report: Report = lambda outcome, result: None
+) -> list[Outcome]:
+    """Make the checks of an order from what a worker answers. Raises CannotCheck."""
+    checks = checks_of(course)
+    task = task_of(course)(order.variant)  # its class is among the checks
+    checks = [replace(one, title=task.fill(one.title), look=task.fill(one.look)) for one in checks]
+    case = Submission(order, task, ask)
+    run = Run(checks, case, case.second_look, lambda: case.hopeless)
+    known = ((name, course.exercises[name]) for name in order.exercises)
+    outcomes = [Outcome(name, title=one.title, points=one.points) for name, one in known]
+    try:
+        for outcome in outcomes:
+            _make_checks(run, case, outcome, order.only_first, report)
+            if order.only_first and not outcome.passed:
+                break
+    except Ended as error:
+        if no_more.is_set() or not any(outcome.results for outcome in outcomes):
+            raise CannotCheck(str(error)) from None
+        for outcome in outcomes:
+            outcome.trouble = outcome.trouble if outcome.done else str(error)
+    return outcomes
+
+
+def _make_checks(
+    run: Run, case: Submission, outcome: Outcome, only_first: bool, report: Report
+) -> None:
+    began_s, already = time.monotonic(), len(case.asked)
+    try:
+        for found in run.exercise(outcome.id, only_first):
+            result = case.as_sent(found)
+            outcome.results.append(result)
+            report(outcome, result)
+    finally:  # what was recorded before the worker ended is of most interest
+        asked = json.dumps(case.asked[already:])
+        outcome.recordings = json.loads(asked.replace(f"{case.folder}/", f"{HANDED_IN}/"))
+    outcome.seconds = round(time.monotonic() - began_s, 2)
+    outcome.done, outcome.trouble = True, run.trouble(outcome.id)
