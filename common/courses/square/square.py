@@ -44,7 +44,7 @@ def drives(submission):
     return f"for {path[-1].at_s - path[0].at_s:.0f} s"
 
 
-@check("S2", "it passes the corners", "1", "S1", look="rostopic echo /odom")
+@check("S2", "it passes the corners", "1", needs=drives, look="rostopic echo /odom")
 def passes_corners(submission):
     """Look for each corner on the way that is left."""
     path = path_of(submission)
@@ -57,7 +57,7 @@ def passes_corners(submission):
         path = path[at:]
 
 
-@check("S3", "it rests at the end", "1", "S1", look="rostopic echo /odom/twist")
+@check("S3", "it rests at the end", "1", needs=drives, look="rostopic echo /odom/twist")
 def rests(submission):
     """Look at the last sample."""
     end = path_of(submission)[-1]

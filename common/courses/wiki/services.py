@@ -73,12 +73,12 @@ def manifest(submission):
         file.must(name in depends, words, f"a dependency on {name}", "none", hint)
 
 
-@check("W4", "catkin_make builds", "1", "W1 W2", look="catkin_make")
+@check("W4", "catkin_make builds", "1", needs=(message, service), look="catkin_make")
 def builds(submission):
     must_build(submission)
 
 
-@check("W5", "both are generated", "1", "W4", look=f"rosmsg show {PACKAGE}/Num")
+@check("W5", "both are generated", "1", needs=builds, look=f"rosmsg show {PACKAGE}/Num")
 def are_generated(submission):
     file = File(submission, PACKAGE, "CMakeLists.txt")
     for path, macro in zip(FIELDS, ("add_message_files", "add_service_files")):
@@ -91,7 +91,7 @@ def are_generated(submission):
         file.must(is_made, words, f"{path} is generated", "it is not", hint)
 
 
-@check("W6", "the server adds", "2", "W5", look=f"rosservice call {SERVICE} 1 2")
+@check("W6", "the server adds", "2", needs=are_generated, look=f"rosservice call {SERVICE} 1 2")
 def server(submission):
     file, found = recorded(submission, PACKAGE, "add_two_ints_server.py", serve)
     values, trouble = found.answers
@@ -102,7 +102,8 @@ def server(submission):
     file.must(values["sum"] == SUM, "return", f"{ASKED} make {SUM}", values["sum"], hint)
 
 
-@check("W7", "the client asks and prints", "2", "W5", look=f"rosrun {PACKAGE} {CLIENT} 4 5")
+@check("W7", "the client asks and prints", "2", needs=are_generated,
+       look=f"rosrun {PACKAGE} {CLIENT} 4 5")  # fmt: skip
 def client(submission):
     file, found = recorded(submission, PACKAGE, CLIENT, ask)
     requests, output = found.heard[SERVICE], found.program.output

@@ -69,7 +69,7 @@ def follow(workspace, path) -> Seen:
         return client.seen(program, SECOND)
 
 
-@check("W16", "turtle2 follows", "7", "W15", look=f"roslaunch learning_tf2 {DEMO}")
+@check("W16", "turtle2 follows", "7", needs=broadcaster, look=f"roslaunch learning_tf2 {DEMO}")
 def follows(submission):
     package, broadcaster, name = names(submission)
     listener = File(submission, package, program_of(submission, package, name))

@@ -117,7 +117,8 @@ def mimic_file(submission):
         file.must(there == new, words, f"{old} is {new}", there, hint)
 
 
-@check("W10", "the second mimics the first", "4", "W9", look=f"rostopic echo {FOLLOWER}/pose")
+@check("W10", "the second mimics the first", "4", needs=mimic_file,
+       look=f"rostopic echo {FOLLOWER}/pose")  # fmt: skip
 def mimics(submission):
     file = launch_file(submission, PACKAGE, MIMIC)
     found = submission.recording(launch_mimic, file.path)

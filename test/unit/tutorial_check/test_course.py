@@ -12,16 +12,20 @@ from tutorial_check.course.definition import read_course
 from tutorial_check.processes.errors import CannotCheck
 
 YAML = 'title: T\ndocument: sheet\nexercises: {"2": two, "1": {title: one, points: 3}}\n'
-CHECKS = """
+CHECKS = '''
 from tutorial_check.checking.checks import check
 from .other import WORD
-@check("S2", "b", "1.1", "S1")
-def b(submission): return WORD
 @check("S1", "a", "1")
 def a(submission): pass
-@check("S10", "c", "2", timeless=True)
-def c(submission): pass
-"""
+@check("S2", "b", "1.1", needs=(a, "S1 S10"))
+def b(submission): return WORD
+@check("S10", section="2", timeless=True)
+def c(submission):
+    """It drives.
+
+    More of it.
+    """
+'''
 
 
 @pytest.fixture
@@ -49,7 +53,9 @@ def test_a_course_and_its_checks_in_its_order(course):
         ("S1", "1", "sheet 1"),
         ("S2", "1", "sheet 1.1"),
     ]
+    assert found[2].needs == ("S1", "S1", "S10")
     assert found[2].function(None) == "from beside"
+    assert [each.title for each in found] == ["it drives", "a", "b"]
     # Another course of the same process has its own.
     assert [each.id for each in checks_of(course(checks="X = 1\n"))] == []
 
@@ -84,7 +90,10 @@ def test_a_wrong_file_is_one_line(course, text, why):
         ("\nX = unknown\n", "checks.py:2: name 'unknown' is not defined"),
         (CHECKS.replace('"1.1"', '"3"'), "S2: section 3 is of no exercise"),
         (CHECKS.replace('"S10"', '"S1"'), "two checks are S1"),
-        (CHECKS.replace('"1.1", "S1"', '"1.1", "S7"'), "S2 needs S7, which is no check"),
+        (CHECKS.replace("S1 S10", "S1 S7"), "S2 needs S7, which is no check"),
+        (CHECKS.replace("(a, ", "(print, "), "checks.py:6: S2 needs print, which is no check"),
+        (CHECKS.replace('"a", ', "section="), "checks.py:4: S1: a check has a title, or a doc"),
+        (CHECKS.replace('"1.1", ', ""), "checks.py:6: S2: a check has a title, or a doc"),
     ],
 )
 def test_wrong_checks_are_one_line(course, checks, why):

@@ -10,8 +10,8 @@ from tutorial_check.course.definition import read_course
 from tutorial_check.processes.errors import CannotCheck
 
 NEEDS = {"A": ("1", ()), "B": ("1", ("A",)), "C": ("2", ("B",)), "D": ("2", ())}
-CHECKS = [Check(name, one, name, one, needs) for name, (one, needs) in NEEDS.items()]
-ONE, OTHER = Check("A", "1", "a", "1"), Check("B", "2", "b", "2")
+CHECKS = [Check(name, one, name, one, print, needs) for name, (one, needs) in NEEDS.items()]
+ONE, OTHER = Check("A", "1", "a", "1", print), Check("B", "2", "b", "2", print)
 BAD = Wrong("good", "bad", "f:1")
 
 

@@ -9,7 +9,7 @@ from ..task import PACKAGE
 from .record import stick
 
 
-@check("C20", "a joystick drives it", "4.5", "C16", look="rostopic echo /joy/{n.axes[1]}")
+@check("C20", "a joystick drives it", "4.5", needs="C16", look="rostopic echo /joy/{n.axes[1]}")
 def joystick(submission: Submission) -> Note | str | None:
     script = main_script(submission)
     seen = submission.recording(stick, script)

@@ -11,7 +11,7 @@ from ..task import NAME, PACKAGE
 from .record import loaded
 
 
-@check("C13", "joy2twist.py can be run", "4.3", "C12", look="rosrun {n.package} joy2twist.py",
+@check("C13", "joy2twist.py can be run", "4.3", needs="C12", look="rosrun {n.package} joy2twist.py",
        timeless=True)  # fmt: skip
 def file(submission: Submission) -> Note | str:
     main = main_script(submission)
@@ -21,36 +21,36 @@ def file(submission: Submission) -> Note | str:
     return odd_node(submission, PACKAGE, main) or main
 
 
-@check("C14", "it displays every Joy", "4.3", "C13",
+@check("C14", "it displays every Joy", "4.3", needs=file,
        look="rosrun {n.package} joy2twist.py; rostopic echo {n.joy}")  # fmt: skip
 def displays(submission: Submission) -> Note | None:
     return behaviour.displays(submission)
 
 
-@check("C15", "{n.joy} in, {n.cmd_vel} out", "4.3", "C13", look="rosnode info NODE")
+@check("C15", "{n.joy} in, {n.cmd_vel} out", "4.3", needs=file, look="rosnode info NODE")
 def topics(submission: Submission) -> Note | str:
     return behaviour.topics(submission)
 
 
-@check("C16", "{n.sticks[1]} drives forwards, {n.sticks[0]} turns", "4.3", "C15",
+@check("C16", "{n.sticks[1]} drives forwards, {n.sticks[0]} turns", "4.3", needs=topics,
        look="rostopic echo {n.cmd_vel}")  # fmt: skip
 def mapping(submission: Submission) -> Note | None:
     return behaviour.mapping(submission)
 
 
-@check("C17", "it keeps up with the joystick", "4.3", "C16", look="rostopic hz {n.cmd_vel}")
+@check("C17", "it keeps up with the joystick", "4.3", needs=mapping, look="rostopic hz {n.cmd_vel}")
 def rate(submission: Submission) -> Note | str | None:
     return behaviour.rate(submission)
 
 
-@check("C34", "Ctrl-C ends it", "4.3", "C16", look="Ctrl-C in its terminal")
+@check("C34", "Ctrl-C ends it", "4.3", needs=mapping, look="Ctrl-C in its terminal")
 def ctrl_c(submission: Submission) -> Note | str:
     seen = submission.recording(drive, main_script(submission))
     note = check_end(submission, PACKAGE, seen.script, seen.taken_s, seen.last_words)
     return note or f"{seen.taken_s:.1f} s"
 
 
-@check("C18", "it starts while the joystick sends", "4.3", "C16",
+@check("C18", "it starts while the joystick sends", "4.3", needs=mapping,
        look="rosbag play --loop joy.bag; rosrun {n.package} joy2twist.py")  # fmt: skip
 def under_load(submission: Submission) -> Note | None:
     """Start it while 200 Joys a second come. Never a failure."""

@@ -120,7 +120,7 @@ def _check_items(file: LaunchFile) -> Note | None:
     return note
 
 
-@check("C22", "launch_bag starts the four items", "5.1", "C21",
+@check("C22", "launch_bag starts the four items", "5.1", needs="C21",
        look="roslaunch --nodes {n.package} launch_bag.launch", timeless=True)  # fmt: skip
 def bag_nodes(submission: Submission) -> Note | str | None:
     file = LaunchFile(submission, BAG)
@@ -136,7 +136,7 @@ def bag_nodes(submission: Submission) -> Note | str | None:
     return Note(f"the recording is not in your package: {bag}", where, "" if is_portable else hint)
 
 
-@check("C25", "launch_joy_node starts the four items", "5.1", "C21",
+@check("C25", "launch_joy_node starts the four items", "5.1", needs="C21",
        look="roslaunch --nodes {n.package} launch_joy_node.launch", timeless=True)  # fmt: skip
 def stick_nodes(submission: Submission) -> Note | str | None:
     file = LaunchFile(submission, STICK)
@@ -213,7 +213,7 @@ def _bag_run(submission: Submission) -> tuple[LaunchFile, Plan, Run]:
     return file, plan, submission.recording(bag_run, plan, inside, length_s, is_looped)
 
 
-@check("C23", "launch_bag drives the robot", "5.1", "C22 C16",
+@check("C23", "launch_bag drives the robot", "5.1", needs=(bag_nodes, "C16"),
        look="roslaunch {n.package} launch_bag.launch")  # fmt: skip
 def bag_drives(submission: Submission) -> None:
     file, plan, run = _bag_run(submission)
@@ -222,7 +222,8 @@ def bag_drives(submission: Submission) -> None:
         raise fault_of(file, plan, run, expected)
 
 
-@check("C24", "the recording begins again at its end", "5.1", "C23", look="rostopic hz /joy")
+@check("C24", "the recording begins again at its end", "5.1", needs=bag_drives,
+       look="rostopic hz /joy")  # fmt: skip
 def bag_loops(submission: Submission) -> None:
     file, _, run = _bag_run(submission)
     if not run.loops and not file.of("player")[0]["respawn"]:
@@ -231,7 +232,7 @@ def bag_loops(submission: Submission) -> None:
         raise Wrong(expected, "it falls silent", bag_of(submission)[1], hint)
 
 
-@check("C26", "launch_joy_node drives the robot", "5.1", "C25 C16",
+@check("C26", "launch_joy_node drives the robot", "5.1", needs=(stick_nodes, "C16"),
        look="roslaunch {n.package} launch_joy_node.launch")  # fmt: skip
 def stick_drives(submission: Submission) -> None:
     file = LaunchFile(submission, STICK)

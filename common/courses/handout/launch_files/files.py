@@ -262,7 +262,7 @@ def _check_finds(file: LaunchFile) -> None:
             raise Wrong(expected, f"no {rest} in it", f"{file.where}:{number}", hint)
 
 
-@check("C21", "the two launch files can be read, and what they name is there", "5.1", "C12",
+@check("C21", "the two launch files can be read, and what they name is there", "5.1", needs="C12",
        look="roslaunch --nodes {n.package} launch_bag.launch", timeless=True)  # fmt: skip
 def files(submission: Submission) -> Note | str | None:
     return ", ".join(check_file(submission, name).where for name in (BAG, STICK))

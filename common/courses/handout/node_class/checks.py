@@ -103,7 +103,7 @@ def _check_given(path: str, one: ClassFacts, facts: PythonFacts, name: str, plac
         raise Wrong(expected, seen, where, hint)
 
 
-@check("C29", "the program is a class", "6.2", "C12", look="rosrun {n.package} THE_CLASS",
+@check("C29", "the program is a class", "6.2", needs="C12", look="rosrun {n.package} THE_CLASS",
        timeless=True)  # fmt: skip
 def is_class(submission: Submission) -> Note | str | None:
     script, path, one = program(submission)
@@ -134,7 +134,7 @@ def is_class(submission: Submission) -> Note | str | None:
     return f"{one.name} in {path}"
 
 
-@check("C30", "the class does what the functions did", "6.2", "C29",
+@check("C30", "the class does what the functions did", "6.2", needs=is_class,
        look="rostopic echo {n.cmd_vel}")  # fmt: skip
 def behaves(submission: Submission) -> Note | str | None:
     script, _, _ = program(submission)
@@ -153,7 +153,7 @@ def _endings(submission: Submission) -> Endings:
     return found
 
 
-@check("C31", "ended, it stops the robot", "6.2", "C30",
+@check("C31", "ended, it stops the robot", "6.2", needs=behaves,
        look="rostopic echo {n.cmd_vel}; Ctrl-C in the node's terminal")  # fmt: skip
 def stops(submission: Submission) -> Note | str | None:
     _, path, _ = program(submission)
@@ -206,7 +206,7 @@ def _complaint(end: End, is_registered: bool) -> tuple[str, str]:
     return "", ""
 
 
-@check("C32", "nothing follows the zero", "6.2", "C31", look="rostopic echo {n.cmd_vel}")
+@check("C32", "nothing follows the zero", "6.2", needs=stops, look="rostopic echo {n.cmd_vel}")
 def nothing_after(submission: Submission) -> Note | str | None:
     """Note moving Twists after the zero; no failure, as the handout's listing sends some."""
     most = max(end.after_zero for end in _endings(submission).ends.values())
@@ -219,7 +219,7 @@ def nothing_after(submission: Submission) -> Note | str | None:
     return Note(seen, program(submission)[1], hint)
 
 
-@check("C33", "its errors are seen", "6.2", "C30",
+@check("C33", "its errors are seen", "6.2", needs=behaves,
        look="rosrun {n.package} THE_CLASS, without a joystick")  # fmt: skip
 def errors_are_seen(submission: Submission) -> Note | str | None:
     script, path, _ = program(submission)

@@ -199,7 +199,7 @@ def beginner(submission: Submission) -> Note | str | None:
     return f"src/{_package(submission, 'beginner_tutorials').inside}"
 
 
-@check("C3", "its dependencies", "2.1", "C2", look="rospack depends1 beginner_tutorials",
+@check("C3", "its dependencies", "2.1", needs=beginner, look="rospack depends1 beginner_tutorials",
        timeless=True)  # fmt: skip
 def beginner_dependencies(submission: Submission) -> None:
     _dependencies(submission, "beginner_tutorials")
@@ -229,7 +229,7 @@ def _is_known(submission: Submission, name: str) -> bool:
     return any(found) or any(Path("/usr/lib").glob(f"*/cmake/{name}/{name}Config.cmake"))
 
 
-@check("C4", "catkin_make builds", "2.1", "C2", look="catkin_make")
+@check("C4", "catkin_make builds", "2.1", needs=beginner, look="catkin_make")
 def build(submission: Submission) -> Note | None:
     made = must_build(submission)
     listed = re.search(r"traversing \d+ packages?[^:]*:((?:\s*--\s+~~\s+- .*)+)", made.output)

@@ -21,7 +21,7 @@ def remap_of(submission: Submission) -> str:
     return f'<remap from="{submission.task.topic(CMD_VEL)}" to="{TELEOP}"/>'
 
 
-@check("C27", "joy2twist_turtlebot sends to the multiplexer", "6.1", "C16",
+@check("C27", "joy2twist_turtlebot sends to the multiplexer", "6.1", needs="C16",
        look="rostopic echo /cmd_vel_mux/input/teleop")  # fmt: skip
 def remapped(submission: Submission) -> None:
     file, own = check_file(submission, TURTLEBOT), submission.task.topic(CMD_VEL)
@@ -69,7 +69,7 @@ def _not_remapped(file: LaunchFile, plan: Plan, seen: Remap) -> Wrong:
     return Wrong(EXPECTED, f"Twists on {own}: {words}", where, hint, sure=True)
 
 
-@check("C28", "launch_joy_node_realTurtlebot drives the TurtleBot", "6.1", "C27",
+@check("C28", "launch_joy_node_realTurtlebot drives the TurtleBot", "6.1", needs=remapped,
        look="rostopic echo /cmd_vel_mux/active")  # fmt: skip
 def real_robot(submission: Submission) -> None:
     file = check_file(submission, REAL)

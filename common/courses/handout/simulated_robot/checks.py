@@ -10,7 +10,7 @@ from ..task import PACKAGE
 from .record import agree, follow
 
 
-@check("C19", "the simulated robot follows", "4.4", "C16",
+@check("C19", "the simulated robot follows", "4.4", needs="C16",
        look="rostopic echo /odom/pose/pose/position")  # fmt: skip
 def simulated(submission: Submission) -> Note | str | None:
     script = main_script(submission)

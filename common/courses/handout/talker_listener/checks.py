@@ -46,7 +46,7 @@ def _talk(submission: Submission) -> Talk:
     return seen
 
 
-@check("C5", "talker.py and listener.py can be run", "3.1", "C2",
+@check("C5", "talker.py and listener.py can be run", "3.1", needs="C2",
        look="rosrun beginner_tutorials talker.py", timeless=True)  # fmt: skip
 def files(submission: Submission) -> Note | str:
     for script in scripts(submission):
@@ -55,7 +55,7 @@ def files(submission: Submission) -> Note | str:
     return next(filter(None, notes), ", ".join(scripts(submission)))
 
 
-@check("C6", "the talker talks", "3.1", "C5", look="rostopic hz /chatter")
+@check("C6", "the talker talks", "3.1", needs=files, look="rostopic hz /chatter")
 def talker(submission: Submission) -> Note | str:
     seen, script = _talk(submission), scripts(submission)[0]
     facts, wanted = submission.scripts(PACKAGE)[script], submission.task.values.get("rate")
@@ -110,7 +110,7 @@ def _silent(
     return wrong if ends else Wrong(expected, "not one message", script, hint)
 
 
-@check("C7", "the listener displays what it receives", "3.1", "C5",
+@check("C7", "the listener displays what it receives", "3.1", needs=files,
        look="rosrun beginner_tutorials listener.py")  # fmt: skip
 def listener(submission: Submission) -> Note | None:
     seen, script = _talk(submission), scripts(submission)[1]
@@ -159,7 +159,7 @@ def _deaf(
     return Wrong(LISTENS, f"{displayed} of {len(STRINGS)} displayed", where, hint)
 
 
-@check("C8", "talker and listener are connected", "3.1", "C6 C7",
+@check("C8", "talker and listener are connected", "3.1", needs=(talker, listener),
        look="rosnode info /rosout; rqt_graph")  # fmt: skip
 def graph(submission: Submission) -> str:
     seen = _talk(submission)
@@ -181,7 +181,8 @@ def _pair(submission: Submission) -> Pair:
     return pair
 
 
-@check("C9", "anonymous names", "3.1", "C6 C7 C10", look="rosnode list, with two talkers")
+@check("C9", "anonymous names", "3.1", needs=(talker, listener, "C10"),
+       look="rosnode list, with two talkers")  # fmt: skip
 def anonymous(submission: Submission) -> Note | str:
     """Look at two talkers as submitted, and with anonymous the other way round in a copy."""
     pair, script = _pair(submission), scripts(submission)[0]
@@ -209,7 +210,7 @@ def anonymous(submission: Submission) -> Note | str:
     return "as submitted, and the other way round"
 
 
-@check("C10", "Ctrl-C ends both", "3.1", "C6 C7", look="Ctrl-C in their terminals")
+@check("C10", "Ctrl-C ends both", "3.1", needs=(talker, listener), look="Ctrl-C in their terminals")
 def ctrl_c(submission: Submission) -> Note | str:
     pair = _pair(submission)
     programs = pair.second, _talk(submission).listener

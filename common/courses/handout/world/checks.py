@@ -30,7 +30,7 @@ LONGEST_STAND_S, STANDS_M = 20.0, 0.1  # within so few metres; a slow turn on th
 LEAST_WAY_M, LEAST_WIDTH_M = 3.0, 2.0
 
 
-@check("C35", "the bumper is read", "7", "C2", look="rosrun beginner_tutorials bumper.py")
+@check("C35", "the bumper is read", "7", needs="C2", look="rosrun beginner_tutorials bumper.py")
 def reads_bumper(submission: Submission) -> str:
     script = program_of(submission, PACKAGE, "bumper.py")
     seen = submission.recording(record.presses, script)
@@ -64,7 +64,7 @@ def _elsewhere(
     return wrong
 
 
-@check("C36", "it stops before a wall", "7", "C2",
+@check("C36", "it stops before a wall", "7", needs="C2",
        look="roslaunch fake_turtlebot_sim fake_turtlebot.launch world:=room;"
        " rosrun beginner_tutorials stop_before_wall.py _speed:=0.3")  # fmt: skip
 def stops(submission: Submission) -> str:
@@ -103,7 +103,7 @@ def _gap_m(submission: Submission, script: str, speed: float) -> float:
     raise Wrong(expected, seen, script, f"{hint} {RADIUS_M} m; too near is -inf, or NaN")
 
 
-@check("C37", "it wanders", "7", "C2",
+@check("C37", "it wanders", "7", needs="C2",
        look="roslaunch fake_turtlebot_sim fake_turtlebot.launch world:=room;"
        " rosrun beginner_tutorials wander.py")  # fmt: skip
 def wanders(submission: Submission) -> str:

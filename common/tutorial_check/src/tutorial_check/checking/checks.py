@@ -6,7 +6,7 @@ import functools
 import re
 import threading
 from dataclasses import dataclass, replace
-from typing import Any, Callable, Iterable, Iterator, TypeVar
+from typing import Callable, Iterable, Iterator, TypeVar, Union, cast
 
 from tutorial_check.checking.results import (
     NOTE,
@@ -18,11 +18,15 @@ from tutorial_check.checking.results import (
     Wrong,
     wrong_of,
 )
+from tutorial_check.checking.submission import Submission
 from tutorial_check.course.definition import FILE, Course, load
 from tutorial_check.processes.errors import CannotCheck, CutShort, FileTooLarge, fault
 
 LINE = re.compile(r":\d+$")  # line number at the end of a place
-_Function = TypeVar("_Function", bound=Callable[..., Any])
+Verdict = Union[str, Note, None]
+CheckFunction = Callable[[Submission], Verdict]
+Need = Union[Callable[..., object], str]  # a check, or its id, where another section has it
+_Function = TypeVar("_Function", bound=Callable[..., object])
 _checks: list[Check] = []  # all loaded courses
 _loading = threading.Lock()
 
@@ -35,40 +39,67 @@ class Check:
     exercise: str
     title: str
     section: str  # in the course: "handout 4.3"
+    function: CheckFunction
     needs: tuple[str, ...] = ()  # ids of the checks without which this one says nothing
     look: str = ""
     timeless: bool = False  # it reads files alone: no machine is too busy for that
     eager: bool = False  # its hint is about the set-up, and shown at once
-    function: Callable[[Any], Any] = lambda submission: None  # returns a text, a Note or None
 
-    def result(self, status: str, found: Wrong | Note | str = "") -> Result:
-        """Return a Result. found: what was seen, or all that is said of it."""
-        one = Note(found) if isinstance(found, str) else found
-        about = self.title, "", one.seen, one.where, one.hint, self.section, self.look
+    def result(self, status: str, verdict: Wrong | Verdict) -> Result:
+        """Return a Result. verdict: what was seen, or all that is said of it."""
+        if not isinstance(verdict, (Wrong, Note)):
+            verdict = Note(verdict or "")
+        about = self.title, "", verdict.seen, verdict.where, verdict.hint, self.section, self.look
         result = Result(self.id, status, *about, eager=self.eager)
-        if isinstance(one, Note):
-            return replace(result, empty=one.empty)
-        return replace(result, expected=one.expected, look=one.look or self.look)
+        if isinstance(verdict, Note):
+            return replace(result, empty=verdict.empty)
+        return replace(result, expected=verdict.expected, look=verdict.look or self.look)
 
 
 def check(
-    name: str,
-    title: str,
-    section: str,
-    needs: str = "",
+    check_id: str,
+    title: str = "",
+    section: str = "",
+    needs: Need | tuple[Need, ...] = (),
     *,
     look: str = "",
     timeless: bool = False,
     eager: bool = False,
 ) -> Callable[[_Function], _Function]:
-    """Make a function of a submission a check: one line of the report. See model.Check."""
-    one = Check(name, "", title, section, tuple(needs.split()), look, timeless, eager)
+    """Make a function of a submission a check: one line of the report.
+
+    title: by default the first line of its docstring. needs: the checks without which it says
+    nothing, as functions, or as ids ("C2 C12") where another section has them. See Check.
+    """
+    ids = _ids_of(check_id, needs if isinstance(needs, tuple) else (needs,))
 
     def keep(function: _Function) -> _Function:
-        _checks.append(replace(one, function=function))
+        name = title or _title_of(function)
+        if not name or not section:
+            raise ValueError(f"{check_id}: a check has a title, or a docstring, and a section")
+        about = "", name, section, cast(CheckFunction, function), ids, look, timeless, eager
+        _checks.append(Check(check_id, *about))
         return function
 
     return keep
+
+
+def _title_of(function: Callable[..., object]) -> str:
+    """Return the first line of a docstring as a title: "It drives." is "it drives"."""
+    line = (function.__doc__ or "").strip().partition("\n")[0].rstrip(".")
+    word = line.partition(" ")[0]
+    return line[:1].lower() + line[1:] if word.istitle() and word.isalpha() else line
+
+
+def _ids_of(check_id: str, needs: Iterable[Need]) -> tuple[str, ...]:
+    """Return the ids of checks. Raises ValueError if a function is no check."""
+    ids = {check.function: check.id for check in _checks}
+    names: list[str] = []
+    for need in needs:
+        if not isinstance(need, str) and need not in ids:
+            raise ValueError(f"{check_id} needs {need.__name__}, which is no check")
+        names += need.split() if isinstance(need, str) else [ids[need]]
+    return tuple(names)
 
 
 def checks_of(course: Course) -> list[Check]:
@@ -79,30 +110,31 @@ def checks_of(course: Course) -> list[Check]:
 
 @functools.lru_cache(maxsize=8)
 def _load(course: Course) -> list[Check]:
-    names = load(course)
-    order = list(course.exercises)
     checks: dict[str, Check] = {}
-    for one in _registered(names):
-        inside = [each for each in order if f"{one.section}.".startswith(f"{each}.")]
-        if not inside:
-            raise CannotCheck(f"{one.id}: section {one.section} is of no exercise of {FILE}")
-        if one.id in checks:
-            raise CannotCheck(f"two checks are {one.id}; each needs a name of its own")
-        exercise = max(inside, key=len)
-        document = f"{course.exercises[exercise].document} {one.section}"
-        checks[one.id] = replace(one, exercise=exercise, section=document)
-    for one in checks.values():
-        lost = set(one.needs) - checks.keys()
+    for check in _registered(load(course)):
+        exercise = course.exercise_of(check.section)
+        if not exercise:
+            raise CannotCheck(f"{check.id}: section {check.section} is of no exercise of {FILE}")
+        if check.id in checks:
+            raise CannotCheck(f"two checks are {check.id}; each needs a name of its own")
+        section = f"{course.exercises[exercise].document} {check.section}"
+        checks[check.id] = replace(check, exercise=exercise, section=section)
+    for check in checks.values():
+        lost = set(check.needs) - checks.keys()
         if lost:
-            raise CannotCheck(f"{one.id} needs {', '.join(sorted(lost))}, which is no check")
-    numbers = {name: int(re.sub(r"\D", "", name) or 0) for name in checks}  # 12 of C12
-    return sorted(checks.values(), key=lambda one: (order.index(one.exercise), numbers[one.id]))
+            raise CannotCheck(f"{check.id} needs {', '.join(sorted(lost))}, which is no check")
+    order = list(course.exercises)
+
+    def place_of(check: Check) -> tuple[int, int]:
+        return order.index(check.exercise), int(re.sub(r"\D", "", check.id) or 0)  # 12 of C12
+
+    return sorted(checks.values(), key=place_of)
 
 
 def _registered(names: set[str]) -> list[Check]:
     """Return the checks of these modules. One that was loaded again has replaced the earlier."""
-    newest = {(one.function.__module__, one.function.__qualname__): one for one in _checks}
-    return [one for (module, _), one in newest.items() if module in names]
+    newest = {(check.function.__module__, check.function.__qualname__): check for check in _checks}
+    return [check for (module, _), check in newest.items() if module in names]
 
 
 class Run:
@@ -111,7 +143,7 @@ class Run:
     def __init__(
         self,
         checks: Iterable[Check],
-        submission: object,
+        submission: Submission,
         second_look: Callable[[bool], bool] = lambda explained: False,
         too_busy: Callable[[], bool] = lambda: False,
     ) -> None:
@@ -168,7 +200,7 @@ class Run:
         try:
             if not culprits:
                 found = self._call(check)
-                return check.result(NOTE if isinstance(found, Note) else OK, found or "")
+                return check.result(NOTE if isinstance(found, Note) else OK, found)
         except Wrong as wrong:
             # One cause is reported once, at the first check that it keeps from holding.
             culprits = self._same_cause(wrong)
@@ -191,7 +223,7 @@ class Run:
         wrongs = [one for one in same if one.status == WRONG]
         return [one for one in wrongs if is_line or one.expected == wrong.expected]
 
-    def _call(self, check: Check) -> Any:
+    def _call(self, check: Check) -> Verdict:
         try:
             return self._verdict(check)
         except CannotCheck:
@@ -209,7 +241,7 @@ class Run:
             why = f"the machine has too much else to do for a verdict ({wrong.seen})"
             raise CannotCheck(f"{check.id}: {why}") from None
 
-    def _verdict(self, check: Check) -> Any:
+    def _verdict(self, check: Check) -> Verdict:
         try:
             return check.function(self._submission)
         except (CutShort, FileTooLarge) as end:

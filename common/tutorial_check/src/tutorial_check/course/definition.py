@@ -84,6 +84,11 @@ class Course:
         whole = [each for each in self.exercises if section.startswith(f"{each}.")]
         return inner or whole or [word]
 
+    def exercise_of(self, section: str) -> str:
+        """Return the exercise whose number a section begins with, the longest; or ""."""
+        whole = (name for name in self.exercises if f"{section}.".startswith(f"{name}."))
+        return max(whole, key=len, default="")
+
 
 def package_of(course: Course) -> str:
     """Return the name of the package that a course's modules are in."""
