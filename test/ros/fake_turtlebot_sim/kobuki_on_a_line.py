@@ -2,18 +2,20 @@
 
 import os
 import subprocess
+import time
 
 import rospy
 from kobuki_msgs.msg import ButtonEvent
 from nav_msgs.msg import Odometry
 from std_srvs.srv import Empty, SetBool
 
+from kobuki_protocol.base_control import base_control
 from kobuki_protocol.commands import GetController, Outputs, Request
 from kobuki_protocol.feedback import Core
 from kobuki_protocol.identity import Controller, FirmwareVersion
 from node_kit.ros_api import call
 from tutorial_testing.nodes import node_path
-from tutorial_testing.processes import Program, environment, free_port
+from tutorial_testing.processes import Program, environment, free_port, suspended
 from tutorial_testing.rostests import RosTest
 from tutorial_testing.serial_kobuki import Driver, SerialKobuki
 from tutorial_testing.waiting import LONGEST_S, wait_for
@@ -78,7 +80,28 @@ class SerialKobukiTest(RosTest):
         wait_for(lambda: os.path.exists(device.port), "cable")
         self.enter(Driver(device.port)).wait_for(Core)
 
-    def test_4_however_it_is_ended_the_link_is_gone(self):
+    def test_4_it_misbehaves_when_it_is_told_to(self):
+        device = self.enter(SerialKobuki("_reboot_after:=1", "_unplug_after:=4"))
+        with Driver(device.port) as driver:
+            driver.wait_for(Core, lambda core: core.time_stamp > 500)
+            driver.wait_for(Core, lambda core: core.time_stamp < 500)
+            with self.assertRaises(EOFError):
+                wait_for(lambda: driver.read() and False, "end of the line")
+        wait_for(lambda: os.path.exists(device.port), "cable")
+        self.enter(Driver(device.port)).wait_for(Core)
+
+    def test_5_what_was_sent_while_it_was_suspended_moves_nothing(self):
+        device = self.enter(SerialKobuki())
+        driver = self.enter(Driver(device.port))
+        before = driver.wait_for(Core)
+        with suspended([device.program.pid]):
+            driver.read()
+            driver.send(*[base_control(0.3, 0.0)] * 20)
+            time.sleep(1.0)
+        later = driver.wait_for(Core, lambda core: core.time_stamp - before.time_stamp > 1500)
+        self.assertEqual(later.left_encoder, before.left_encoder)
+
+    def test_6_however_it_is_ended_the_link_is_gone(self):
         end = lambda device: device.program.interrupt()  # noqa: E731
         kill = lambda _: self.start("rosnode", "kill", NODE)  # noqa: E731
         for how in (end, kill):
@@ -88,7 +111,7 @@ class SerialKobukiTest(RosTest):
                 self.check_end(device.program)
                 self.assertFalse(os.path.lexists(device.port))
 
-    def test_5_a_mistake_is_one_line(self):
+    def test_7_a_mistake_is_one_line(self):
         program = node_path("fake_turtlebot_sim", "serial_kobuki")
         self.check_mistake(Program(program, "_stall:=10"), "~stall: 10: must be a number from 0 to")
         self.check_mistake(Program(program, "_link:=/proc"), "~link: '/proc': File exists")

@@ -20,6 +20,7 @@ from tutorial_testing.serial_rig import BASE, SerialRig
 from tutorial_testing.waiting import tolerance, wait_for
 
 LASTS_S = 1.5  # a fault, so that what stops the wheels is seen
+BAD_CABLE_S = 12.0  # with a stall in it
 WATCHED_S = 1.2  # after the fault
 
 
@@ -80,7 +81,14 @@ class LineFaults(RosTest):
             rig.wait_for_rest(time.time())
             rig.drive()
 
-    def test_3_firmware_of_another_major_version_is_not_driven(self):
+    def test_3_over_a_bad_cable_it_is_driven_on(self):
+        with SerialRig("_drop:=0.05", "_corrupt:=0.05", "_stall:=0.1") as rig:
+            rig.drive()
+            since = rig.now.stamp
+            wait_for(lambda: rig.since(since + BAD_CABLE_S), "truth")
+            self.assertTrue(all(moment.moves for moment in rig.since(since)))
+
+    def test_4_firmware_of_another_major_version_is_not_driven(self):
         with SerialRig("_other_firmware:=2.0.0") as rig:
             wait_for(lambda: rig.odometry, "truth")
             wait_for(lambda: "2.0.0" in rig.programs[BASE].output, "line about the firmware")
@@ -91,7 +99,7 @@ class LineFaults(RosTest):
                 time.sleep(REST_S)
             self.assertFalse([m for m in rig.odometry if m.moves])
 
-    def test_4_a_master_that_hangs_changes_nothing_and_the_driver_ends_at_rest(self):
+    def test_5_a_master_that_hangs_changes_nothing_and_the_driver_ends_at_rest(self):
         uri = rosgraph.get_master_uri()
         master = call(uri, "getPid")[1]
         with SerialRig() as rig:

@@ -35,7 +35,12 @@ def test_a_stall_holds_all_and_lets_it_through_at_once():
     assert line.delay(b"e", 20.1) == b""
 
 
-def test_garbage_is_no_packet():
+def test_noise_is_all_that_arrives_until_it_ends():
     line = Damage(0.0, 0.0, 0.0)
-    assert b"\xaa\x55" not in line.garbage()
-    assert line.garbage() != line.garbage()
+    line.switch_noise(True)
+    first, second = line.spoil(PACKET), line.spoil(PACKET)
+    assert b"\xaa\x55" not in first + second
+    assert first != second
+    assert line.spoil(b"") == b""
+    line.switch_noise(False)
+    assert line.spoil(PACKET) == PACKET

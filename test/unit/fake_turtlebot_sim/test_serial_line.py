@@ -53,6 +53,17 @@ def test_a_driver_that_does_not_read_holds_up_nothing(link):
     line.unplug()
 
 
+def test_what_waits_is_dropped_on_request(link):
+    line = SerialLine(link)
+    with opened(link) as driver:
+        os.write(driver, BYTES * 10)
+        line.drain()
+        assert line.read() == b""
+        os.write(driver, b"new")
+        assert line.read() == b"new"
+    line.unplug()
+
+
 def test_unplugged_the_link_is_gone_and_the_driver_reads_its_end(link):
     line = SerialLine(link)
     with opened(link) as driver:

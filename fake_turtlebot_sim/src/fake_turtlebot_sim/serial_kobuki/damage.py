@@ -5,7 +5,7 @@ from __future__ import annotations
 from random import Random
 
 STALL_EVERY_S = 10.0  # between the beginnings of two stalls
-GARBAGE_BYTES = 64  # in place of a packet
+NOISE_BYTES = 64  # in place of a packet
 
 
 class Damage:
@@ -16,9 +16,16 @@ class Damage:
         self._drop, self._corrupt, self._stall_s = drop, corrupt, stall_s
         self._random = Random(seed)
         self._held = b""
+        self._is_noise = False
+
+    def switch_noise(self, is_on: bool) -> None:
+        """Let noise arrive in place of all that is sent, as at a wrong baud rate, or end that."""
+        self._is_noise = is_on
 
     def spoil(self, data: bytes) -> bytes:
         """Return what arrives of bytes that are sent at once: all, none, or with a wrong byte."""
+        if data and self._is_noise:
+            return bytes(self._random.choices(range(256), k=NOISE_BYTES))
         if not data or self._random.random() < self._drop:
             return b""
         if self._random.random() >= self._corrupt:
@@ -34,7 +41,3 @@ class Damage:
             return b""
         arrived, self._held = self._held, b""
         return arrived
-
-    def garbage(self) -> bytes:
-        """Return random bytes, as at a wrong baud rate."""
-        return bytes(self._random.choices(range(256), k=GARBAGE_BYTES))

@@ -15,8 +15,26 @@ from fake_turtlebot_sim.serial_kobuki.parameters import Parameters
 from fake_turtlebot_sim.simulator.clock import PhaseLock
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
 
+HINT = "to drive it: roslaunch turtlebot_bringup minimal.launch serialport:="
 PERIOD_NS = 20_000_000
+SUSPENDED_NS = 500_000_000  # as late as that is no busy machine
 UNPLUGGED_S = 2.0  # by ~unplug_after
+
+
+class Clock:
+    """The time since the start [ns], and whether this process was suspended, which no robot is."""
+
+    def __init__(self) -> None:
+        self._begin_ns = self._looked_ns = time.monotonic_ns()
+
+    def now_ns(self) -> int:
+        """Return the time."""
+        return time.monotonic_ns() - self._begin_ns
+
+    def was_suspended(self) -> bool:
+        """Return whether so much time has passed since the last call; to be called all the time."""
+        before, self._looked_ns = self._looked_ns, time.monotonic_ns()
+        return self._looked_ns - before > SUSPENDED_NS
 
 
 class Device:
@@ -26,13 +44,12 @@ class Device:
         self, parameters: Parameters, beside: Beside | None, report: Callable[[str], None]
     ) -> None:
         """Plug it in. beside: what shows it to a master. Raises ValueError, one line."""
-        p = parameters
-        self._link, self._report, self._beside = p.link, report, beside
-        self._robot = SimulatedRobot(p.simulation(), p.start_pose())
-        self._firmware = Firmware(self._robot, p.equipment())
-        self._timeout_s = p.base_control_timeout
+        p = self._parameters = parameters
+        self._report, self._beside = report, beside
+        robot = self._robot = SimulatedRobot(p.simulation(), p.start_pose())
+        self._firmware = Firmware(robot, p.equipment())
         self._damage = Damage(p.drop, p.corrupt, p.stall, p.seed)
-        self._sends_garbage = self._has_reported_damage = self._has_fallen = False
+        self._reported: set[str] = set()  # lines that come once
         self._plan: list[tuple[float, Callable[[], None]]] = []  # [s] and what happens then
         if p.reboot_after:
             self._plan.append((p.reboot_after, self._reboot))
@@ -46,22 +63,22 @@ class Device:
             "switch_on": self._switch_on,
             "plug_in": self._plug_in,
             "charge": self._charge,
-            "send_garbage": self._send_garbage,
+            "send_garbage": self._damage.switch_noise,
         }
         self._line: SerialLine | None = None
-        self._begin_ns = time.monotonic_ns()
+        self._clock = Clock()
         self._plug_in(True)
         self.is_ending = False
 
     def spin(self) -> None:
         """Be a robot until is_ending."""
-        schedule = PhaseLock(PERIOD_NS, self._now_ns())
+        schedule = PhaseLock(PERIOD_NS, self._clock.now_ns())
         while not self.is_ending:
-            now_ns = self._now_ns()
+            now_ns = self._clock.now_ns()
             if now_ns >= schedule.deadline_ns:
                 self._cycle(now_ns)
                 schedule.complete(now_ns)
-            self._wait((schedule.deadline_ns - self._now_ns()) * 1e-9)
+            self._wait((schedule.deadline_ns - self._clock.now_ns()) * 1e-9)
 
     def close(self) -> None:
         """Unplug it for good."""
@@ -69,9 +86,6 @@ class Device:
             self._line.unplug()
         if self._beside:
             self._beside.close()
-
-    def _now_ns(self) -> int:
-        return time.monotonic_ns() - self._begin_ns
 
     def _cycle(self, now_ns: int) -> None:
         """Move to the present, send a packet, and show where the robot is."""
@@ -83,10 +97,9 @@ class Device:
         self._read()
         stamp_ns = time.time_ns()
         if self._robot.advance(now_ns):
-            self._report(f"no base control for {self._timeout_s:g} s: the wheels stop")
+            timeout_s = self._parameters.base_control_timeout
+            self._report(f"no base control for {timeout_s:g} s: the wheels stop")
         packet = self._firmware.feedback(now_ns)
-        if packet and self._sends_garbage:
-            packet = self._damage.garbage()
         if self._line:
             self._line.write(self._damage.delay(self._damage.spoil(packet), now_s))
         self._look_at_robot()
@@ -95,11 +108,15 @@ class Device:
             self._beside.show({"stamp_ns": stamp_ns, "truth": truth[:5]})
 
     def _look_at_robot(self) -> None:
-        has_fallen = any(self._robot.sensed().wheels)
-        if has_fallen and not self._has_fallen:
+        if any(self._robot.sensed().wheels):
             x, y, _ = self._robot.true_pose
-            self._report(f"fell over an edge at ({x:.2f}, {y:.2f}): lift it with the service reset")
-        self._has_fallen = has_fallen
+            what = f"fell over an edge at ({x:.2f}, {y:.2f}): lift it with the service reset"
+            self._report_once(what)
+
+    def _report_once(self, line: str) -> None:
+        if line not in self._reported:
+            self._reported.add(line)
+            self._report(line)
 
     def _wait(self, longest_s: float) -> None:
         """Wait for a command or a wish, but not longer [s]; obey it."""
@@ -113,18 +130,19 @@ class Device:
 
     def _read(self) -> None:
         """Obey what the driver has sent."""
-        data = self._damage.spoil(self._line.read()) if self._line else b""
-        if not data or self._sends_garbage:
+        if not self._line:
             return
-        for line in self._firmware.receive(data, self._now_ns()):
+        if self._clock.was_suspended():
+            self._line.drain()
+        data = self._damage.spoil(self._line.read())
+        for line in self._firmware.receive(data, self._clock.now_ns()):
             self._report(line)
-        if self._firmware.damaged and not self._has_reported_damage:
-            self._has_reported_damage = True
-            self._report("damaged commands come; they are ignored")
+        if self._firmware.damaged:
+            self._report_once("damaged commands come; they are ignored")
 
     def _obey(self, beside: Beside) -> None:
         for name, *values in beside.wishes():
-            self._robot.advance(self._now_ns())
+            self._robot.advance(self._clock.now_ns())
             self._wishes[name](*values)
         if beside.has_ended:
             self.is_ending = self.is_ending or beside.was_asked_to_end
@@ -132,23 +150,19 @@ class Device:
 
     def _reboot(self) -> None:
         self._report("switched off and on")
-        self._firmware.switch(True, self._now_ns())
+        self._firmware.switch(True, self._clock.now_ns())
 
     def _switch_on(self, is_on: bool) -> None:
         self._report(f"switched {'on' if is_on else 'off'}")
-        self._firmware.switch(is_on, self._now_ns())
+        self._firmware.switch(is_on, self._clock.now_ns())
 
     def _charge(self, is_charging: bool) -> None:
         self._firmware.charger = DOCK_CHARGING if is_charging else 0
 
-    def _send_garbage(self, is_sent: bool) -> None:
-        self._sends_garbage = is_sent
-
     def _plug_in(self, is_in: bool) -> None:
         if is_in and not self._line:
-            self._line = SerialLine(self._link)
-            linked = f" ({self._link})" if self._link else ""
-            self._report(f"plugged in at {self._line.path}{linked}")
+            self._line = SerialLine(self._parameters.link)
+            self._report(f"plugged in at {self._line.path}; {HINT}{self._line.port}")
         elif self._line and not is_in:
             self._line.unplug()
             self._line = None

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import select
-import termios
 import tty
 from contextlib import suppress
 
@@ -42,6 +41,11 @@ class SerialLine:
         os.symlink(self.path, self._link)
 
     @property
+    def port(self) -> str:
+        """Return the path for a driver: the link, if there is one."""
+        return os.path.abspath(self._link) if self._link else self.path
+
+    @property
     def descriptor(self) -> int:
         """Return the file descriptor, for select.poll()."""
         return self._master
@@ -67,10 +71,10 @@ class SerialLine:
         except OSError:  # nothing, or it is closed
             return b""
 
-    def forget(self) -> None:
-        """Drop what waits in both directions, as the robot's switch does."""
-        with suppress(termios.error):
-            termios.tcflush(self._master, termios.TCIOFLUSH)
+    def drain(self) -> None:
+        """Drop what the driver has sent so far."""
+        while self.read():
+            pass
 
     def unplug(self) -> None:
         """Close the line for good: the driver's end fails, path and link are gone."""
