@@ -12,7 +12,7 @@ from pathlib import Path
 REPOSITORY = Path(__file__).resolve().parents[1]
 SOURCES = [
     "common/node_kit/src", "common/gamepad/src", "common/kobuki_protocol/src",
-    "fake_turtlebot_sim/src", "joy2twist/src",
+    "common/stand_ins/kobuki_node/src", "fake_turtlebot_sim/src", "joy2twist/src",
 ]  # fmt: skip
 TABLES = [  # README, module, dataclass; what stands before each name
     ("joy2twist/README.md", "joy_to_twist.parameters", "Parameters", "~"),
@@ -26,6 +26,7 @@ TABLES = [  # README, module, dataclass; what stands before each name
         "Parameters",
         "~",
     ),
+    ("common/stand_ins/kobuki_node/README.md", "kobuki_driver.parameters", "DriverParameters", "~"),
     ("common/gamepad/README.md", "gamepad.driver.parameters", "DriverParameters", "~"),
 ]
 

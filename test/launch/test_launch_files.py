@@ -34,7 +34,7 @@ ARGUMENTS = {
     "turtlebot_bringup/includes/mobile_base.launch.xml": f"base serialport {PLACE}",
     "turtlebot_bringup/includes/kobuki/mobile_base.launch.xml": "serialport",
     "turtlebot_bringup/includes/robot.launch.xml": "base stacks 3d_sensor",
-    "kobuki_node/minimal.launch": f"kobuki_publish_tf {PLACE}",
+    "kobuki_node/minimal.launch": f"kobuki_publish_tf serialport simulation {PLACE}",
     "rbx1_bringup/fake_turtlebot.launch": f"urdf_file {PLACE}",
     "fake_turtlebot_sim/fake_turtlebot.launch": PLACE,
     "fake_turtlebot_sim/minimal.launch": PLACE,
@@ -84,7 +84,8 @@ def test_a_copy_of_upstreams_own_launch_files_finds_what_these_include(tmp_path,
     copy = tmp_path / "minimal.launch"
     copy.write_text(f"<launch>{''.join(lines)}</launch>")
     config = roslaunch.config.load_config_default([str(copy)], None, verbose=False)
-    names = ["cmd_vel_mux", "mobile_base", "robot_state_publisher", "teleop_velocity_smoother"]
+    names = ["cmd_vel_mux", "kobuki_safety_controller", "mobile_base"]
+    names += ["robot_state_publisher", "teleop_velocity_smoother"]
     assert sorted(node.name for node in config.nodes) == names
     assert config.params["/robot/type"].value == "turtlebot"
     smoother = next(node for node in config.nodes if node.name == names[-1])
