@@ -13,11 +13,11 @@ import shutil
 import tokenize
 from pathlib import Path
 
-from tutorial_check.checking.ask_once import HANDED_IN
 from tutorial_check.checking.judging import judge
 from tutorial_check.course.definition import read_course
+from tutorial_check.recording.data import as_json, from_json
 from tutorial_check.recording.launcher import prepared
-from tutorial_check.submission.order import Order
+from tutorial_check.submission.order import Order, Reply
 
 FOLDER = Path(__file__).resolve().parent / "recordings"
 NEW = FOLDER / "new"
@@ -40,17 +40,16 @@ def rows_of(section):
 
 
 def names(workspace, underlay):
-    """Return {what a recording names: what is stored in its place}."""
+    """Return {folder of this machine: a word for it}."""
     lower = Path(underlay).parents[1]
     return {str(workspace): "{workspace}", str(lower): "{underlay}", str(REPOSITORY): "{suite}"}
 
 
 def write(test, outcomes, workspace, underlay):
     """Keep what was recorded in a file of its own, until merge() has those of all tests."""
-    recordings = [each for one in outcomes for each in one.recordings]
+    recordings = [recording for outcome in outcomes for recording in outcome.recordings]
     text = json.dumps({"row": test, "code": code_of(recordings), "recordings": recordings})
-    for path, name in names(workspace, underlay).items():
-        text = text.replace(path, name)
+    assert not [path for path in names(workspace, underlay) if path in text], text
     NEW.mkdir(parents=True, exist_ok=True)
     name = hashlib.sha256(test.encode()).hexdigest()
     (NEW / f"{name}.json").write_text(text)
@@ -78,15 +77,13 @@ def judged(test, workspace, underlay, exercises, folder, **about):
     """Return the Outcomes of a workspace, judged from what is stored. folder: for its copy, empty."""
     row = rows_of(section_of(test)).get(test)
     assert row, f"{test} is not stored: ./tutorial test exercises --store -k 'A and B'"
-    text = json.dumps(row["recordings"])
-    for path, name in {**names(workspace, underlay), str(folder): HANDED_IN}.items():
-        text = text.replace(name, path)
-    answers = {}
-    for one in json.loads(text):
-        answers.setdefault(_question(one), []).append(one)
+    replies = {}
+    for recorded in map(of_today, row["recordings"]):
+        question = [recorded.pop("recorder"), recorded.pop("arguments")]
+        replies.setdefault(json.dumps(question), []).append(from_json(Reply, recorded))
 
     def ask(question):
-        turns = answers[_question(question)]
+        turns = replies[json.dumps([question.recorder, as_json(question.arguments)])]
         return turns.pop(0) if len(turns) > 1 else turns[0]
 
     order = prepared(Order(workspace, underlay, exercises, **about), folder)
@@ -101,10 +98,25 @@ MOVED = {
     f"{OLD}:stick": f"{HANDOUT}.gamepad.record:stick",
     f"{HANDOUT}.driving.record:loaded": f"{HANDOUT}.joy2twist.record:loaded",
 }
+# How a recording of version 1 names folders, and how one of today.
+WORDS = {
+    "{handed_in}/handed_in": "{submission}",
+    "{handed_in}/ws": "{submission}",
+    "{handed_in}": "{scratch}",
+}
 
 
-def _question(one):
-    return json.dumps([MOVED.get(one["recorder"], one["recorder"]), one["arguments"]])
+def of_today(recorded):
+    """Return what is stored as it is recorded today. It goes when all is recorded anew."""
+    recorder = MOVED.get(recorded["recorder"], recorded["recorder"])
+    if recorded["version"] > 1:
+        return {**recorded, "recorder": recorder}
+    text = json.dumps(recorded)
+    for old, new in WORDS.items():
+        text = text.replace(old, new)
+    recorded = {**json.loads(text), "recorder": recorder}
+    recorded["busy"], recorded["overloaded"] = recorded.pop("strained"), recorded.pop("hopeless")
+    return recorded
 
 
 def code_of(recordings):

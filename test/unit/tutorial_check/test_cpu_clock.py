@@ -34,7 +34,7 @@ class Machine:
 
 
 @pytest.mark.parametrize(
-    ("passed", "programs_s", "strained", "hopeless"),
+    ("passed", "programs_s", "busy", "overloaded"),
     [
         ((1.0, 900, 0), 1.0, False, False),
         ((1.0, 300, 700), 0.3, True, False),
@@ -42,10 +42,10 @@ class Machine:
         ((10.0, 0, 100_000), 10.0 * SLOWEST, True, True),  # ten threads at once: it never stops
     ],
 )
-def test_time_without_a_processor_does_not_count(passed, programs_s, strained, hopeless):
+def test_time_without_a_processor_does_not_count(passed, programs_s, busy, overloaded):
     machine = Machine()
     assert machine.passes(*passed) == pytest.approx(programs_s)
-    assert (machine.clock.strained(), machine.clock.hopeless()) == (strained, hopeless)
+    assert (machine.clock.busy(), machine.clock.overloaded()) == (busy, overloaded)
 
 
 def test_programs_are_idle_that_neither_work_nor_wait_for_a_processor():

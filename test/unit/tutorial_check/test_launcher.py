@@ -3,7 +3,6 @@
 import json
 import os
 from dataclasses import dataclass
-from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
@@ -14,10 +13,9 @@ from tutorial_check.checking.checks import Check
 from tutorial_check.processes.errors import CannotCheck
 from tutorial_check.recording import worker_process
 from tutorial_check.sandbox import bubblewrap
-from tutorial_check.submission.order import Order
+from tutorial_check.submission.order import Order, Question, Reply
 
-READY = json.dumps({"ready": True})
-SEEN = json.dumps({"recording": {"number": 1}, "strained": False, "hopeless": False})
+READY, SEEN = "{}", json.dumps({"recording": {"number": 1}})
 
 
 @dataclass(frozen=True)
@@ -125,19 +123,19 @@ def test_two_workers_record_each_thing_once():
 
     def worker(name, ends=False):
         def ask(question):
-            asked.append((name, question["recorder"]))
+            asked.append((name, question.recorder))
             if ends:
                 raise worker_process.Ended
-            return {"seen": f"/{name}/ws"}
+            return Reply(name)
 
-        return AskOnce(ask, Path(f"/{name}"), shared)
+        return AskOnce(ask, shared)
 
     one, other = worker("one"), worker("other")
-    assert other({"recorder": "talk"}) == {"seen": "/other/ws"}
-    assert one({"recorder": "talk"}) == {"seen": "/one/ws"}  # A path is its own.
-    assert one({"recorder": "talk"}) == {"seen": "/one/ws"}  # A second look is a new recording.
+    assert other(Question("talk")).recording == "other"
+    assert one(Question("talk")).recording == "other"
+    assert one(Question("talk")).recording == "one"  # Who asks again wants another recording.
     with pytest.raises(worker_process.Ended):
-        worker("last", ends=True)({"recorder": "drive"})
-    one({"recorder": "drive"})
+        worker("last", ends=True)(Question("drive"))
+    one(Question("drive"))
     talk, drive = [("other", "talk"), ("one", "talk")], [("last", "drive"), ("one", "drive")]
     assert asked == talk + drive

@@ -12,8 +12,9 @@ import pytest
 from tutorial_check.checking.results import Wrong
 from tutorial_check.checking.submission import Submission
 from tutorial_check.course.tasks import Task
-from tutorial_check.processes.errors import CannotCheck
+from tutorial_check.processes.errors import CannotCheck, CutShort
 from tutorial_check.recording.launcher import must_start_programs
+from tutorial_check.submission.order import Question, Reply
 
 
 def test_a_folder_in_which_nothing_can_be_started_is_named(order, monkeypatch):
@@ -55,32 +56,32 @@ def test_a_recording_that_cannot_be_read_again_is_refused_before_it_is_made(orde
 
 
 @pytest.mark.parametrize(
-    ("strained", "explained", "is_worth_it"),
+    ("busy", "explained", "is_worth_it"),
     [(False, True, False), (False, False, True), (True, True, True), (True, False, True)],
 )
-def test_a_second_look_at_what_was_busy_or_unexplained(order, strained, explained, is_worth_it):
+def test_a_retry_of_what_was_busy_or_unexplained(order, busy, explained, is_worth_it):
     count = itertools.count()
 
     def ask(question):
-        assert question == {"recorder": f"{__name__}:look", "arguments": []}
-        return {"recording": {"number": next(count)}, "strained": strained, "hopeless": False}
+        assert question == Question(f"{__name__}:look")
+        return Reply({"number": next(count)}, busy=busy)
 
     one = Submission(order, Task({}), ask)
     assert [one.recording(look).number, one.recording(look).number] == [0, 0]
-    assert one.second_look(explained) == is_worth_it
+    assert one.retry(explained) == is_worth_it
     assert one.recording(look).number == (1 if is_worth_it else 0)
 
 
 @pytest.mark.parametrize(
-    ("answer", "error", "words"),
+    ("reply", "error", "words"),
     [
-        ({"cannot": "no room"}, CannotCheck, "no room"),
-        ({"cut_short": {"kind": "master gone", "seen": ""}}, Wrong, "it no longer answers"),
-        ({"recording": {"forged": 1}}, ValueError, "no Seen"),
+        (Reply(cannot="no room"), CannotCheck, "no room"),
+        (Reply(cut_short=CutShort("master gone")), Wrong, "it no longer answers"),
+        (Reply({"forged": 1}), ValueError, "no Seen"),
     ],
 )
-def test_an_answer_that_is_no_recording(order, answer, error, words):
-    one = Submission(order, Task({}), lambda _: {**answer, "strained": False, "hopeless": False})
+def test_a_reply_that_is_no_recording(order, reply, error, words):
+    one = Submission(order, Task({}), lambda _: reply)
     with pytest.raises(error) as caught:
         one.recording(look)
     assert words in getattr(caught.value, "seen", str(caught.value))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import statistics
-from typing import Iterable, Mapping
 
 from tutorial_check import (
     MASTER_GONE,

@@ -18,8 +18,8 @@ from tutorial_check import (
     program_of,
 )
 
-from ..task import CMD_VEL
 from ..talker_listener.record import PACKAGE
+from ..task import CMD_VEL
 from . import record
 from .record import LONGEST_PUSH_S, SIDES, WANDER_S
 

@@ -37,9 +37,7 @@ Answer = Any  # (an Outcome, a Result that came), the Outcomes at the end, or a 
 
 
 def examine(
-    order: Order,
-    report: judging.Report = lambda outcome, result: None,
-    side_by_side: bool = False,
+    order: Order, report: judging.Report = judging.silent, side_by_side: bool = False
 ) -> list[Outcome]:
     """Return the Outcomes as judging.examine does, made in another process. Raises CannotCheck."""
     # Compiled before: the time for that must not count as the time for the student's files.
@@ -60,16 +58,10 @@ def examine(
 def _process() -> Any:
     """Yield (the process, the line to it). At the end it has ended, and what it started."""
     ours, theirs = socket.socketpair()
-    words = [
-        sys.executable,
-        "-s",
-        "-m",
-        "tutorial_check.checking.examination",
-        str(theirs.fileno()),
-    ]
+    words = [sys.executable, "-s", "-m", "tutorial_check.checking.examination"]
     # In a session of its own: Ctrl-C ends us, and the closed line ends it.
     about: dict[str, Any] = {"stdin": subprocess.DEVNULL, "start_new_session": True}
-    process = subprocess.Popen(words, pass_fds=[theirs.fileno()], **about)
+    process = subprocess.Popen([*words, str(theirs.fileno())], pass_fds=[theirs.fileno()], **about)
     theirs.close()
     line = Connection(ours.detach())
     try:

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import contextlib
-import json
 import os
 import threading
 import time
 from dataclasses import replace
-from pathlib import Path
 from typing import Callable, Iterator
 
-from tutorial_check.checking.ask_once import HANDED_IN, Answers, Ask, AskOnce
+from tutorial_check.checking.ask_once import Ask, AskOnce, Replies
 from tutorial_check.checking.checks import Run, checks_of
 from tutorial_check.checking.results import Outcome, Result
 from tutorial_check.checking.submission import Submission
@@ -26,11 +24,11 @@ from tutorial_check.submission.order import Order
 Report = Callable[[Outcome, Result], None]
 
 
-def examine(
-    bare: Order,
-    report: Report = lambda outcome, result: None,
-    side_by_side: bool = False,
-) -> list[Outcome]:
+def silent(outcome: Outcome, result: Result) -> None:
+    """Report nothing."""
+
+
+def examine(bare: Order, report: Report = silent, side_by_side: bool = False) -> list[Outcome]:
     """Return the Outcomes of a workspace; report each result as it comes. Raises CannotCheck.
 
     side_by_side: a second worker may record what the last exercises need while the first are made.
@@ -42,47 +40,48 @@ def examine(
             ask: Ask = worker.ask
             several = len(bare.exercises) > 1 and len(os.sched_getaffinity(0)) > 1
             if side_by_side and several and order.in_namespaces:
-                ask = stack.enter_context(_with_another(bare, course, ask, order.folder))
+                ask = stack.enter_context(_with_another(bare, course, ask))
             outcomes = judge(order, course, ask, report)
         remark = "" if order.is_callers_own else bubblewrap.instead()
-        return [replace(one, place=order.layout.place, remark=remark) for one in outcomes]
+        place = order.layout.place
+        return [replace(outcome, place=place, remark=remark) for outcome in outcomes]
     except Ended as error:  # before a first result
         raise CannotCheck(str(error)) from None
 
 
 @contextlib.contextmanager
-def _with_another(bare: Order, course: Course, ask: Ask, folder: Path) -> Iterator[Ask]:
+def _with_another(bare: Order, course: Course, ask: Ask) -> Iterator[Ask]:
     """Yield ask() of a worker, while another one makes the checks from the last exercise on."""
-    shared: Answers = {}
+    shared: Replies = {}
     with started(replace(bare, exercises=bare.exercises[::-1])) as (order, other):
 
         def make_checks() -> None:
             with contextlib.suppress(Exception, Ended):  # What it has recorded is of use.
-                judge(order, course, AskOnce(other.ask, order.folder, shared))
+                judge(order, course, AskOnce(other.ask, shared))
 
         thread = threading.Thread(target=make_checks)
         thread.start()
         try:
-            yield AskOnce(ask, folder, shared)
+            yield AskOnce(ask, shared)
         finally:
             other.end()
             thread.join()
 
 
-def judge(
-    order: Order, course: Course, ask: Ask, report: Report = lambda outcome, result: None
-) -> list[Outcome]:
+def judge(order: Order, course: Course, ask: Ask, report: Report = silent) -> list[Outcome]:
     """Make the checks of an order from what a worker answers. Raises CannotCheck."""
     checks = checks_of(course)
     task = task_of(course)(order.variant)  # its class is among the checks
-    checks = [replace(one, title=task.fill(one.title), look=task.fill(one.look)) for one in checks]
-    case = Submission(order, task, ask)
-    run = Run(checks, case, case.second_look, lambda: case.hopeless)
-    known = ((name, course.exercises[name]) for name in order.exercises)
-    outcomes = [Outcome(name, title=one.title, points=one.points) for name, one in known]
+    checks = [replace(c, title=task.fill(c.title), look=task.fill(c.look)) for c in checks]
+    submission = Submission(order, task, ask)
+    run = Run(checks, submission, submission.retry, submission.overloaded)
+    outcomes = []
+    for name in order.exercises:
+        exercise = course.exercises[name]
+        outcomes.append(Outcome(name, title=exercise.title, points=exercise.points))
     try:
         for outcome in outcomes:
-            _make_checks(run, case, outcome, order.only_first, report)
+            _make_checks(run, submission, outcome, order.only_first, report)
             if order.only_first and not outcome.passed:
                 break
     except Ended as error:
@@ -94,16 +93,15 @@ def judge(
 
 
 def _make_checks(
-    run: Run, case: Submission, outcome: Outcome, only_first: bool, report: Report
+    run: Run, submission: Submission, outcome: Outcome, only_first: bool, report: Report
 ) -> None:
-    began_s, already = time.monotonic(), len(case.asked)
+    began_s, already = time.monotonic(), len(submission.exchanges)
     try:
-        for found in run.exercise(outcome.id, only_first):
-            result = case.as_sent(found)
+        for made in run.exercise(outcome.id, only_first):
+            result = submission.as_sent(made)
             outcome.results.append(result)
             report(outcome, result)
     finally:  # what was recorded before the worker ended is of most interest
-        asked = json.dumps(case.asked[already:])
-        outcome.recordings = json.loads(asked.replace(f"{case.folder}/", f"{HANDED_IN}/"))
+        outcome.recordings = submission.exchanges[already:]
     outcome.seconds = round(time.monotonic() - began_s, 2)
     outcome.done, outcome.trouble = True, run.trouble(outcome.id)

@@ -13,12 +13,12 @@ from tutorial_check.checking.ask_once import Ask
 from tutorial_check.checking.manifest_errors import unreadable
 from tutorial_check.checking.results import Result, Wrong, wrong_of
 from tutorial_check.course.tasks import Task
-from tutorial_check.processes.errors import UNREADABLE, CannotCheck, CutShort
+from tutorial_check.processes.errors import UNREADABLE, CannotCheck
 from tutorial_check.recording.data import as_json, from_json, must_be_whole, recorded_by
 from tutorial_check.sandbox import bubblewrap
 from tutorial_check.submission import handed_in
 from tutorial_check.submission.files import Recorded, Recorder, SubmissionFiles
-from tutorial_check.submission.order import Line, Order
+from tutorial_check.submission.order import Order, Question, Reply
 
 
 class Submission(SubmissionFiles):
@@ -31,43 +31,45 @@ class Submission(SubmissionFiles):
         self._visible = [Path(os.path.realpath(each)) for each in visible]
         self._ask = ask
         self._runs: dict[object, Any] = {}  # what was recorded, or the Wrong in its place
-        self.asked: list[Line] = []  # each question with its answer
-        self._strained = self.hopeless = False  # the machine was, as something was recorded last
+        self.exchanges: list[dict[str, object]] = []  # as JSON, questions with their replies
+        self._last = Reply()
 
     def recording(self, recorder: Recorder[Recorded], *arguments: object) -> Recorded:
         """Ask for a recording, at the first call. Raises CannotCheck, or Wrong if there is none."""
         key = recorder.__module__, recorder.__name__, *arguments
         if key not in self._runs:
-            self._runs[key] = self._asked(recorder, arguments)
+            self._runs[key] = self._recorded(recorder, arguments)
         if isinstance(self._runs[key], Wrong):
             raise self._runs[key]
         return cast(Recorded, self._runs[key])
 
-    def _asked(self, recorder: Recorder[object], arguments: tuple[object, ...]) -> object:
+    def _recorded(self, recorder: Recorder[object], arguments: tuple[object, ...]) -> object:
         kind = recorded_by(recorder)
         must_be_whole(kind)
-        name = f"{recorder.__module__}:{recorder.__name__}"
-        question = {"recorder": name, "arguments": as_json(arguments)}
-        answer = self._ask(question)
-        self.asked.append({**question, **answer})
-        self._strained = bool(answer.get("strained"))
-        self.hopeless = bool(answer.get("hopeless"))
-        if "cannot" in answer:
-            raise CannotCheck(str(answer["cannot"]))
-        if "cut_short" in answer:
-            end = CutShort(**answer["cut_short"])
-            if end.kind == UNREADABLE and self.broken:
+        question = Question(f"{recorder.__module__}:{recorder.__name__}", arguments)
+        self._last = self._ask(question)
+        exchange = {**vars(question), **vars(self._last)}
+        self.exchanges.append({k: as_json(v) for k, v in exchange.items() if v is not None})
+        reply = self.places.whole(self._last)
+        if reply.cannot:
+            raise CannotCheck(str(reply.cannot))
+        if reply.cut_short:
+            if reply.cut_short.kind == UNREADABLE and self.broken:
                 return unreadable(self.broken)
-            return wrong_of(end)
-        return from_json(kind, answer["recording"])
+            return wrong_of(reply.cut_short)
+        return from_json(kind, reply.recording)
 
-    def second_look(self, explained: bool) -> bool:
+    def overloaded(self) -> bool:
+        """Return whether the machine was too busy for what was recorded last to mean anything."""
+        return self._last.overloaded
+
+    def retry(self, explained: bool) -> bool:
         """Return whether to look again at what programs do; then forget what they did.
 
         It is worth it on a busy machine, or if no line explains it: nodes of a launch file meet in
         any order, and rospy may never end that Ctrl-C meets in the middle of a publish.
         """
-        if explained and not self._strained:
+        if explained and not self._last.busy:
             return False
         self._runs.clear()
         return True

@@ -14,8 +14,8 @@ from typing import Callable, Dict, Iterator, Tuple
 SLOWEST = 0.05  # part of real time: a deadline is at most twenty times as long
 LOOKING = 0.05  # largest part of the time that looking may take
 IDLE = 0.1  # [processors] programs that use less only wait
-STRAINED = 0.15  # part of the time waiting for a processor: a late answer proves little
-HOPELESS = 0.86  # it proves nothing
+BUSY = 0.15  # part of the time waiting for a processor: a late answer proves little
+OVERLOADED = 0.86  # it proves nothing
 REACH_S = 30.0  # the kernel counts how long a thread waited only when that is over
 STARVED_S = 0.5  # ready, and without a turn
 
@@ -70,7 +70,7 @@ class CpuClock:
         self._ours, self._read, self._ready, self._clock = ours, read, ready, clock
         # When all, and the newest part, began, and what had been lost by then.
         self._whole_and_part = [(clock(), 0.0)]
-        self._last_s = self._busy_s = clock()
+        self._last_s = self._worked_s = clock()
         self._last: Times = {}
         self._changed_s: dict[int, float] = {}
         self._next_s = self._lost_s = self._reach_s = 0.0
@@ -98,7 +98,7 @@ class CpuClock:
             self._lost_s += lost_s
             self._reach_s -= lost_s
             if worked / 1e9 > IDLE * passed_s:
-                self._busy_s = now_s - self._lost_s
+                self._worked_s = now_s - self._lost_s
         self._last, self._last_s = new, now_s
         self._next_s = now_s + max(0.05, (self._clock() - now_s) / LOOKING)
 
@@ -110,9 +110,9 @@ class CpuClock:
 
     def idle_s(self) -> float:
         """Return how long the programs have done nothing [s of theirs]; 0 if nothing is counted."""
-        idle_s = self.now() - self._busy_s if self._last else 0.0
+        idle_s = self.now() - self._worked_s if self._last else 0.0
         if idle_s > STARVED_S and any(self._ready_threads()):
-            self._busy_s = self.now()
+            self._worked_s = self.now()
             return 0.0
         return idle_s
 
@@ -125,17 +125,17 @@ class CpuClock:
         return len({process for process, _, _ in self._last.values()} - self._ours)
 
     def begin(self) -> None:
-        """Let strained() judge what begins now on its own, too."""
+        """Let busy() judge what begins now on its own, too."""
         self.now()
         self._whole_and_part[1:] = [(self._clock(), self._lost_s)]
 
-    def strained(self) -> bool:
+    def busy(self) -> bool:
         """Return whether a late answer proves little: a busy machine, since start or begin()."""
-        return max(self._lost_shares()) > STRAINED
+        return max(self._lost_shares()) > BUSY
 
-    def hopeless(self) -> bool:
+    def overloaded(self) -> bool:
         """Return whether a late answer proves nothing: the machine was too busy."""
-        return self._lost_shares()[0] > HOPELESS
+        return self._lost_shares()[0] > OVERLOADED
 
     def _lost_shares(self) -> list[float]:
         now_s = self._clock()

@@ -14,6 +14,7 @@ from typing import (
     Callable,
     Dict,
     List,
+    Sequence,
     Tuple,
     Type,
     TypeVar,
@@ -26,7 +27,6 @@ from typing import (
 
 from tutorial_check.processes.errors import CannotCheck
 
-VERSION = 1  # raised by each change that an older judge could not read
 Recording = TypeVar("Recording")
 Heard = Tuple[float, str, Tuple[float, ...]]  # (when it came [s], from which node, its numbers)
 HeardText = Tuple[float, str, str]
@@ -81,7 +81,7 @@ def recorded_by(recorder: Callable[..., Recording]) -> type[Recording]:
     return cast(Type[Recording], kind)
 
 
-def arguments_of(recorder: Callable[..., object], values: List[object]) -> List[object]:
+def arguments_of(recorder: Callable[..., object], values: Sequence[object]) -> List[object]:
     """Return the arguments of a recorder, after the workspace, that as_json() has made."""
     kinds, names = get_type_hints(recorder), list(inspect.signature(recorder).parameters.values())
     found = []

@@ -31,7 +31,7 @@ def read_launch_files(workspace: Workspace, *paths: str) -> ReadLaunchFiles:
     program = workspace.runner.start(command, workspace.environment)
     ended = workspace.runner.wait(lambda: program.ended, READ_S)
     workspace.runner.end(program)
-    if not ended and workspace.runner.clock.strained():
+    if not ended and workspace.runner.clock.busy():
         raise CannotCheck("launch files cannot be read in time: the machine is too busy")
     if not ended:
         return ReadLaunchFiles(None)

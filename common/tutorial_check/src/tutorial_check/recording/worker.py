@@ -1,10 +1,7 @@
 """Records in isolation: python3 -m tutorial_check.recording.worker.
 
-Standard output is a socket, which, unlike a pipe, is opened by no path in /proc. Its first line is
-the order, and answered by {"ready": true}. Each other one asks for a recording,
-{"recorder": "MODULE:NAME", "arguments": [...]}, and is answered by a line: {"recording": {...}},
-{"cut_short": {"kind", "seen"}} (see errors.CutShort), or {"cannot": "why"}; each also says whether
-the machine kept the programs waiting, and has the version of recordings.
+Standard output is a socket, which, unlike a pipe, is opened by no path in /proc. Each line is JSON:
+an Order, then Questions, each answered by a Reply. None of these names a folder of this machine.
 """
 
 from __future__ import annotations
@@ -17,6 +14,7 @@ import shutil
 import signal
 import socket
 import traceback
+from dataclasses import replace
 from pathlib import Path
 from typing import Iterable, Iterator
 
@@ -24,11 +22,11 @@ from tutorial_check.course.definition import load, read_course
 from tutorial_check.course.tasks import task_of
 from tutorial_check.processes.errors import CannotCheck, CutShort, fault
 from tutorial_check.processes.runner import Runner
-from tutorial_check.recording.data import VERSION, arguments_of, as_json, from_json
+from tutorial_check.recording.data import arguments_of, as_json, from_json
 from tutorial_check.recording.workspace import Workspace
 from tutorial_check.sandbox import bubblewrap, environment, landlock, privileges
 from tutorial_check.submission import handed_in
-from tutorial_check.submission.order import Line, Order
+from tutorial_check.submission.order import Order, Question, Reply
 
 
 def main() -> None:
@@ -46,47 +44,48 @@ def main() -> None:
         # In a container no other process may reap.
         privileges.prctl(privileges.PR_SET_CHILD_SUBREAPER, 1)
     try:
-        for answer in _answers(order, line.fileno(), map(json.loads, lines)):
+        for reply in _replies(order, line.fileno(), lines):
             with contextlib.suppress(OSError):  # nobody listens
-                line.sendall(json.dumps(answer).encode() + b"\n")
+                line.sendall(json.dumps(as_json(reply)).encode() + b"\n")
     finally:  # the process that made the folder may have been killed
         shutil.rmtree(order.folder, ignore_errors=True)
 
 
-def _answers(order: Order, reader: int, questions: Iterable[Line]) -> Iterator[Line]:
-    """Yield that it is ready, then the answer to each question. reader: see Runner."""
+def _replies(order: Order, reader: int, lines: Iterable[str]) -> Iterator[Reply]:
+    """Yield that it is ready, then the reply to each question. reader: see Runner."""
     try:
         workspace = _prepared(order, reader)
     except Exception as error:
         yield _cannot(error)
         return
     try:
-        yield {"ready": True}
-        yield from (answer(workspace, each) for each in questions)
+        yield Reply()
+        for line in lines:
+            reply = reply_to(from_json(Question, json.loads(line)), workspace)
+            yield workspace.places.named(reply)
     finally:
         workspace.runner.clear()  # a build, too, is ended; without a namespace nothing else ends it
 
 
-def answer(workspace: Workspace, asked: Line) -> Line:
-    """Return the answer to a question; both as above."""
-    module, _, name = asked["recorder"].partition(":")
+def reply_to(question: Question, workspace: Workspace) -> Reply:
+    """Record what is asked for."""
+    module, _, name = question.recorder.partition(":")
     try:
         recorder = getattr(importlib.import_module(module), name)
-        recorded = recorder(workspace, *arguments_of(recorder, asked["arguments"]))
-        found: Line = {"recording": as_json(recorded)}
+        reply = Reply(recorder(workspace, *arguments_of(recorder, question.arguments)))
     except CutShort as end:
-        found = {"cut_short": {"kind": end.kind, "seen": end.seen}}
+        reply = Reply(cut_short=end)
     except Exception as error:
-        found = _cannot(error)
+        reply = _cannot(error)
     clock = workspace.runner.clock
-    return {"version": VERSION, **found, "strained": clock.strained(), "hopeless": clock.hopeless()}
+    return replace(reply, busy=clock.busy(), overloaded=clock.overloaded())
 
 
-def _cannot(error: Exception) -> Line:
-    """Return the answer for what is not the student's fault, whatever it is."""
+def _cannot(error: Exception) -> Reply:
+    """Return the reply for what is not the student's fault, whatever it is."""
     if not isinstance(error, CannotCheck):
         traceback.print_exc()
-    return {"cannot": fault(error)}
+    return Reply(cannot=fault(error))
 
 
 def _prepared(order: Order, reader: int) -> Workspace:

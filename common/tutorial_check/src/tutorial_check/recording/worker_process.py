@@ -12,17 +12,14 @@ import subprocess
 import tempfile
 import threading
 import time
-from pathlib import Path
-from typing import cast
 
 from tutorial_check.processes.errors import CannotCheck
-from tutorial_check.recording.data import as_json
+from tutorial_check.recording.data import as_json, from_json
 from tutorial_check.sandbox import bubblewrap, privileges
-from tutorial_check.submission.handed_in import COPY
-from tutorial_check.submission.order import Line, Order
+from tutorial_check.submission.order import Order, Question, Reply
 
-# All exercises take 90 s on two quiet processors. Ten times that is enough: if programs have less
-# than a seventh of the time, there is no verdict anyway (cpu_clock.HOPELESS), and a student waits.
+# All exercises take 90 s on two quiet processors. Ten times that is enough: programs with less than
+# a seventh of the time get no verdict anyway (cpu_clock.OVERLOADED), and a student waits.
 LONGEST_S = 900.0
 MOST_BYTES = 1 << 26  # of an answer; what the handout's programs are recorded to do takes 1 MB
 END_S = 10.0  # a worker whose result is not wanted has this long to end what it started
@@ -94,25 +91,23 @@ class Worker:
 
     def begin(self) -> None:
         """Give it the order; wait until it can record. Raises CannotCheck, or Ended."""
-        answer = self.ask(cast(Line, as_json(self._order)))
-        if "cannot" in answer:
-            raise CannotCheck(str(answer["cannot"]))
+        reply = self.ask(self._order)
+        if reply.cannot:
+            raise CannotCheck(str(reply.cannot))
 
-    def ask(self, question: Line) -> Line:
-        """Return the answer to a question; see worker. Raises Ended."""
+    def ask(self, message: Order | Question) -> Reply:
+        """Return the reply to an order or a question. Raises Ended."""
         try:
-            self._line.sendall(json.dumps(question).encode() + b"\n")
+            self._line.sendall(json.dumps(as_json(message)).encode() + b"\n")
             while b"\n" not in self._buffer:
                 self._read()
         except (EOFError, OSError):
             raise Ended(self._last_words()) from None
         line, _, self._buffer = self._buffer.partition(b"\n")
-        # Programs run in ws, a copy of what was handed in.
-        text, folder = line.decode(errors="replace"), self._order.folder
-        text = text.replace(f"{folder}/ws/", f"{folder}/{Path(COPY).parent}/")
+        text = line.decode(errors="replace")
         try:
-            return dict(json.loads(text))
-        except (ValueError, TypeError, RecursionError):  # whatever has written it
+            return from_json(Reply, json.loads(text))
+        except (ValueError, RecursionError):  # whatever has written it
             raise Ended(f"the worker's answer is no recording: {text[:60]!r}") from None
 
     def _read(self) -> None:

@@ -9,12 +9,13 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any, Callable, Iterator, Mapping, TypeVar
 
-from tutorial_check.course.definition import Course, read_course
+from tutorial_check.course.definition import SUITE, Course, read_course
 from tutorial_check.course.tasks import Task
 from tutorial_check.submission import student_files
 from tutorial_check.submission.manifests import first_broken
 from tutorial_check.submission.order import Order
 from tutorial_check.submission.packages import SOLUTIONS, Package, packages_below
+from tutorial_check.submission.places import Places
 from tutorial_check.submission.python_facts import PythonFacts
 
 # What of CMakeLists.txt makes a build necessary before anything can run.
@@ -48,6 +49,13 @@ class SubmissionFiles:
         """Return whether the student's programs may see what is at a path, so that we may, too."""
         real = Path(os.path.realpath(path))
         return any(each == real or each in real.parents for each in self._visible)
+
+    @cached_property
+    def places(self) -> Places:
+        """The folders that recordings name."""
+        below = Path(self.order.underlay).parent.parent
+        copied = {"submission": self.source.parent, "scratch": self.folder}
+        return Places({**copied, "workspace": self.layout.root, "underlay": below, "suite": SUITE})
 
     def memo(self, key: object, make: Callable[[], Value]) -> Value:
         """Return make(), called once. For facts, which do not change."""

@@ -1,16 +1,17 @@
-"""What is to be checked: what was asked for, and what the launcher adds for the worker."""
+"""What a launcher and its worker send each other, as frozen data: an order, questions, replies."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Dict, Tuple
+from typing import Any, Dict, Optional, Tuple
 
 from tutorial_check.course.definition import HANDOUT
 from tutorial_check.course.tasks import Variant
+from tutorial_check.processes.errors import CutShort
 from tutorial_check.submission.packages import Layout
 
-Line = Dict[str, Any]  # of JSON, between the two
+VERSION = 2  # raised by each change of recordings that an older check could not read
 
 
 @dataclass(frozen=True)
@@ -29,3 +30,23 @@ class Order:
     environment: Dict[str, str] = field(default_factory=dict)  # A shell with the underlay has it.
     readable: Tuple[Path, ...] = ()  # what the student's programs may read
     in_namespaces: bool = False  # in namespaces of its own, by bubblewrap
+
+
+@dataclass(frozen=True)
+class Question:
+    """What is to be recorded."""
+
+    recorder: str  # MODULE:NAME
+    arguments: Tuple[Any, ...] = ()  # JSON
+
+
+@dataclass(frozen=True)
+class Reply:
+    """What was recorded, or why nothing was; without these a worker has begun."""
+
+    recording: Any = None  # a dataclass; JSON where it arrives
+    cut_short: Optional[CutShort] = None
+    cannot: Optional[str] = None
+    busy: bool = False  # the machine kept programs waiting: a late answer proves little
+    overloaded: bool = False  # it proves nothing
+    version: int = VERSION
