@@ -45,9 +45,10 @@ SCRIPTS = [*REPOSITORY.glob("*/scripts/*"), *REPOSITORY.glob("common/*/scripts/*
 SCRIPTS = [path for path in SCRIPTS if path.is_file()]
 # Import name -> the name in package.xml, where they differ.
 DEBIAN = {
-    "cockpit_server": "cockpit", "joy_to_twist": "joy2twist", "PIL": "python3-pil",
+    "cockpit_server": "cockpit", "joy_to_twist": "joy2twist", "kobuki_driver": "kobuki_node",
+    "PIL": "python3-pil",
     **{name: f"python3-{name}" for name in (
-        "evdev", "matplotlib", "numpy", "rospkg", "tornado", "tqdm", "yaml")},
+        "evdev", "matplotlib", "serial", "numpy", "rospkg", "tornado", "tqdm", "yaml")},
 }  # fmt: skip
 UNDECLARED = {"rosbags", "rclpy"}  # PyPI's, which package.xml cannot name
 

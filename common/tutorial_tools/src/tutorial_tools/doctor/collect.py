@@ -17,10 +17,13 @@ import rosgraph
 import rospkg
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from genpy import DeserializationError
+from kobuki_msgs.msg import SensorState
 from std_msgs.msg import String
 
 from gamepad.driver.container import in_container
 from gamepad.driver.report import SILENT_FOR
+from kobuki_driver.choice import USUAL_PORT
+from kobuki_driver.link.sample import Sample
 from node_kit.manifests import broken_manifests
 from node_kit.message_types import message_class
 from node_kit.ros_api import TIMEOUT_S, Answer, way_out
@@ -90,6 +93,7 @@ def this_machine() -> dict[str, Any]:
         "own_addresses": own_addresses,
         "own_is_here": bool(own_addresses) and all(map(is_here, own_addresses)),
         "joysticks": [joystick(path) for path in sorted(glob.glob("/dev/input/js*"))],
+        "kobukis": kobukis(),
         "workspace": workspace,
         "hidden": hidden_stand_ins(Path(workspace), REPOSITORY, SHARE) if workspace else [],
         "broken_manifests": [broken for folder in own for broken in broken_manifests(folder)],
@@ -98,6 +102,16 @@ def this_machine() -> dict[str, Any]:
         "environment": environment(workspace),
         "wsl": "microsoft" in os.uname().release.lower(),
     }
+
+
+def kobukis() -> list[Sample]:
+    """Return what the ports of real robots show."""
+    try:
+        from kobuki_driver.io.look import samples  # noqa: PLC0415 (needs python3-serial)
+    except ImportError:
+        missing = "python3-serial is not installed: sudo apt install python3-serial"
+        return [Sample(USUAL_PORT, missing)] if os.path.exists(USUAL_PORT) else []
+    return samples()
 
 
 def joystick(path: str) -> Joystick:
@@ -193,7 +207,8 @@ def heard(uri: str, facts: Facts) -> dict[str, Any]:
             sent = [topic for topic in stamped if name in facts.publishers.get(topic, [])]
             far.setdefault(node.host, []).extend((name, t, STAMPED_MESSAGES) for t in sent)
     far = {host: jobs[:STAMPED_TOPICS] for host, jobs in far.items()}
-    speakers = {*facts.converters(), *drivers(facts), *({BRIDGE} & set(well))}
+    bases = {name for topic in facts.topics(SensorState._type) for name in facts.senders(topic)}
+    speakers = {*facts.converters(), *drivers(facts), *bases, *({BRIDGE} & set(well))}
     jobs = [job for several in far.values() for job in several]
     jobs += [(name, "/diagnostics", 1) for name in speakers]
     for topic in (*active, "/clock"):
@@ -223,6 +238,7 @@ def heard(uri: str, facts: Facts) -> dict[str, Any]:
             for status in said[name]
             if status.name == f"{name.strip('/')}: joystick"
         },
+        "bases": dict(filter(None, (base(name, said[name]) for name in bases))),
         "bridge": [
             (status.level == DiagnosticStatus.OK, status.message) for status in said.get(BRIDGE, [])
         ],
@@ -257,6 +273,17 @@ def mux(uri: str, name: str, messages: Messages) -> Mux:
             topic = f"{name}/{entry['topic']}"
             inputs.append(MuxInput(entry["name"], topic, entry["priority"]))
     return Mux(said[0].data if said and said[0] else None, inputs)
+
+
+def base(name: str, said: list[DiagnosticStatus]) -> tuple[str, tuple[bool, str]] | None:
+    """Return whether packets come to the driver of a real Kobuki, and its battery."""
+    about = {s.name.split(": ")[-1]: s for s in said if s.hardware_id == "Kobuki"}
+    if not {"Watchdog", "Battery"} <= set(about):
+        return None
+    values = {pair.key: pair.value for pair in about["Battery"].values}
+    battery = about["Battery"].message.lower(), f"{values.get('Voltage (V)')} V"
+    state = values.get("Charging State", "").lower()
+    return name, (about["Watchdog"].level == DiagnosticStatus.OK, ", ".join((*battery, state)))
 
 
 def statuses(messages: Messages) -> list[DiagnosticStatus]:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import NamedTuple
 
+from kobuki_driver.link.sample import Sample
 from node_kit.ros_api import Answer
 
 MOST_NAMES = 5  # in a line; a classroom has thirty robots
@@ -126,6 +127,7 @@ class Facts:
     way_out: str = ""  # our address on the way to the master, if it is on another machine
     called_back: bool | None = True  # whether the master reached us; None: not tried
     joysticks: list[Joystick] = field(default_factory=list)
+    kobukis: list[Sample] = field(default_factory=list)  # ports of real robots
     workspace: str = ""  # a student's, which takes the place of the solutions
     broken_manifests: list[tuple[str, str]] = field(default_factory=list)  # path, what is wrong
     hidden: list[tuple[str, str]] = field(default_factory=list)  # stand-ins: what is wrong, to do
@@ -148,6 +150,7 @@ class Facts:
     transforms: list[Transform] = field(default_factory=list)
     muxes: dict[str, Mux] = field(default_factory=dict)  # by the name of the node
     states: dict[str, tuple[bool, str]] = field(default_factory=dict)  # joy2twist: well, text
+    bases: dict[str, tuple[bool, str]] = field(default_factory=dict)  # real: alive, battery
     bridge: list[tuple[bool, str]] = field(default_factory=list)  # to ROS 2: well, text
     silent_s: dict[str, float] = field(default_factory=dict)  # since a joy_node's gamepad moved
 

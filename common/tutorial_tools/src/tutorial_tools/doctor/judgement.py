@@ -19,6 +19,7 @@ from tutorial_tools.doctor.facts import (
     unknown,
     wrong,
 )
+from tutorial_tools.doctor.kobuki import kobukis
 from tutorial_tools.doctor.links import types, unconnected
 from tutorial_tools.doctor.transforms import transforms
 from tutorial_tools.doctor.way import muxes, needs_driver, rivals, states, topics
@@ -37,7 +38,7 @@ def judge(facts: Facts) -> list[Finding]:
         for check in (nodes, clocks, types, topics, unconnected, ends, muxes, rivals, states):
             findings += check(facts)
         findings += transforms(facts)
-    return [*findings, *joysticks(facts)]
+    return [*findings, *joysticks(facts), *kobukis(facts)]
 
 
 def environment(facts: Facts) -> Iterator[Finding]:
