@@ -27,7 +27,10 @@ pytestmark = [
 ]
 HOSTS = {"teacher": "10.66.0.1", "one": "10.66.0.2", "two": "10.66.0.3", "three": "10.66.0.4"}
 ADDRESS = f"tls://{HOSTS['teacher']}:8786"
-MACHINES = ("/usr/bin/python3", "-m", "tutorial_check.cluster.dask_cluster")
+WORKER, SCHEDULER = (
+    ("/usr/bin/python3", "-m", f"tutorial_check.commands.{word}")
+    for word in ("worker", "scheduler")
+)
 EXERCISE = "3"
 RACE = "Twist for String"  # whichever of its two programs comes first decides what is wrong
 ROWS = [row for row in OF_HANDOUT if row[0] == EXERCISE and row[1] != RACE]
@@ -58,7 +61,7 @@ def key(tmp_path, monkeypatch):
 @pytest.fixture
 def scheduler(start):
     def begin():
-        program = start("teacher", *MACHINES, "scheduler", "--host", HOSTS["teacher"])
+        program = start("teacher", *SCHEDULER, "--host", HOSTS["teacher"])
         wait_for(lambda: "Scheduler at" in program.output, "a scheduler", 60)
         return program
 
@@ -68,7 +71,7 @@ def scheduler(start):
 @pytest.fixture
 def worker(start, underlay, monkeypatch):
     monkeypatch.setenv("TUTORIAL_UNDERLAY", underlay)
-    return lambda host, *more: start(host, *MACHINES, "worker", ADDRESS, *more)
+    return lambda host, *more: start(host, *WORKER, ADDRESS, *more)
 
 
 @pytest.fixture
@@ -206,7 +209,7 @@ def test_who_has_no_key_is_not_let_in_nor_is_a_worker_without_a_scheduler(
     call = client()
     assert call.wait(60) == 2
     assert f"check: no verdict: no Dask scheduler at {ADDRESS}: " in call.output
-    call = start("one", *MACHINES, "worker", "127.0.0.1:1")
+    call = start("one", *WORKER, "127.0.0.1:1")
     assert call.wait(60) == 1
     assert call.output == "worker: no Dask scheduler at 127.0.0.1:1: Connection refused\n"
 

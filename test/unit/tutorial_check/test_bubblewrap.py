@@ -62,8 +62,11 @@ NOT_ISOLATED = "cannot isolate programs: bwrap: refused: a student's program cou
 @pytest.mark.parametrize(
     ("begin", "why"),
     [
-        (lambda: cluster._work("tls://host", 1, False), NOT_ISOLATED),
-        (lambda: cluster._work("tcp://host", 1, True), "--not-isolated needs tls://, and root"),
+        (lambda: cluster.become_worker("tls://host", 1, False), NOT_ISOLATED),
+        (
+            lambda: cluster.become_worker("tcp://host", 1, True),
+            "--not-isolated needs tls://, and root",
+        ),
         (lambda: cluster._examine(b"", None, ""), NOT_ISOLATED),  # not by ./tutorial worker
     ],
 )

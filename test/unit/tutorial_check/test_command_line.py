@@ -1,14 +1,14 @@
 """The command line."""
 
 import sys
-from types import SimpleNamespace
 
 import pytest
 
 from tutorial_check.checking.results import OK, UNREACHED, WRONG, Outcome, Result
-from tutorial_check.commands import check as command_line
-from tutorial_check.commands.check import parse, stamps, watch
-from tutorial_check.processes.errors import CannotCheck
+from tutorial_check.commands import check as command
+from tutorial_check.commands import program
+from tutorial_check.commands.options import parse
+from tutorial_check.commands.watch import stamps
 from tutorial_check.report.formats import FORMATS
 
 UNDERLAY = ["--underlay", "setup.bash"]
@@ -34,9 +34,35 @@ def test_a_section_is_all_its_exercises(words, exercises):
 def test_in_a_shell_of_a_workspace_that_is_meant(monkeypatch):
     monkeypatch.setenv("TUTORIAL_IN", "/mine")
     assert parse(UNDERLAY).workspace == "/mine"
+    assert parse([*UNDERLAY, "--watch"]).workspace == "/mine"
     assert parse([*UNDERLAY, "--in", "/another"]).workspace == "/another"
     options = parse([*UNDERLAY, "--all", "/class"])
-    assert (options.all, options.jobs) == ("/class", 2)
+    assert (options.all, options.jobs, options.hints) == ("/class", 2, 2)
+
+
+@pytest.mark.parametrize(
+    ("words", "command"),
+    [
+        ("--in ws 3 --keep a --json b --junit c --gradescope d --classroom e --no-hints", "check"),
+        ("3 --in ws --variant file.yaml --watch --hints 0", "watch"),
+        ("--solution 3 --in ws", "solution"),
+        ("3 --all=class --jobs 3 --again --out a --variants 1 --keep b --cluster c", "all"),
+        ("--course wiki --self-test --jobs 3", "self-test"),
+        ("--package gradescope 2 3 --out a --course square", "package"),
+        ("--variants 2026 --show-variant ada", "show-variant"),
+    ],
+)
+def test_an_option_says_which_command_is_meant(words, command, capsys):
+    """Its help has its options; that of no command has all."""
+    words = words.replace(" 2 3 ", " 1 ").split()
+    assert parse([*UNDERLAY, *words]).command == command
+    for given in (words, [])[command == "check" :]:
+        with pytest.raises(SystemExit, match="0"):
+            parse([*given, "--help"])
+        shown = capsys.readouterr().out
+        assert all(word.partition("=")[0] in shown for word in words if word.startswith("-"))
+        assert ("--show-variant NAME" in shown) == (command == "show-variant" or not given)
+    assert command in program.COMMANDS
 
 
 @pytest.mark.parametrize(
@@ -45,12 +71,23 @@ def test_in_a_shell_of_a_workspace_that_is_meant(monkeypatch):
         ([*UNDERLAY, "3"], "which workspace? For example: --in ~/ros/hydro/catkin_ws 3;"),
         *(([*BEFORE, word], "no exercise") for word in ("8", "", ".", "4.9")),
         *(([*UNDERLAY, f"--{name}", ""], "an empty word is no path") for name in ("in", "all")),
-        *(([*BEFORE, f"--{name}", ""], "an empty word") for name in ("out", "json", "underlay")),
+        *(([*BEFORE, f"--{name}", ""], "an empty word") for name in ("keep", "json", "underlay")),
         ([*UNDERLAY, "--all", "class", "--json", "a"], "--json is for one workspace"),
-        ([*UNDERLAY, "--all", "class", "--watch"], "--watch is for one workspace"),
-        ([*BEFORE, "--watch", "--classroom", "a"], "leave --watch out"),
-        ([*BEFORE, "--out", "a"], "--out is for --all"),
-        ([*BEFORE, "--jobs", "2"], "--jobs is for --all"),
+        ([*UNDERLAY, "--all", "class", "--json=a"], "--json is for one workspace, not for --all"),
+        ([*UNDERLAY, "--all", "class", "--watch"], "--watch is for one workspace, not for --all"),
+        ([*BEFORE, "--all", "class"], "--in is for one workspace, not for --all"),
+        ([*BEFORE, "--watch", "--classroom", "a"], "--classroom is for one workspace, not for --w"),
+        ([*BEFORE, "--watch", "--solution", "3"], "--watch is for one workspace, not for --sol"),
+        ([*BEFORE, "--out", "a"], "--out is for --all and --package, not for one workspace"),
+        ([*BEFORE, "--jobs", "2"], "--jobs is for --all and --self-test, not for one workspace"),
+        ([*BEFORE, "--again"], "--again is for --all, not for one workspace"),
+        ([*BEFORE, "--variants", "1"], "--variants is for --all and --show-variant, not for"),
+        ([*UNDERLAY, "--package", "a", "--all", "b"], "--all is a command, not for --package"),
+        ([*UNDERLAY, "--self-test", "--variant", "a"], "--variant is for one workspace, --all and"),
+        ([*UNDERLAY, "--self-test", "--keep", "a"], "--keep is for one workspace and --all, not"),
+        ([*UNDERLAY, "--self-test", "4.3"], "unrecognized arguments: 4.3"),
+        ([*BEFORE, "--solution"], "--solution of which exercise? For example: --solution 4.3"),
+        ([*BEFORE, "--colour"], "unrecognized arguments: --colour"),
     ],
 )
 def test_words_that_are_refused(words, error, capsys, monkeypatch):
@@ -63,10 +100,11 @@ def test_words_that_are_refused(words, error, capsys, monkeypatch):
 @pytest.fixture
 def main(monkeypatch):
     def called(examine, *words):
-        monkeypatch.setattr(command_line, "examine", examine)
-        monkeypatch.setattr(sys, "argv", ["check", *BEFORE, "2", "5", *map(str, words)])
+        monkeypatch.setattr(command, "examine", examine)
+        monkeypatch.setattr(sys, "argv", ["check", *UNDERLAY, *map(str, words)])
+        monkeypatch.setenv("TUTORIAL_IN", "ws")
         with pytest.raises(SystemExit) as ended:
-            command_line.main()
+            program.main()
         return ended.value.code
 
     return called
@@ -108,7 +146,7 @@ def test_a_reader_that_has_seen_enough_is_no_fault(main, monkeypatch, capsys):
         raise BrokenPipeError
 
     monkeypatch.setattr(sys, "stdout", sys.stdout)  # main() gives it up
-    monkeypatch.setattr(command_line.bubblewrap, "lacking", list)  # on any machine
+    monkeypatch.setattr(program.bubblewrap, "lacking", list)  # on any machine
     assert main(closed) == 2 and not capsys.readouterr().err
 
 
@@ -131,7 +169,25 @@ def test_build_devel_and_files_of_editors_are_not_watched(tmp_path, folder):
     assert list(stamps(tmp_path / folder)) == [str(tmp_path / folder / "src/package.xml")]
 
 
-def test_a_zip_cannot_be_watched(tmp_path):
+def test_a_zip_cannot_be_watched(main, tmp_path, capsys):
     (tmp_path / "ws.zip").touch()
-    with pytest.raises(CannotCheck, match="--watch is for one"):
-        watch(SimpleNamespace(workspace=tmp_path / "ws.zip"))
+    assert main(pytest.fail, "--in", tmp_path / "ws.zip", "--watch") == 2
+    assert "ws.zip: no folder, and --watch is for one" in capsys.readouterr().err
+
+
+def test_a_folder_of_tasks_is_for_a_class(main, tmp_path, capsys):
+    assert main(pytest.fail, "--variant", tmp_path) == 2
+    assert "--variant FOLDER is for --all and --show-variant" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("words", "printed"),
+    [
+        (["--variants", "7", "--show-variant", "ada"], "axis_linear: 1"),
+        (["--package", "github:a/b", "--out"], "check.yml"),
+    ],
+)
+def test_what_is_printed(main, words, printed, tmp_path, capsys):
+    words = [*words, tmp_path / "check.yml"] if "--out" in words else words
+    assert main(pytest.fail, *words) == 0
+    assert printed in capsys.readouterr().out

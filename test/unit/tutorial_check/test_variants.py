@@ -2,7 +2,6 @@
 
 import dataclasses
 import tempfile
-from types import SimpleNamespace
 
 import pytest
 import yaml
@@ -19,10 +18,6 @@ ALL = yaml.safe_load(
     "{axis_linear: 3, axis_angular: 4, scale_linear: 0.5, joy: /stick, cmd_vel: /drive,"
     " package: stick_drive, enable_button: 5, rate: 20}"
 )
-
-
-def options(**given_ones):
-    return SimpleNamespace(**{"all": None, "variants": None, "variant": None, **given_ones})
 
 
 @pytest.mark.parametrize(
@@ -74,13 +69,13 @@ def test_whose_variant_it_is(tmp_path):
     tasks.mkdir()
     (tasks / "ada.yaml").write_text("rate: 25")
     (tasks / "eve.yaml").symlink_to("/etc/shadow")
-    given_ones = options(all=str(tmp_path), variant=str(tasks), variants="7")
-    assert variant_of(COURSE, given_ones, "ada") == {"rate": 25}
+    assert variant_of(COURSE, "ada", str(tasks), "7") == {"rate": 25}
     with pytest.raises(CannotCheck, match=r"eve\.yaml: a link is not followed"):
-        variant_of(COURSE, given_ones, "eve")
-    assert variant_of(COURSE, given_ones, "bob") == drawn(COURSE, "7", "bob")
-    assert variant_of(COURSE, options(variant=str(for_all)), "bob") == {"rate": 5}
-    assert variant_of(COURSE, options(), "bob") == {}
+        variant_of(COURSE, "eve", str(tasks), "7")
+    assert variant_of(COURSE, "bob", str(tasks), "7") == drawn(COURSE, "7", "bob")
+    assert variant_of(COURSE, "bob", str(tasks)) == {}
+    assert variant_of(COURSE, "bob", str(for_all)) == {"rate": 5}
+    assert variant_of(COURSE, "bob", None) == {}
 
 
 def test_a_task_sheet_has_all_values_and_the_file():

@@ -14,7 +14,6 @@ import os
 import shutil
 import socket
 import subprocess
-import sys
 import tarfile
 import tempfile
 from dataclasses import replace
@@ -22,7 +21,6 @@ from pathlib import Path
 from typing import Any, Mapping, NoReturn
 from urllib.parse import urlsplit
 
-from node_kit.arguments import Parser
 from tutorial_check.checking.examination import examine
 from tutorial_check.checking.results import Outcome
 from tutorial_check.course.definition import read_course
@@ -184,7 +182,7 @@ def _must_isolate() -> None:
         raise CannotCheck(f"worker {socket.gethostname()} cannot isolate programs: {why}; {todo}")
 
 
-def _work(address: str, jobs: int, insists: bool) -> NoReturn:
+def become_worker(address: str, jobs: int, insists: bool) -> NoReturn:
     """Make this process a worker. insists: even without isolated programs. Raises CannotCheck."""
     if insists and bubblewrap.instead():
         if not address.startswith("tls://") or (os.geteuid() and not landlock.version()):
@@ -203,7 +201,7 @@ def _work(address: str, jobs: int, insists: bool) -> NoReturn:
     _become("worker", address, address, *words)
 
 
-def _schedule(host: str) -> NoReturn:
+def become_scheduler(host: str) -> NoReturn:
     """Make this process a scheduler, with a new key if there is none. Raises CannotCheck."""
     if not KEY.exists():
         KEY.parent.mkdir(parents=True, exist_ok=True)
@@ -222,32 +220,3 @@ def _become(program: str, address: str, *words: object) -> NoReturn:
     python = shutil.which("python3", path="/usr/bin") or "python3"
     module = f"distributed.cli.dask_{program}"
     os.execv(python, [python, "-m", module, *map(str, words), *keys, *LOCAL])
-
-
-def main() -> None:
-    """./tutorial worker ADDRESS, ./tutorial scheduler: work until Ctrl-C."""
-    word = sys.argv[1]
-    is_worker = word == "worker"
-    what = f"A Dask {word}, for ./tutorial check --all FOLDER --cluster."
-    parser = Parser(prog=f"./tutorial {word}", description=what)
-    add = parser.add_argument
-    if is_worker:
-        add("address", metavar="ADDRESS", help="of the scheduler, as tls://HOST:8786")
-        what = "submissions at a time (one for each two processors)"
-        default = max(1, (os.cpu_count() or 1) // 2)
-        add("--jobs", type=int, default=default, metavar="N", help=what)
-        what = "also where bubblewrap cannot isolate programs; each result says so"
-        add("--not-isolated", action="store_true", help=what)
-    else:
-        add("--host", default="127.0.0.1", help="address on which to listen (127.0.0.1)")
-    options = parser.parse_args(sys.argv[2:])
-    try:
-        if is_worker:
-            _work(options.address, max(1, options.jobs), options.not_isolated)
-        _schedule(options.host)
-    except (CannotCheck, OSError, subprocess.SubprocessError) as error:
-        sys.exit(f"{word}: {error}")
-
-
-if __name__ == "__main__":
-    main()

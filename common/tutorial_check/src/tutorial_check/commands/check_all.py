@@ -169,7 +169,7 @@ class Check:
         if student.path.is_symlink():  # it may lead to the files of another student
             raise CannotCheck("a link is not followed: put the folder or the archive itself here")
         options = self._options
-        variant = variant_of(options.course, options, student.name)
+        variant = variant_of(options.course, student.name, options.variant, options.variants)
         student.digest = digest_of(student.path, f"{self._checks} {variant}")
         if not options.again and self._last_run.is_same(student):
             student.outcomes = student.before

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 import hashlib
 import re
 from pathlib import Path
@@ -93,17 +92,24 @@ def drawn(course: Course, seed: str, name: str) -> Variant:
     return values
 
 
-def variant_of(course: Course, options: argparse.Namespace, name: str) -> Variant:
-    """Return a student's Variant: from NAME.yaml of a folder, drawn, or from the file for all."""
-    given = Path(options.variant) if options.variant else None
-    own = given / f"{name}.yaml" if given and given.is_dir() else None
-    if own and own.is_symlink():
-        raise CannotCheck(f"{own}: a link is not followed: put the file itself here")
-    if own and own.exists():
-        return read_variant(course, own)
-    if options.variants is not None:
-        return drawn(course, options.variants, name)
-    return read_variant(course, given) if given and not own else {}
+def variant_of(course: Course, name: str, file: str | None, seed: str | None = None) -> Variant:
+    """Return a student's Variant: from NAME.yaml of a folder, drawn, or from the file for all.
+
+    name: empty for who calls, of whom there is no folder of files.
+    """
+    path = Path(file) if file else None
+    if path and path.is_dir():
+        if not name:
+            raise CannotCheck("--variant FOLDER is for --all and --show-variant")
+        path = path / f"{name}.yaml"
+        if path.is_symlink():
+            raise CannotCheck(f"{path}: a link is not followed: put the file itself here")
+        if path.exists():
+            return read_variant(course, path)
+        path = None
+    if seed is not None:
+        return drawn(course, seed, name)
+    return read_variant(course, path) if path else {}
 
 
 def sheet(course: Course, values: Variant, name: str) -> str:

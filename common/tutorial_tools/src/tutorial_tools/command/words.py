@@ -214,8 +214,8 @@ def plan(word: str, arguments: list[str]) -> Plan:
     if word in OWN_PARSER:
         refuse(word, arguments)
         of_cluster = word in ("scheduler", "worker")
-        module = ["tutorial_check.cluster.dask_cluster", word] if of_cluster else ["tutorial_check"]
-        own = [PROGRAMS[word]] if word in PROGRAMS else ["/usr/bin/python3", "-m", *module]
+        module = f"tutorial_check.commands.{word}" if of_cluster else "tutorial_check"
+        own = [PROGRAMS[word]] if word in PROGRAMS else ["/usr/bin/python3", "-m", module]
         if HELP & options_of(arguments):
             made["builds"] = []
         elif of_cluster or CLUSTER in options_of(arguments):
