@@ -78,7 +78,7 @@ def bare_underlay(folder):
 
 @pytest.fixture
 def examined(request, underlay, tmp_path):
-    """examined(workspace, exercises, ...): the Outcomes, recorded again; what is stored says the same."""
+    """examined(workspace, exercises, ...): the Outcomes, recorded; what is stored says the same."""
 
     def recorded(workspace, exercises, **about):
         outcomes = examine(Order(workspace, underlay, exercises, **about))

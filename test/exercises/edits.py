@@ -2,24 +2,14 @@
 
 import shutil
 from pathlib import Path
+from typing import Callable
 
 import pytest
 import rosbag
+from solution import J
 from std_msgs.msg import String
 
-B, J = "beginner_tutorials", "joy2twist"
-TALKER, LISTENER = f"{B}/scripts/talker.py", f"{B}/scripts/listener.py"
-JOY2TWIST, CLASS = f"{J}/scripts/joy2twist.py", f"{J}/scripts/new_joy2twist.py"
-LAUNCH_BAG, LAUNCH_JOY = f"{J}/launch/launch_bag.launch", f"{J}/launch/launch_joy_node.launch"
-TURTLEBOT, REAL = (
-    f"{J}/launch/joy2twist_turtlebot.launch",
-    f"{J}/launch/launch_joy_node_realTurtlebot.launch",
-)
-SHOW = 'rospy.loginfo(rospy.get_name() + ": axes [%.2f, %.2f, %.2f, %.2f, %.2f, %.2f]" % data.axes)'
-X, Z = "msg.linear.x = data.axes[1]", "msg.angular.z = data.axes[0]"
-PUBLISH = "pub.publish(msg)"
-SUB = 'rospy.Subscriber("/joy", Joy, callback)'
-REMAP = '<remap from="/cmd_vel" to="/cmd_vel_mux/input/teleop"/>'
+Edit = Callable[[Path], object]  # changes a src folder
 HERE = Path(__file__).resolve().parent
 
 
@@ -32,13 +22,33 @@ def literal(tmp_path):
 
 
 def put(path, old, new, count=-1):
+    """Replace a text in a file; & in new is old."""
+
     def edit(src):
         file = src / path
         text = file.read_bytes().decode()
         assert old in text, f"{old!r} is not in {path}"
-        file.write_bytes(text.replace(old, new, count).encode())
+        file.write_bytes(text.replace(old, new.replace("&", old), count).encode())
 
     return edit
+
+
+def manifest(name, format_="1", tags=""):
+    """Return a package.xml of so many lines, with dependencies in the sixth."""
+    attribute = f" format='{format_}'" if format_ != "1" else ""
+    return f"""<package{attribute}>
+<name>{name}</name><version>0.0.0</version>
+<description>x</description>
+<maintainer email="s@u.example">s</maintainer>
+<license>x</license>
+{tags}
+</package>
+"""
+
+
+def depend(packages, *tags):
+    """Return the lines of a package.xml that need packages, with each of these tags."""
+    return "".join(f"<{tag}>{name}</{tag}>" for name in packages.split() for tag in tags)
 
 
 def made(path):
@@ -53,6 +63,13 @@ def write(path, text, mode=0o755):
         (src / path).chmod(mode)
 
     return edit
+
+
+def package(name, cmake, format_="1", tags=""):
+    """Return the edits that make another package."""
+    text = f"cmake_minimum_required(VERSION 3.5)\nproject({name})\n{cmake}\n"
+    xml = manifest(name, format_, tags)
+    return [write(f"{name}/package.xml", xml), write(f"{name}/CMakeLists.txt", text)]
 
 
 def move(old, new):
@@ -120,11 +137,6 @@ def built(below, home="", **files):
             made(src.parent / "devel" / name).write_text(text)
 
     return edit
-
-
-def mistake_in(exercise, path, *first):
-    """Return a function that makes a row of one change in a file."""
-    return lambda what, old, new, *found: (exercise, what, [*first, put(path, old, new, 1)], *found)
 
 
 def apply(edits, src):

@@ -74,7 +74,7 @@ def store(section, rows):
 
 
 def judged(test, workspace, underlay, exercises, folder, **about):
-    """Return the Outcomes of a workspace, judged from what is stored. folder: for its copy, empty."""
+    """Return the Outcomes of a workspace, judged from what is stored. folder: empty, for a copy."""
     row = rows_of(section_of(test)).get(test)
     assert row, f"{test} is not stored: ./tutorial test exercises --store -k 'A and B'"
     replies = {}

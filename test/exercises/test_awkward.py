@@ -6,7 +6,8 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from edits import JOY2TWIST, TALKER, chmod, put
+from edits import chmod, put
+from solution import JOY2TWIST, TALKER
 
 from tutorial_check.report.memory import LATER
 from tutorial_testing.processes import Program, command_line, descendants, lives

@@ -1,4 +1,4 @@
-"""--cluster: the same results as alone, whatever ends meanwhile. Each worker on a host of its own."""
+"""--cluster: the same results as alone, whatever ends meanwhile. Each worker has its own host."""
 
 import contextlib
 import importlib.util
@@ -9,7 +9,8 @@ import signal
 import subprocess
 
 import pytest
-from edits import TALKER, apply, at_night, put
+from edits import apply, at_night, put
+from solution import TALKER
 from test_awkward import PYTHONPATH, command, examines
 from test_endings import path_without_namespaces
 from test_mistakes import OF_HANDOUT
@@ -33,7 +34,7 @@ WORKER, SCHEDULER = (
 )
 EXERCISE = "3"
 RACE = "Twist for String"  # whichever of its two programs comes first decides what is wrong
-ROWS = [row for row in OF_HANDOUT if row[0] == EXERCISE and row[1] != RACE]
+ROWS = [row for row in OF_HANDOUT if row.exercise == EXERCISE and row.what != RACE]
 SUBMISSIONS, LONGEST_S = 8, 1800.0
 GONE = (
     f"check: no verdict: the scheduler at {ADDRESS} is gone; call again, and it goes on from here"
@@ -98,7 +99,7 @@ def hand_in(literal, folder, count):
     for number in range(count):
         student = folder / f"student_{number:04}"
         shutil.copytree(literal.parent, student)
-        apply(rows[number % len(rows)][2], student / "src")
+        apply(rows[number % len(rows)].edits, student / "src")
         os.link(student / "src" / "beginner_tutorials" / "package.xml", student / "a_second_name")
         (student / "gone").symlink_to("../../gone")
         os.mkfifo(student / "pipe")

@@ -1,4 +1,4 @@
-"""However the checker ends, it leaves no process, no folder; without namespaces, no wrong verdict."""
+"""However the checker ends, it leaves nothing; without namespaces, no wrong verdict."""
 
 import os
 import signal
@@ -7,7 +7,8 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from edits import TALKER, B, at_night, write
+from edits import at_night, write
+from solution import TALKER, B
 from stored import REPOSITORY
 from test_awkward import PYTHONPATH, check, command
 from test_hostile import processes_like

@@ -1,10 +1,11 @@
-"""What is handed in may be in the home folder, which is hidden before a program runs, and be a link."""
+"""A submission may be in the home folder, which is hidden from programs, and be a link."""
 
 import shutil
 from pathlib import Path
 
 import pytest
-from edits import LAUNCH_BAG, TALKER, J, built, put
+from edits import built, put
+from solution import LAUNCH_BAG, TALKER, J
 
 from tutorial_check.checking.examination import examine
 from tutorial_check.sandbox import bubblewrap

@@ -1,4 +1,4 @@
-"""Programs that hang, fork, print without end or forge: an honest verdict, and no harm to others."""
+"""Programs that hang, fork, print without end or forge: an honest verdict, no harm to others."""
 
 import os
 import shutil
@@ -7,7 +7,8 @@ import textwrap
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
-from edits import JOY2TWIST, TALKER, put, write
+from edits import put, write
+from solution import JOY2TWIST, TALKER
 
 from tutorial_check.checking.examination import examine
 from tutorial_check.report.text import lines_of
@@ -17,12 +18,13 @@ from tutorial_testing.processes import command_line
 
 FIRST = "#!/usr/bin/env python3\nimport os\n"
 MASTER = "xmlrpc.client\nxmlrpc.client.ServerProxy(os.environ['ROS_MASTER_URI'])"
+FORKS = "while True:\n    try:\n        os.fork()\n    except OSError:\n        pass\n"
 # Each in place of talker.py, and a word of what is said of it.
 TALKERS = {
-    "a fork bomb": ("while True:\n    try:\n        os.fork()\n    except OSError:\n        pass\n", "again and again"),
+    "a fork bomb": (FORKS, "again and again"),
     "kills all it may": ("os.kill(-1, 9)\n", "has ended it"),
     "prints without end": ("while True:\n    print('x' * 1000000)\n", ""),
-    "fills the disk": ("file = open('filled', 'wb')\nwhile file.write(b'x' * 1000000):\n    pass\n", ""),
+    "fills the disk": ("file = open('full', 'wb')\nwhile file.write(b'x' * 10**6):\n    pass\n", ""),
     "ends the master": (f"import {MASTER}.shutdown('/me', 'no more')\n", "has ended it"),
 }  # fmt: skip
 # It works as it should, and leaves links where the checker writes a changed copy of it (C9).
@@ -81,7 +83,7 @@ def processes_like(word):
 
 @pytest.fixture
 def scratch(folder, monkeypatch):
-    """Where the checks of a test have their copies, and no other's. Open to the users of programs."""
+    """Where the checks of a test have their copies alone. Open to the users of programs."""
     monkeypatch.setattr(tempfile, "tempdir", str(folder))
     return folder
 

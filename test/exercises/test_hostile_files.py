@@ -46,12 +46,13 @@ UNITS = (
     "<!--", "-->", "--", "<![CDATA[", "]]>", "<a>", "<a", "&lt;", '="', "='", "</", "<arg name=",
     "$(find ", "$(arg ", "(", "[", "{", ")", "x = 1\n", "x = [1, 2]\n", "except ", "    except\t",
     "if 1:\n", "def f(): pass\n", "1+", "a.", "a(", "-", "not ", "lambda: ", "'''", '"', "\\", "#",
-    "# coding: ", " ", "\t", "\n", "\r", "\0", "\x1b[31m", "\u201c", "a", "a a", "1", "find_package(catkin ",
-    "find_package(catkin COMPONENTS ", "CMake Error at ", "CMake Error: ", "Could not find ",
-    'Could not find a package "x"', "could not find\n  ", "traversing 3 packages:\n-- ~~ - a",
-    "-- ~~  - ", "Call Stack", "x/CMakeLists.txt:1", "error: ", "CMAKE_PREFIX_PATH = r'",
-    "_CATKIN_SETUP_DIR:=", "Traceback (most recent call last)\n", '  File "', "ValueError: ",
-    "[/x/a.msg] ", "unable to load msg [", "a/", "undefined reference to `", "No rule to make target ",
+    "# coding: ", " ", "\t", "\n", "\r", "\0", "\x1b[31m", "\u201c", "a", "a a", "1",
+    "find_package(catkin ", "find_package(catkin COMPONENTS ", "CMake Error at ", "CMake Error: ",
+    "Could not find ", 'Could not find a package "x"', "could not find\n  ",
+    "traversing 3 packages:\n-- ~~ - a", "-- ~~  - ", "Call Stack", "x/CMakeLists.txt:1", "error: ",
+    "CMAKE_PREFIX_PATH = r'", "_CATKIN_SETUP_DIR:=", "Traceback (most recent call last)\n",
+    '  File "', "ValueError: ", "[/x/a.msg] ", "unable to load msg [", "a/",
+    "undefined reference to `", "No rule to make target ",
 )  # fmt: skip
 
 

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 from attack import ATTACKS, FILLS_MEMORY, LEAVE, in_memory
-from edits import B
+from solution import B
 from test_awkward import PYTHONPATH, SOURCE, command
 from test_endings import path_without_namespaces
 from test_hostile import processes_like

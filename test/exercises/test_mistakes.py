@@ -18,35 +18,30 @@ ROWS = OF_HANDOUT + mistakes_world.ROWS
 
 
 def is_reported(result, words):
-    """Return whether all the words, or the one, are in the report of a Result."""
-    words = [words] if isinstance(words, str) else words
+    """Return whether all the words are in the report of a Result."""
     report = "\n".join(lines_of(result)).lower()
     return all(word.lower() in report for word in words)
 
 
-def named(rows):
-    return [f"{row[0]} {row[1]}" for row in rows]
-
-
 def wrong_of(outcomes):
-    assert not [each.trouble for each in outcomes if each.trouble]
-    return [one for each in outcomes for one in each.wrong]
+    assert not [outcome.trouble for outcome in outcomes if outcome.trouble]
+    return [result for outcome in outcomes for result in outcome.wrong]
 
 
-@pytest.mark.parametrize("row", ROWS, ids=named(ROWS))
+@pytest.mark.parametrize("row", ROWS, ids=str)
 def test_a_mistake_is_found(row, literal, examined):
-    exercise, _, edits, check, words = row
-    apply(edits, literal)
-    wrong = wrong_of(examined(literal.parent, [exercise], only_first=True))
-    assert wrong, f"missed: should be {check}"
+    apply(row.edits, literal)
+    wrong = wrong_of(examined(literal.parent, [row.exercise], only_first=True))
+    assert wrong, f"missed: should be {row.check}"
     report = "\n".join(lines_of(wrong[0]))
-    assert wrong[0].id == check and is_reported(wrong[0], words), f"should be {row[3:]}:\n{report}"
+    is_found = wrong[0].id == row.check and is_reported(wrong[0], row.words)
+    assert is_found, f"should be {row.check}, {row.words}:\n{report}"
 
 
-@pytest.mark.parametrize("row", OF_HANDOUT, ids=named(OF_HANDOUT))
+@pytest.mark.parametrize("row", OF_HANDOUT, ids=str)
 def test_a_mistake_is_found_in_all_exercises(row, literal, underlay):
-    """Its cause is reported, maybe by an earlier check, and it keeps no other one from a verdict."""
-    apply(row[2], literal)
+    """Its cause is reported, maybe by an earlier check, and keeps no other one from a verdict."""
+    apply(row.edits, literal)
     order = Order(literal.parent, underlay, read_course().by_default)
     wrong = wrong_of(examine(order, side_by_side=True))
-    assert any(is_reported(one, row[4]) for one in wrong), [lines_of(one) for one in wrong]
+    assert any(is_reported(result, row.words) for result in wrong), [*map(lines_of, wrong)]

@@ -1,9 +1,10 @@
-"""Variants of the task: a right solution of each is right, that of another is wrong; no answer is given."""
+"""Tasks: a right solution of each is right, that of another is wrong; no answer is given."""
 
 import re
 
 import pytest
-from edits import TALKER, J, at_night, put
+from edits import at_night, put
+from solution import TALKER, J
 
 from tutorial_check.course.definition import read_course
 from tutorial_check.course.tasks import drawn
@@ -15,7 +16,8 @@ FEW = {"axis_linear": 5, "axis_angular": 2, "scale_linear": -2.0, "rate": 1}  # 
 ADA, BOB = (drawn(COURSE, "test", name) for name in ("ada", "bob"))
 NAMES_THE_PACKAGE = (f'pkg="{J}"', f"find {J})", f"<name>{J}<", f"project({J})", f"_manifest('{J}'")
 HANDOUT = {"axis_linear": 1, "axis_angular": 0, "scale_linear": 1.0, "scale_angular": 1.0,
-           "joy": "/joy", "cmd_vel": "/cmd_vel", "package": J, "node": "listener", "rate": 10}  # fmt: skip
+           "joy": "/joy", "cmd_vel": "/cmd_vel", "package": J, "node": "listener",
+           "rate": 10}  # fmt: skip
 CHECKS = {"joy": "C14", "cmd_vel": "C15", "package": "C12", "node": "C15", "rate": "C6"}
 
 
@@ -50,7 +52,7 @@ def turn(src, values):
 
 @pytest.fixture
 def wrong_of(literal, examined):
-    """wrong_of(exercises, values): the results of that task that are no success; none gives it away."""
+    """wrong_of(exercises, values): results of a task that are no success; none gives it away."""
 
     def check(exercises, values):
         outcomes = examined(literal.parent, exercises, variant=values)

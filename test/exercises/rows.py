@@ -1,0 +1,60 @@
+"""The rows of data: mistakes, right solutions, and right ones with a note; how to write one."""
+
+from dataclasses import dataclass
+from typing import Callable, Dict, Sequence
+
+from edits import Edit, put
+
+
+@dataclass(frozen=True)
+class Mistake:
+    """What a student gets wrong, the check that is wrong then, and words of its report."""
+
+    exercise: str
+    what: str
+    edits: Sequence[Edit]
+    check: str
+    words: Sequence[str]
+
+    def __str__(self) -> str:
+        return f"{self.exercise} {self.what}"
+
+
+@dataclass(frozen=True)
+class RightVariant:
+    """What a student does otherwise than the handout, and is right in these exercises."""
+
+    what: str
+    edits: Sequence[Edit]
+    exercises: Sequence[str]
+
+    def __str__(self) -> str:
+        return self.what
+
+
+@dataclass(frozen=True)
+class Noted(RightVariant):
+    """What is right and worth a note: {check: words of the note; none: no note}."""
+
+    notes: Dict[str, Sequence[str]]
+
+
+def mistake(exercise: str, what: str, edits: Sequence[Edit], check: str, *words: str) -> Mistake:
+    return Mistake(exercise, what, edits, check, words)
+
+
+def mistake_in(exercise: str, path: str, *before: Edit) -> Callable[..., Mistake]:
+    """Return a constructor of mistakes that are one change, old to new, of a file."""
+
+    def row(what: str, old: str, new: str, check: str, *words: str) -> Mistake:
+        return Mistake(exercise, what, [*before, put(path, old, new)], check, words)
+
+    return row
+
+
+def right(what: str, exercises: str, *edits: Edit) -> RightVariant:
+    return RightVariant(what, edits, exercises.split())
+
+
+def noted(what: str, exercises: str, edits: Sequence[Edit], **notes: Sequence[str]) -> Noted:
+    return Noted(what, edits, exercises.split(), notes)
