@@ -137,7 +137,7 @@ def wrong(what, answer, words, keep="", spin=""):
     """Return a mistake in each of two frames."""
     return [
         mistake(
-            "4.3", f"{what}, in {frame}", [write(JOY2TWIST, program(frame, answer, keep, spin))],
+            f"{what}, in {frame}", [write(JOY2TWIST, program(frame, answer, keep, spin))],
             "C16", words,
         )
         for frame in ("functions", "class")

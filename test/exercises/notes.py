@@ -1,6 +1,7 @@
 """Right solutions that are worth a note: its words by their check; no words: no note."""
 
-from edits import built, chatter, chmod, package, put, remove, write
+from edits import built, chatter, chmod, put, remove, write
+from manifests import package
 from rows import noted
 from solution import CLASS, CMAKE, JOY2TWIST, JOY_BAG, LAUNCH_BAG, LISTENER, SUB, TALKER, B
 

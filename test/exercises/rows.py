@@ -5,6 +5,11 @@ from typing import Callable, Dict, Sequence
 
 from edits import Edit, put
 
+from tutorial_check.checking.checks import checks_of
+from tutorial_check.course.definition import read_course
+
+EXERCISES = {check.id: check.exercise for check in checks_of(read_course())}
+
 
 @dataclass(frozen=True)
 class Mistake:
@@ -39,15 +44,15 @@ class Noted(RightVariant):
     notes: Dict[str, Sequence[str]]
 
 
-def mistake(exercise: str, what: str, edits: Sequence[Edit], check: str, *words: str) -> Mistake:
-    return Mistake(exercise, what, edits, check, words)
+def mistake(what: str, edits: Sequence[Edit], check: str, *words: str) -> Mistake:
+    return Mistake(EXERCISES[check], what, edits, check, words)
 
 
-def mistake_in(exercise: str, path: str, *before: Edit) -> Callable[..., Mistake]:
+def mistake_in(path: str, check: str, *before: Edit) -> Callable[..., Mistake]:
     """Return a constructor of mistakes that are one change, old to new, of a file."""
 
-    def row(what: str, old: str, new: str, check: str, *words: str) -> Mistake:
-        return Mistake(exercise, what, [*before, put(path, old, new)], check, words)
+    def row(what: str, old: str, new: str, *words: str) -> Mistake:
+        return mistake(what, [*before, put(path, old, new)], check, *words)
 
     return row
 

@@ -24,7 +24,7 @@ TALKERS = {
     "a fork bomb": (FORKS, "again and again"),
     "kills all it may": ("os.kill(-1, 9)\n", "has ended it"),
     "prints without end": ("while True:\n    print('x' * 1000000)\n", ""),
-    "fills the disk": ("file = open('full', 'wb')\nwhile file.write(b'x' * 10**6):\n    pass\n", ""),
+    "fills the disk": ("file = open('x', 'wb')\nwhile file.write(b'x' * 10**6):\n    pass\n", ""),
     "ends the master": (f"import {MASTER}.shutdown('/me', 'no more')\n", "has ended it"),
 }  # fmt: skip
 # It works as it should, and leaves links where the checker writes a changed copy of it (C9).

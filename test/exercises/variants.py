@@ -1,7 +1,8 @@
 """Right solutions that differ from the handout's."""
 
-from edits import chatter, chmod, copy, depend, latin1, manifest, move, put, write
+from edits import chatter, chmod, copy, latin1, move, put, write
 from grammar import RIGHT
+from manifests import depend, manifest
 from mistakes_world import RIGHT as RIGHT_IN_WORLD
 from rows import right
 from solution import (
