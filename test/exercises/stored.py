@@ -1,17 +1,14 @@
 """Recordings of the rows, stored: what their programs did is judged without running them again."""
 
-import ast
 import functools
 import hashlib
-import importlib.util
-import io
-import itertools
 import json
 import lzma
 import re
 import shutil
-import tokenize
 from pathlib import Path
+
+from recorder_code import REPOSITORY, code_hash
 
 from tutorial_check.checking.judging import judge
 from tutorial_check.course.definition import read_course
@@ -21,9 +18,6 @@ from tutorial_check.submission.order import Order, Reply
 
 FOLDER = Path(__file__).resolve().parent / "recordings"
 NEW = FOLDER / "new"
-REPOSITORY = FOLDER.parents[2]
-BEFORE_A_STATEMENT = (tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT)
-OURS = ("tutorial_check", "courses")  # The rest is the standard library and ROS.
 
 
 def section_of(test):
@@ -123,50 +117,3 @@ def code_of(recordings):
     """Return {module of recorders: hash of its code, and of what it works with}."""
     modules = {one["recorder"].partition(":")[0] for one in recordings}
     return {name: code_hash(name) for name in sorted(modules)}
-
-
-@functools.lru_cache(maxsize=None)
-def code_hash(module):
-    """Return a hash of the code of a module of recorders, which says nothing about its comments.
-
-    Of its words, and not of its syntax tree, which each Python writes in another way.
-    """
-    files = (importlib.util.find_spec(name).origin for name in sorted(imported_by(module, set())))
-    words = (word for file in files for word in code_of_file(Path(file)).split())
-    return hashlib.sha256(" ".join(words).encode()).hexdigest()[:12]
-
-
-def imported_by(module, found):
-    """Add a module to those found, with all of ours that it imports; return them."""
-    if module.partition(".")[0] not in OURS or module in found:
-        return found
-    spec = importlib.util.find_spec(module)
-    if spec.submodule_search_locations is None:
-        found.add(module)
-        for node in ast.walk(ast.parse(Path(spec.origin).read_text())):
-            if isinstance(node, ast.ImportFrom):
-                name = "." * node.level + (node.module or "")
-                base = importlib.util.resolve_name(name, spec.parent)
-                if base.partition(".")[0] in OURS:
-                    inner = (f"{base}.{alias.name}" for alias in node.names)
-                    is_package = importlib.util.find_spec(base).submodule_search_locations
-                    for each in (
-                        base,
-                        *filter(importlib.util.find_spec, inner if is_package else ()),
-                    ):
-                        imported_by(each, found)
-    return found
-
-
-def code_of_file(path):
-    """Return a text without its comments and docstrings."""
-    text = path.read_text()
-    starts = [0, *itertools.accumulate(map(len, text.splitlines(keepends=True)))]
-    kept, rest, begins = [], 0, True  # a statement
-    for token in tokenize.generate_tokens(io.StringIO(text).readline):
-        if token.type == tokenize.COMMENT or (token.type == tokenize.STRING and begins):
-            kept.append(text[rest : starts[token.start[0] - 1] + token.start[1]])
-            rest = starts[token.end[0] - 1] + token.end[1]
-        goes_on = token.type in (tokenize.COMMENT, tokenize.NL)
-        begins = token.type in BEFORE_A_STATEMENT or (begins and goes_on)
-    return "".join(kept) + text[rest:]

@@ -19,8 +19,8 @@ from tutorial_check import (
     Workspace,
 )
 
-from ..task import CMD_VEL
 from ..talker_listener.record import PACKAGE
+from ..task import CMD_VEL
 
 SIDES = ("left", "center", "right")  # kobuki_msgs/BumperEvent: 0, 1, 2
 ANSWER_S = 2.0  # for a line on the screen

@@ -1,0 +1,43 @@
+"""What makes a stored recording old: a change of what its recorder imports, and of nothing else."""
+
+import pytest
+from recorder_code import closure, modules_of
+
+SECTIONS = ("talker_listener", "launch_files", "world")
+RECORDERS = [f"courses.handout.{section}.record" for section in SECTIONS]
+DRIVING = pytest.param(
+    "courses.handout.driving.record",
+    marks=pytest.mark.xfail(strict=False, reason="its rules are diagnoses, which are checking's"),
+)
+
+
+@pytest.mark.parametrize("recorder", [*RECORDERS, DRIVING])
+def test_a_change_of_a_check_or_a_report_makes_no_recording_old(recorder):
+    later = ("tutorial_check.checking", "tutorial_check.report", "tutorial_check.commands")
+    assert not [name for name in closure(recorder) if name.startswith(later)]
+
+
+@pytest.mark.parametrize("recorder", [*RECORDERS, "courses.handout.driving.record"])
+def test_a_change_of_what_runs_programs_or_reads_them_makes_recordings_old(recorder):
+    checker = ("processes.runner", "processes.cpu_clock", "submission.python_facts")
+    imported_later = ("recording.peer", "recording.gamepad")  # within functions
+    needed = {f"tutorial_check.{name}" for name in (*checker, *imported_later)}
+    needed |= {recorder, "courses.handout.task", "gamepad.virtual.pads"}
+    assert needed <= closure(recorder)
+
+
+@pytest.mark.parametrize(
+    ("base", "name", "modules"),
+    [
+        ("tutorial_check", "Wrong", ["tutorial_check.checking.results"]),
+        ("tutorial_check.recording", "peer", ["tutorial_check.recording.peer"]),
+        ("tutorial_check.recording.peer", "Peer", ["tutorial_check.recording.peer"]),
+        ("tutorial_check", None, ["tutorial_check"]),
+        ("os.path", "join", []),
+        ("rospy", "Time", []),
+        ("kobuki_msgs.msg", "BumperEvent", []),
+        ("none.such", "name", []),
+    ],
+)
+def test_a_name_stands_for_the_module_that_defines_it(base, name, modules):
+    assert modules_of(base, name) == modules
