@@ -11,7 +11,7 @@ from typing import Iterable, Mapping, Sequence, Tuple, TypeVar
 
 from tutorial_check import Task, Variant
 
-PACKAGE, NAME = "joy2twist", "joy2twist.py"
+BEGINNER, PACKAGE, NAME = "beginner_tutorials", "joy2twist", "joy2twist.py"
 JOY, CMD_VEL = "/joy", "/cmd_vel"
 LB = 4  # the dead-man button of the handout's memo
 FIELDS = {"axis_linear": (1, "scale_linear"), "axis_angular": (0, "scale_angular")}

@@ -141,7 +141,7 @@ LAUNCH = '<launch>\n  <node pkg="turtlesim" type="mimic" name="m"/>\n</launch>\n
     ("name", "text", "seen", "where"),
     [
         ("a.launch", LAUNCH, "", "launch/a.launch:2"),
-        ("b.launch", LAUNCH, "a file b.launch", ""),
+        ("b.launch", LAUNCH, "a file p/launch/b.launch", "p/launch/b.launch"),
         ("a.launch", LAUNCH.replace("/>", ">"), "mismatched tag", "launch/a.launch:2"),
         ("a.launch", LAUNCH.replace("mimic", "mimick"), "Cannot locate", "launch/a.launch:2"),
         ("a.launch", LAUNCH.replace("turtlesim", "turtle"), "Cannot locate", "launch/a.launch:2"),

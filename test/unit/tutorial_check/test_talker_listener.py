@@ -5,7 +5,8 @@ from dataclasses import replace
 import pytest
 
 from courses.handout.talker_listener import checks as judge
-from courses.handout.talker_listener.record import PACKAGE, STRINGS, Talk
+from courses.handout.talker_listener.record import STRINGS, Talk
+from courses.handout.task import BEGINNER
 from tutorial_check.checking.results import Wrong
 from tutorial_check.processes.program import Ran
 
@@ -27,11 +28,11 @@ RIGHT = Talk(
 @pytest.fixture
 def asked(make_submission):
     """asked(check, text, **recorded): what a check says of a program of that text, or raises."""
-    submission = make_submission(PACKAGE, "3")
+    submission = make_submission(BEGINNER, "3")
 
     def ask(check, text, **recorded):
         for name in ("talker.py", "listener.py"):
-            (submission.package(PACKAGE).folder / name).write_text(text)
+            (submission.package(BEGINNER).folder / name).write_text(text)
         submission.recording = lambda recorder, *arguments: replace(RIGHT, **recorded)
         return check(submission)
 

@@ -9,11 +9,11 @@ import re
 from typing import Sequence
 
 from tutorial_check import (
+    Script,
     Submission,
     Wrong,
     check_file,
     crash,
-    ended,
     first_traceback,
     shows,
     unmasked,
@@ -111,7 +111,7 @@ class Facts:
         return wrong if wrong and wrong.where else None
 
     def end(self) -> Wrong:
-        return ended(self.crash(), self.facts, self.seen.script)
+        return Script(self.submission, PACKAGE, self.seen.script).with_end(self.crash())
 
     def odd(self) -> Wrong:
         """Return the Wrong for answers of another rule, at the line that sets the field."""

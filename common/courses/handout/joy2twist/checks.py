@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tutorial_check import Note, Submission, check, check_end, check_file, find_script, odd_node
+from tutorial_check import Note, Script, Submission, check, check_file, find_script
 
 from ..driving import behaviour
 from ..driving.program import check_manifest, main_script
@@ -18,7 +18,7 @@ def file(submission: Submission) -> Note | str:
     for script in dict.fromkeys((find_script(submission, PACKAGE, NAME), main)):
         check_file(submission, PACKAGE, script)
         check_manifest(submission, script)
-    return odd_node(submission, PACKAGE, main) or main
+    return Script(submission, PACKAGE, main).odd_node() or main
 
 
 @check("C14", "it displays every Joy", "4.3", needs=file,
@@ -46,7 +46,7 @@ def rate(submission: Submission) -> Note | str | None:
 @check("C34", "Ctrl-C ends it", "4.3", needs=mapping, look="Ctrl-C in its terminal")
 def ctrl_c(submission: Submission) -> Note | str:
     seen = submission.recording(drive, main_script(submission))
-    note = check_end(submission, PACKAGE, seen.script, seen.taken_s, seen.last_words)
+    note = Script(submission, PACKAGE, seen.script).check_end(seen.taken_s, seen.last_words)
     return note or f"{seen.taken_s:.1f} s"
 
 

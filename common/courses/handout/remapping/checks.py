@@ -7,10 +7,9 @@ from dataclasses import replace
 
 from tutorial_check import Submission, Wrong, check, last_lines
 
-from ..launch_files import checks as launch_nodes
-from ..launch_files.checks import fault_of, plan_of, traced
-from ..launch_files.files import JOY_HINT, REAL, TURTLEBOT, LaunchFile, check_file
-from ..launch_files.record import Plan
+from ..launching.files import JOY_HINT, REAL, TURTLEBOT, HandoutLaunch, check_launch
+from ..launching.record import Plan
+from ..launching.runs import OWN_HINT, fault_of, plan_of, topic_of, traced
 from ..task import CMD_VEL, JOY
 from .record import TELEOP, Remap, real_run, remap_run
 
@@ -24,9 +23,9 @@ def remap_of(submission: Submission) -> str:
 @check("C27", "joy2twist_turtlebot sends to the multiplexer", "6.1", needs="C16",
        look="rostopic echo /cmd_vel_mux/input/teleop")  # fmt: skip
 def remapped(submission: Submission) -> None:
-    file, own = check_file(submission, TURTLEBOT), submission.task.topic(CMD_VEL)
-    file.demand("joy2twist", file.own, launch_nodes.OWN_HINT.format(file.package))
-    joys = launch_nodes.topic_of(file.own[0], submission.task.topic(JOY))
+    file, own = check_launch(submission, TURTLEBOT), submission.task.topic(CMD_VEL)
+    file.must_start("joy2twist", file.own, OWN_HINT.format(file.student_package))
+    joys = topic_of(file.own[0], submission.task.topic(JOY))
     plan = replace(plan_of(file, TELEOP), joys=joys)
     seen = submission.recording(remap_run, plan, own)
     if not seen.good or seen.bad or own in seen.publishers:
@@ -39,7 +38,7 @@ def remapped(submission: Submission) -> None:
         raise Wrong(expected, f"{program} publishes on {TELEOP} by itself", file.at(program), hint)
 
 
-def _not_remapped(file: LaunchFile, plan: Plan, seen: Remap) -> Wrong:
+def _not_remapped(file: HandoutLaunch, plan: Plan, seen: Remap) -> Wrong:
     """Return the Wrong for velocities that do not flow where they should, or elsewhere, too."""
     own, hint = file.submission.task.topic(CMD_VEL), remap_of(file.submission)
     remaps = [remap for node in file.own for remap in node["remaps"]]
@@ -72,16 +71,16 @@ def _not_remapped(file: LaunchFile, plan: Plan, seen: Remap) -> Wrong:
 @check("C28", "launch_joy_node_realTurtlebot drives the TurtleBot", "6.1", needs=remapped,
        look="rostopic echo /cmd_vel_mux/active")  # fmt: skip
 def real_robot(submission: Submission) -> None:
-    file = check_file(submission, REAL)
+    file = check_launch(submission, REAL)
     # Its node, with the remap, may stand here once more.
     topics = [f"/{to.strip('/')}" for node in file.own for _, to in node["remaps"]]
     is_included = any(each.endswith(f"/{TURTLEBOT}") for each in file.facts["files"])
     if TELEOP not in topics and not is_included:
-        hint = f'<include file="$(find {file.package})/launch/{TURTLEBOT}"/>'
+        hint = f'<include file="$(find {file.student_package})/launch/{TURTLEBOT}"/>'
         raise Wrong(f"it includes {TURTLEBOT}", "it does not", file.where, hint)
     launcher = '<include file="$(find turtlebot_rviz_launchers)/launch/view_robot.launch"/>'
-    file.demand("RViz", file.of("viewer"), launcher)
-    file.demand("joy_node", file.of("joystick"), JOY_HINT)
+    file.must_start("RViz", file.of("viewer"), launcher)
+    file.must_start("joy_node", file.of("joystick"), JOY_HINT)
     if len(file.own) > 1:
         seen, hint = f"{len(file.own)}: both would drive", f"{TURTLEBOT} starts it already"
         raise Wrong("one joy2twist", seen, file.at("joy2twist.py"), hint)

@@ -9,7 +9,7 @@ from typing import Tuple
 from tutorial_check import CannotCheck, Topics, Workspace
 
 from ..driving.record import rest
-from ..launch_files.record import Launch, Plan, Run, drives_forwards, plug_in_for
+from ..launching.record import LaunchRun, Plan, RunningLaunch, drives_forwards, plug_in_for
 
 TELEOP, ACTIVE = "/cmd_vel_mux/input/teleop", "/cmd_vel_mux/active"
 
@@ -18,7 +18,7 @@ TELEOP, ACTIVE = "/cmd_vel_mux/input/teleop", "/cmd_vel_mux/active"
 class Remap:
     """joy2twist_turtlebot, which was sent Joys."""
 
-    run: Run
+    run: LaunchRun
     good: bool  # velocities came on TELEOP
     bad: bool  # velocities came on the program's own topic
     publishers: Topics
@@ -31,15 +31,15 @@ def remap_run(workspace: Workspace, plan: Plan, own: str) -> Remap:
     with workspace.ros_session(renamed=False) as ros:
         ros.peer.listen(own, "Twist")
         ros.peer.advertise(plan.joys, "Joy")
-        launch = Launch(workspace, ros, plan)
+        launch = RunningLaunch(workspace, ros, plan)
         topics = (TELEOP, own)
 
         def others() -> tuple[str, ...]:
-            found = (each for each in ros.peer.state()[0] if each not in topics)
-            return tuple(sorted(each for each in found if re.search("vel|teleop|mux", each)))
+            names = (name for name in ros.peer.state()[0] if name not in topics)
+            return tuple(sorted(name for name in names if re.search("vel|teleop|mux", name)))
 
         def is_up() -> bool:
-            publishes = any(ros.peer.publishers(each) for each in topics)
+            publishes = any(map(ros.peer.publishers, topics))
             # One of the listeners is ours.
             return ros.peer.listeners(plan.joys) > 1 and bool(publishes or others())
 
@@ -50,13 +50,13 @@ def remap_run(workspace: Workspace, plan: Plan, own: str) -> Remap:
         def moving(topic: str) -> bool:
             return any(abs(value[0]) > 0.01 for _, _, value in ros.peer.received(topic))
 
-        ros.wait(lambda: any(map(moving, topics)) or launch.is_over(), 3.0)
+        ros.wait(lambda: any(map(moving, topics)) or launch.is_over, 3.0)
         good, bad = map(moving, topics)
         publishers, subscribers = ros.peer.state()
         return Remap(launch.run(good), good, bad, publishers, subscribers, others())
 
 
-def real_run(workspace: Workspace, plan: Plan, has_base: bool) -> Run:
+def real_run(workspace: Workspace, plan: Plan, has_base: bool) -> LaunchRun:
     """Run the file for the real TurtleBot beside a simulated one, and push the stick."""
     with workspace.ros_session(renamed=False) as ros:
         ros.peer.listen(ACTIVE, "String")
@@ -64,7 +64,7 @@ def real_run(workspace: Workspace, plan: Plan, has_base: bool) -> Run:
         if not has_base:
             command = ["roslaunch", "fake_turtlebot_sim", "minimal.launch", "model:=false"]
             base = ros.launch(command, trusted=True)
-        launch = Launch(workspace, ros, plan)
+        launch = RunningLaunch(workspace, ros, plan)
         drives = drives_forwards(ros, gamepad, launch, ACTIVE)
         if base and base.ended:
             raise CannotCheck(f"the simulated TurtleBot does not start: {base.output[-200:]}")

@@ -7,9 +7,8 @@ from typing import Dict, Optional, Tuple
 
 from tutorial_check import SETTLE_S, HeardText, Program, Ran, RosSession, Topics, Workspace
 
-from ..task import OF_ALL
+from ..task import BEGINNER, OF_ALL
 
-PACKAGE = "beginner_tutorials"
 LISTEN_S = 1.5  # to the talker
 TOPIC, KIND = "/chatter", "std_msgs/String"
 ANOTHER_S = 3.0  # after another topic, or type, in which a talker makes the right one, or ends
@@ -57,7 +56,7 @@ def talk(workspace: Workspace, talker: str, listener: str) -> Talk:
     """Start the programs of these paths, and send STRINGS to the listener."""
     with workspace.ros_session() as ros:
         ros.peer.listen(TOPIC, "String")
-        first, listens = ros.start(PACKAGE, talker), ros.start(PACKAGE, listener)
+        first, listens = ros.start(BEGINNER, talker), ros.start(BEGINNER, listener)
         published: dict[str, str] = {}
 
         def is_right() -> bool:
@@ -106,7 +105,7 @@ def _pair(
     names: set[str],
 ) -> Pair:
     """Start a second talker of the same kind; both must go on, or the first must end."""
-    second = ros.start(PACKAGE, talker)
+    second = ros.start(BEGINNER, talker)
 
     def both() -> bool:
         return len({caller for _, caller, _ in _received(ros)[-20:]}) > 1 and not first.ended
@@ -122,14 +121,14 @@ def _pair(
 
 def second(workspace: Workspace, talker: str, text: str) -> Second:
     """Start two talkers with this text in place of their own."""
-    script = workspace.sibling(PACKAGE, talker, text)
+    script = workspace.sibling(BEGINNER, talker, text)
     with workspace.ros_session() as ros:
         ros.peer.listen(TOPIC, "String")
-        first = ros.start(PACKAGE, script)
+        first = ros.start(BEGINNER, script)
         talks = ros.wait_for_start(lambda: ros.peer.count(TOPIC) or first.ended)
         if first.ended or not talks:
             return Second(first.ran, talks=False)
-        other = ros.start(PACKAGE, script)
+        other = ros.start(BEGINNER, script)
 
         def settled() -> bool:
             callers = {caller for _, caller, _ in ros.peer.received(TOPIC)}

@@ -18,8 +18,7 @@ from tutorial_check import (
     program_of,
 )
 
-from ..talker_listener.record import PACKAGE
-from ..task import CMD_VEL
+from ..task import BEGINNER, CMD_VEL
 from . import record
 from .record import LONGEST_PUSH_S, SIDES, WANDER_S
 
@@ -32,12 +31,12 @@ LEAST_WAY_M, LEAST_WIDTH_M = 3.0, 2.0
 
 @check("C35", "the bumper is read", "7", needs="C2", look="rosrun beginner_tutorials bumper.py")
 def reads_bumper(submission: Submission) -> str:
-    script = program_of(submission, PACKAGE, "bumper.py")
+    script = program_of(submission, BEGINNER, "bumper.py")
     seen = submission.recording(record.presses, script)
     if not seen.connected:
         hint = "rospy.Subscriber('mobile_base/events/bumper', BumperEvent, callback)"
         expected, kind = f"it subscribes to {BUMPER}, until Ctrl-C", "kobuki_msgs/BumperEvent"
-        wrong = crash(submission, PACKAGE, seen.program, expected, hint)
+        wrong = crash(submission, BEGINNER, seen.program, expected, hint)
         raise _elsewhere(wrong, "subscribes to", BUMPER, kind, seen.subscribers, seen.types)
     for number, (side, shown) in enumerate(zip(SIDES, seen.shown)):
         # The paths of a traceback may have the number, too.
@@ -45,7 +44,7 @@ def reads_bumper(submission: Submission) -> str:
             expected = f"the {side} bumper on the screen when it is pressed"
             hint = f"event.bumper is {number} (BumperEvent.{side.upper()}), event.state 1"
             if seen.program.ended or "Traceback" in shown:
-                raise crash(submission, PACKAGE, seen.program, expected, hint)
+                raise crash(submission, BEGINNER, seen.program, expected, hint)
             raise Wrong(expected, shown or "nothing", script, hint)
     if len(set(seen.shown)) < len(SIDES):
         hint = "event.bumper says which one: BumperEvent.LEFT, CENTER or RIGHT"
@@ -68,7 +67,7 @@ def _elsewhere(
        look="roslaunch fake_turtlebot_sim fake_turtlebot.launch world:=room;"
        " rosrun beginner_tutorials stop_before_wall.py _speed:=0.3")  # fmt: skip
 def stops(submission: Submission) -> str:
-    script = program_of(submission, PACKAGE, "stop_before_wall.py")
+    script = program_of(submission, BEGINNER, "stop_before_wall.py")
     gaps = [_gap_m(submission, script, speed) for speed in SPEEDS]
     return ", ".join(f"{gap:.2f} m at {speed} m/s" for gap, speed in zip(gaps, SPEEDS))
 
@@ -80,14 +79,14 @@ def _gap_m(submission: Submission, script: str, speed: float) -> float:
         expected = f"the robot drives towards the wall with _speed:={speed}"
         hint = "it publishes on cmd_vel for each LaserScan on scan"
         wrong, kind = (
-            crash(submission, PACKAGE, drive.program, expected, hint),
+            crash(submission, BEGINNER, drive.program, expected, hint),
             "geometry_msgs/Twist",
         )
         raise _elsewhere(wrong, "publishes on", CMD_VEL, kind, drive.publishers, drive.types)
     fastest, gap_m = max(sample.v for sample in path), WALL_X_M - RADIUS_M - path[-1].x
     expected = f"a stop {LEAST_GAP_M} to {MOST_GAP_M} m before the wall, with _speed:={speed}"
     if drive.program.code:
-        raise crash(submission, PACKAGE, drive.program, expected)
+        raise crash(submission, BEGINNER, drive.program, expected)
     if abs(fastest - speed) > 0.2 * speed:
         hint = 'rospy.get_param("~speed", 0.3) is the speed [m/s]'
         raise Wrong(f"{speed} m/s with _speed:={speed}", f"{fastest:.2f} m/s", script, hint)
@@ -107,13 +106,13 @@ def _gap_m(submission: Submission, script: str, speed: float) -> float:
        look="roslaunch fake_turtlebot_sim fake_turtlebot.launch world:=room;"
        " rosrun beginner_tutorials wander.py")  # fmt: skip
 def wanders(submission: Submission) -> str:
-    script = program_of(submission, PACKAGE, "wander.py")
+    script = program_of(submission, BEGINNER, "wander.py")
     drive = submission.recording(record.wandering, script)
     expected = f"it drives about for {WANDER_S:.0f} s"
     expected += f" and never pushes for {LONGEST_PUSH_S:.0f} s or longer"
     if drive.program.ended:
         hint = "does it loop, or rospy.spin()?"
-        raise crash(submission, PACKAGE, drive.program, expected, hint)
+        raise crash(submission, BEGINNER, drive.program, expected, hint)
     push_s = record.longest_push_s(drive.bumps, drive.ended_s)
     if push_s > LONGEST_PUSH_S:
         hint = "with BumperEvent.PRESSED go back: linear.x < 0; what is beside it no scan shows"

@@ -19,8 +19,7 @@ from tutorial_check import (
     Workspace,
 )
 
-from ..talker_listener.record import PACKAGE
-from ..task import CMD_VEL
+from ..task import BEGINNER, CMD_VEL
 
 SIDES = ("left", "center", "right")  # kobuki_msgs/BumperEvent: 0, 1, 2
 ANSWER_S = 2.0  # for a line on the screen
@@ -63,7 +62,7 @@ def presses(workspace: Workspace, script: str) -> Presses:
     shown: list[str] = []
     with workspace.ros_session() as ros:
         ros.peer.advertise(BUMPER, "BumperEvent")
-        program = ros.start(PACKAGE, script)
+        program = ros.start(BEGINNER, script)
         connected = ros.meet(program, BUMPER) and not program.ended
         subscribers, types = ros.peer.state()[1], ros.peer.types()
         for number in range(len(SIDES)) if connected else ():
@@ -99,7 +98,7 @@ def _driven(workspace: Workspace, script: str, *arguments: str) -> Drive:
     with workspace.ros_session() as ros:
         robot = SimulatedRobot(ros, "_world:=room", f"_initial_x:={START_X_M}")
         ros.peer.listen(CMD_VEL, "Twist")
-        program = ros.start(PACKAGE, script, *arguments)
+        program = ros.start(BEGINNER, script, *arguments)
 
         def now_s() -> float:
             return ros.peer.received(TRUTH, -1)[0][0]

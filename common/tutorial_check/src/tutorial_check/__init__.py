@@ -9,24 +9,21 @@ from tutorial_check.checking.build_errors import build_error, missing_in, not_fo
 from tutorial_check.checking.builds import build_output, cmake_of, must_build
 from tutorial_check.checking.causes import is_lacking, meant, packages_of_ros, with_import
 from tutorial_check.checking.checks import check
-from tutorial_check.checking.files import File, recorded
-from tutorial_check.checking.launch_errors import UNSET, blamed_place, launch_error, package_hint
-from tutorial_check.checking.launches import LaunchFile, launch_file
+from tutorial_check.checking.crashes import cause_of, crash, traceback_of
+from tutorial_check.checking.files import File, Script
+from tutorial_check.checking.launch_errors import package_hint
+from tutorial_check.checking.launches import LaunchFile, find_launch, launch_file
 from tutorial_check.checking.manifest_errors import must_be_unique, unreadable
 from tutorial_check.checking.packages import must_be_launchable, package_of
 from tutorial_check.checking.programs import (
-    cause_of,
-    check_end,
-    check_file,
-    crash,
-    ended,
     find_script,
     must_be_one_program,
-    odd_node,
     program_of,
+    recorded,
 )
-from tutorial_check.checking.results import Note, Wrong, first_of, wrong_of
+from tutorial_check.checking.results import Note, Wrong, first_of, must_pass, wrong_of
 from tutorial_check.checking.rows import Row, demand, find
+from tutorial_check.checking.script_faults import check_file
 from tutorial_check.checking.submission import Submission
 from tutorial_check.checking.texts import Lines, read_xml, text_of_file
 from tutorial_check.course.tasks import Task, Variant
@@ -63,17 +60,17 @@ if TYPE_CHECKING:  # its module loads ROS
     from tutorial_check.recording.gamepad import Gamepad as Gamepad
 
 __all__ = [
-    "BUMPER", "GAPS", "GRACE_S", "MASTER_GONE", "ODOM", "SETTLE_S", "START_S", "TRUTH", "UNSET",
-    "Answer", "Built", "CannotCheck", "ClassFacts", "Client", "CutShort", "Fault", "File", "Heard",
+    "BUMPER", "GAPS", "GRACE_S", "MASTER_GONE", "ODOM", "SETTLE_S", "START_S", "TRUTH", "Answer",
+    "Built", "CannotCheck", "ClassFacts", "Client", "CutShort", "Fault", "File", "Heard",
     "HeardText", "Launch", "LaunchFile", "Lines", "Node", "Note", "Package", "Program",
-    "PythonFacts", "Ran", "RosSession", "Row", "Sample", "Seen", "SimulatedRobot", "Submission",
-    "SubmissionFiles", "Task", "Topics", "Transform", "Variant", "Workspace", "Wrong", "attribute",
-    "blamed_place", "build_error", "build_output", "built", "cause_of", "check", "check_end",
-    "check_file", "cmake_of", "crash", "demand", "ended", "find", "find_script", "first_of",
+    "PythonFacts", "Ran", "RosSession", "Row", "Sample", "Script", "Seen", "SimulatedRobot",
+    "Submission", "SubmissionFiles", "Task", "Topics", "Transform", "Variant", "Workspace", "Wrong",
+    "attribute", "build_error", "build_output", "built", "cause_of", "check", "check_file",
+    "cmake_of", "crash", "demand", "find", "find_launch", "find_script", "first_of",
     "first_traceback", "flipped_anonymous", "has_moved", "is_lacking", "is_stand_in", "last_lines",
-    "launch_error", "launch_file", "line_of", "meant", "missing_in", "must_be_launchable",
-    "must_be_one_program", "must_be_unique", "must_build", "not_found", "odd_node", "own_built",
-    "package_hint", "package_of", "packages_beside", "packages_of_ros", "place_of", "program_of",
-    "put_file", "read_launch_files", "read_xml", "recorded", "shows", "text_of_file", "underlays",
-    "unmasked", "unreadable", "with_bases", "with_import", "without_name", "wrong_of",
+    "launch_file", "line_of", "meant", "missing_in", "must_be_launchable", "must_be_one_program",
+    "must_be_unique", "must_build", "must_pass", "not_found", "own_built", "package_hint",
+    "package_of", "packages_beside", "packages_of_ros", "place_of", "program_of", "put_file",
+    "read_launch_files", "read_xml", "recorded", "shows", "text_of_file", "traceback_of",
+    "underlays", "unmasked", "unreadable", "with_bases", "with_import", "without_name", "wrong_of",
 ]  # fmt: skip

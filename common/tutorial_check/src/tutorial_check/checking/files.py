@@ -2,43 +2,92 @@
 
 from __future__ import annotations
 
-from typing import Callable, TypeVar
+import re
+from pathlib import Path
 
+from tutorial_check.checking.crashes import crash, silent_end, traceback_of
 from tutorial_check.checking.packages import package_of
-from tutorial_check.checking.programs import crash, program_of
-from tutorial_check.checking.results import Wrong
+from tutorial_check.checking.results import Note, Wrong
 from tutorial_check.checking.submission import Submission
 from tutorial_check.checking.texts import Lines
 from tutorial_check.processes.program import Ran
-
-Recording = TypeVar("Recording")
+from tutorial_check.submission.python_facts import PythonFacts
 
 
 class File(Lines):
-    """A file of a package, such as a program."""
+    """A file of a package."""
 
     def __init__(self, submission: Submission, package: str, path: str) -> None:
         """Read it. path: within the package. Raises Wrong if there is none."""
         if not (package_of(submission, package).folder / path).is_file():
             seen, hint = "no such file in the package", f"write it: {path}"
             raise Wrong(f"{package}/{path}", seen, hint=hint)
-        self._submission, self._package, self.where = submission, package, path
+        self.submission, self.package, self.where = submission, package, path
         self.text = submission.text(package, path)
+
+    def crash(self, ran: Ran, expected: str, hint: str = "") -> Wrong:
+        """Return the Wrong for a program that ended or failed, with its cause."""
+        return crash(self.submission, self.package, ran, expected, hint)
 
     def must_run(self, ran: Ran, expected: str, hint: str = "", may_end: bool = False) -> None:
         """Raise Wrong if this program printed a traceback, or has ended, unless it may."""
         if "Traceback" in ran.output or (ran.ended and not may_end):
-            hint = hint or "rospy.spin() keeps it running"
-            raise crash(self._submission, self._package, ran, expected, hint)
+            raise self.crash(ran, expected, hint or "rospy.spin() keeps it running")
 
 
-def recorded(
-    submission: Submission,
-    package: str,
-    name: str,
-    recorder: Callable[..., Recording],
-    *about: object,
-) -> tuple[File, Recording]:
-    """Return a program, and what recorder(workspace, path, ...) recorded of it. Raises Wrong."""
-    file = File(submission, package, program_of(submission, package, name))
-    return file, submission.recording(recorder, file.where, *about)
+class Script(File):
+    """A program of a package: its text as Python reads it, and the lines of its calls."""
+
+    def __init__(self, submission: Submission, package: str, path: str) -> None:
+        """Read it. path: within the package. Raises Wrong if there is none."""
+        super().__init__(submission, package, path)
+        self.name, scripts = Path(path).name, submission.scripts(package)
+        self.is_python = path in scripts
+        self.facts = scripts[path] if self.is_python else PythonFacts("")
+
+    def at_line(self, line: int = 0) -> str:
+        """Return FILE:LINE, or for line 0 the file."""
+        return f"{self.where}:{line}" if line else self.where
+
+    def at_call(self, name: str) -> str:
+        """Return FILE:LINE of the first call of a function of that name, or else the file."""
+        return self.at_line(*self.facts.lines(name)[:1])
+
+    def end(self, ran: Ran, expected: str, hint: str = "") -> Wrong:
+        """Return the Wrong for a program that ended, from its text if its output shows nothing."""
+        return self.with_end(self.crash(ran, expected, hint))
+
+    def with_end(self, wrong: Wrong) -> Wrong:
+        """Return the Wrong of a program that ended, with what its text shows if it has no place."""
+        if not wrong.where:
+            subscriber = self.facts.first("Subscriber")
+            topic = f"; it subscribes to {', '.join(subscriber.words[:2])}" if subscriber else ""
+            line, hint = silent_end(self.facts)
+            wrong.seen, wrong.where = wrong.seen + topic, self.at_line(line)
+            wrong.hint = hint if line else wrong.hint or hint
+        return wrong
+
+    def check_end(self, taken_s: float | None, output: str) -> Note | None:
+        """Return a Note on its end after Ctrl-C, or None. Raises Wrong; taken_s: None if killed."""
+        if taken_s is None:
+            endless = self.facts.loops if "is_shutdown" not in self.facts.calls else []
+            expected, where = f"{self.name} ends within 3 s of Ctrl-C", self.at_line(*endless[:1])
+            hint = "rospy.spin(), or while not rospy.is_shutdown(): and no `except` that hides"
+            raise Wrong(expected, "it had to be killed", where, f"{hint} the end")
+        trace = traceback_of(self.submission, self.package, output)
+        if trace and "ROSInterrupt" in trace.error:
+            seen = f"{self.name} ends with a traceback, ROSInterruptException"
+            return Note(seen, trace.where, "except rospy.ROSInterruptException: pass")
+        if trace:
+            hint = "try: ... except rospy.ROSInterruptException: pass"
+            raise Wrong(f"{self.name} ends without a traceback", trace.error, trace.where, hint)
+        return None
+
+    def odd_node(self) -> Note | None:
+        """Return a Note on the name of its node, if ROS warns of that."""
+        if not self.facts.odd_node:
+            return None
+        line, name = self.facts.odd_node
+        seen = f"the node is called {name!r}, of which ROS warns: not a legal ROS base name"
+        right = re.sub(r"\W", "_", re.sub(r"\.py$", "", name))
+        return Note(seen, self.at_line(line), f"letters, digits and _ only: {right!r}")

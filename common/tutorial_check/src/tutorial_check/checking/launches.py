@@ -1,63 +1,109 @@
-"""A launch file of the student's: what it would start, and what it starts."""
+"""A launch file of the student's, and what roslaunch would start."""
 
 from __future__ import annotations
 
 import difflib
 import os
 from pathlib import Path
-from typing import Sequence
+from typing import Any, Iterable
 
 from tutorial_check.checking.files import File
-from tutorial_check.checking.launch_errors import blamed_place, launch_error, package_hint
+from tutorial_check.checking.launch_errors import UNSET, blamed_place, launch_error, package_hint
 from tutorial_check.checking.packages import must_be_launchable, package_of
 from tutorial_check.checking.results import Wrong
 from tutorial_check.checking.submission import Submission
-from tutorial_check.checking.texts import text_of_file
+from tutorial_check.checking.texts import read_xml, text_of_file
 from tutorial_check.recording.launch_facts import Node
 from tutorial_check.recording.launch_files import read_launch_files
-from tutorial_check.submission.launch_xml import Fault, without_comments
+from tutorial_check.submission.launch_xml import Fault, attribute, place_of
+from tutorial_check.submission.manifests import is_stand_in
 
 
 class LaunchFile(File):
-    """A launch file that roslaunch can read. path: within src; text: without comments."""
+    """A launch file, and what roslaunch makes of it. path: within src; text: without comments."""
 
     def __init__(
-        self, submission: Submission, package: str, path: Path, nodes: Sequence[Node]
+        self, submission: Submission, package: str, path: Path, others: Iterable[Path] = ()
     ) -> None:
-        """nodes: with package, type, name, namespace, args, remaps, ..."""
-        super().__init__(
-            submission, package, os.path.relpath(path, submission.package(package).folder)
-        )
-        self.path, self.nodes = os.path.relpath(path, submission.source), tuple(nodes)
-        self.text = without_comments(self.text)
+        """Read it with others, which will be asked for, too. Raises Wrong."""
+        folder, source = submission.package(package).folder, submission.source
+        super().__init__(submission, package, os.path.relpath(path, folder))
+        self.path, self.text = os.path.relpath(path, source), read_xml(path)
+        must_be_launchable(submission)
+        paths = {os.path.relpath(other, source): other for other in (*others, path)}
+        files = submission.recording(read_launch_files, *paths).files
+        if files is None:
+            expected, hint = "launch files that roslaunch can read", "roslaunch --nodes FILE"
+            raise Wrong(expected, "reading them does not end", hint=hint)
+        names = [Path(facts["path"]).name for facts in files]
+        self.facts: dict[str, Any] = files[names.index(path.name)]
+        # That it starts, with package, type, name, namespace, args, remaps, ...
+        self.nodes: list[Node] = self.facts["nodes"]
+
+    def must_be_read(self) -> None:
+        """Raise Wrong for what roslaunch cannot read, in this file or in an included one."""
+        if not self.facts["fault"]:
+            return
+        fault, submission = Fault(**self.facts["fault"]), self.submission
+        place, line = blamed_place(fault, submission.is_own)
+        path = Path(place)
+        text = text_of_file(path)
+        wrong = launch_error(fault, self.inside(path), line, text, submission.may_see)
+        inner, number = fault.places[-1]
+        if not submission.is_own(inner) and fault.kind != UNSET:
+            wrong.seen += f" (in {inner}:{number})"
+        hiding = (package for package in submission.packages if package.folder in path.parents)
+        for name in (package.name for package in hiding if is_stand_in(package.name)):
+            wrong.hint += f"; or remove {name} from src: this suite has one that needs nothing else"
+        raise wrong
+
+    def inside(self, path: Path) -> str:
+        """Return the path of a file within the student's package, or else within src."""
+        inside = os.path.relpath(path, self.submission.package(self.package).folder)
+        return os.path.relpath(path, self.submission.source) if inside[:2] == ".." else inside
+
+    def at_node(self, node: Node) -> str:
+        """Return FILE:LINE of a node, which may be in an included file."""
+        path = Path(node["filename"])
+        path = path if self.submission.is_own(path) else self.submission.source / self.path
+        words = (*attribute("type", node["type"]), Path(node["type"]).name)
+        return place_of(self.inside(path), read_xml(path), *words)
+
+    def missing(self, node: Node) -> Wrong:
+        """Return the Wrong for a node whose program, or package, does not exist."""
+        hint = "look at pkg= and type=: rosrun PACKAGE and Tab twice lists its programs"
+        hint = package_hint(node["package"]) if node["found"] is None else hint
+        seen = f"Cannot locate node of type [{node['type']}] in package [{node['package']}]"
+        return Wrong("nodes that exist", seen, self.at_node(node), hint)
+
+
+def find_launch(submission: Submission, package: str, name: str, hint: str = "") -> Path:
+    """Return the path of a launch file. Raises Wrong; hint: what to do if there is none."""
+    folder, own = package_of(submission, package).folder, submission.task.named(package)
+    paths = sorted(path for path in folder.rglob(name) if path.is_file())
+    if len(paths) > 1:
+        inside = [str(path.relative_to(folder)) for path in paths]
+        hint = f"roslaunch says 'multiple files named {name}' and starts nothing: keep one in"
+        seen = f"several: {', '.join(inside)}"
+        raise Wrong(f"one file {name}", seen, inside[1], f"{hint} {own}/launch")
+    if paths:
+        return paths[0]
+    files = (path for path in submission.source.rglob("*launch*") if path.is_file())
+    others = {path.name.lower(): path for path in sorted(files) if path.name != name}
+    expected = f"{submission.task.shown(package)}/launch/{name}"
+    for near in difflib.get_close_matches(name.lower(), others, 1, 0.85):
+        other = os.path.relpath(others[near], submission.source)
+        hint = f"its name must be {name}, and its place {own}/launch"
+        raise Wrong(expected, f"a file {other}", other, hint)
+    hint = hint or f"write it: launch/{name}"
+    raise Wrong(expected, "no such file in your package", f"{package}/launch", hint)
 
 
 def launch_file(submission: Submission, package: str, name: str) -> LaunchFile:
     """Return a launch file, whose nodes all exist. Raises Wrong."""
-    folder = package_of(submission, package).folder
-    must_be_launchable(submission)
-    paths = {path.name: path for path in sorted(folder.rglob("*launch*"))[::-1] if path.is_file()}
-    if name not in paths:
-        seen, hint = "no such file in the package", f"write it: launch/{name}"
-        for near in difflib.get_close_matches(name, paths, 1, 0.6):
-            seen, hint = f"a file {near}", f"call it {name}"
-        raise Wrong(f"{package}/launch/{name}", seen, hint=hint)
-    facts = submission.recording(
-        read_launch_files, os.path.relpath(paths[name], submission.source)
-    ).files
-    if facts is None:
-        hint = "roslaunch --nodes FILE"
-        raise Wrong("a launch file that roslaunch can read", "reading it does not end", hint=hint)
-    if facts[0]["fault"]:
-        fault = Fault(**facts[0]["fault"])
-        path, line = blamed_place(fault, submission.is_own)
-        text, where = text_of_file(Path(path)), os.path.relpath(path, folder)
-        raise launch_error(fault, where, line, text, submission.may_see)
-    file = LaunchFile(submission, package, paths[name], facts[0]["nodes"])
+    file = LaunchFile(submission, package, find_launch(submission, package, name))
+    file.must_be_read()
     for node in file.nodes:
-        seen = f"Cannot locate node of type [{node['type']}] in package [{node['package']}]"
-        hint = "look at pkg= and type=: the name of the program's file, which is executable"
-        hint = package_hint(node["package"]) if node["found"] is None else hint
-        words = f'"{node["type"]}" {node["type"]}'
-        file.must(node["found"], words, "nodes that exist", seen, hint)
+        if not node["found"]:
+            raise file.missing(node)
     return file

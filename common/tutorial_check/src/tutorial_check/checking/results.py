@@ -67,6 +67,19 @@ def first_of(
     return next((verdict for verdict in verdicts if verdict is not None), None)
 
 
+def must_pass(
+    diagnoses: Iterable[Callable[[Facts], Wrong | Note | None]], facts: Facts
+) -> Note | None:
+    """Return the Note of the first diagnosis that applies, or None. Raises its Wrong."""
+    for diagnosis in diagnoses:
+        verdict = diagnosis(facts)
+        if isinstance(verdict, Wrong):
+            raise verdict
+        if verdict:
+            return verdict
+    return None
+
+
 # {kind of a CutShort: what is expected, what was seen, what to do}; all but CANNOT_START are sure.
 CUT_SHORT = {
     MASTER_GONE: ("the ROS master is left alone",

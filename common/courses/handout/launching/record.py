@@ -1,0 +1,127 @@
+"""A launch file of the handout at work: beside a robot, with a gamepad."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Callable, Dict, Tuple
+
+from tutorial_check import ODOM, CannotCheck, Launch, Ran, RosSession, Workspace
+
+if TYPE_CHECKING:  # judges need no gamepad
+    from tutorial_check import Gamepad
+
+START_S = 20.0  # for all nodes of a launch on a busy machine
+UP_S = 6.0  # for what they are there for, once all of them are
+NEAR_M = 0.15  # that the robot drives by the stick
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A launch file to be run, and what should come of it."""
+
+    path: str  # within src
+    joys: str  # the topics of the Joys and of the velocities
+    twists: str
+    nodes: Tuple[str, ...]  # that the master will know
+    joysticks: Tuple[str, ...] = ()  # those of joy_node
+    device: str = ""  # that one of them names
+
+
+@dataclass(frozen=True)
+class LaunchRun:
+    """A launch file that was run beside a robot."""
+
+    program: Ran
+    has_died: bool  # a node has, as roslaunch printed
+    drives: bool  # the robot, as far as it should
+    counts: Dict[str, int]  # how many messages came, of Joys, velocities and odometry
+    moved_m: float
+    last_words: Tuple[str, ...]  # the last lines of nodes without output="screen"
+    loops: bool = False  # Joys go on after the end of the recording
+    rests: bool = True  # once the stick is released
+    active: Tuple[str, ...] = field(default=())  # what the multiplexer named
+
+
+class RunningLaunch(Launch):
+    """A launch file that runs, and what flowed."""
+
+    def __init__(self, workspace: Workspace, ros: RosSession, plan: Plan) -> None:
+        self._workspace, self.ros, self.plan = workspace, ros, plan
+        for topic, kind in ((plan.joys, "Joy"), (plan.twists, "Twist"), (ODOM, "Odometry")):
+            ros.peer.listen(topic, kind)
+        super().__init__(ros, plan.path)
+
+    def wait(self, condition: Callable[[], object]) -> bool:
+        """Return condition(), once it is true, the launch is over, or its nodes had their time."""
+
+        def is_up() -> bool:
+            return set(self.plan.nodes) <= set(self.nodes)
+
+        self.ros.wait(lambda: condition() or self.is_over or is_up(), START_S)
+        self.ros.wait(lambda: condition() or self.is_over, UP_S)
+        return bool(condition())
+
+    @property
+    def died(self) -> Tuple[str, ...]:
+        """Lines of roslaunch on nodes that died; RViz and rqt_graph need a screen, and may."""
+        lines = (line for line in self.program.output.splitlines() if "has died" in line)
+        return tuple(line for line in lines if "rviz" not in line and "rqt" not in line)
+
+    def moved_m(self) -> float:
+        """Return how far the robot drove, along its way."""
+        path = [value[1:3] for _, _, value in self.ros.peer.received(ODOM)]
+        return sum(map(math.dist, path, path[1:]))
+
+    def run(
+        self, drives: bool, loops: bool = False, rests: bool = True, active: Tuple[str, ...] = ()
+    ) -> LaunchRun:
+        topics = (self.plan.joys, self.plan.twists, ODOM)
+        counts = {topic: self.ros.peer.count(topic) for topic in topics}
+        words = () if drives else tuple(self._last_words())
+        about = self.program.ran, bool(self.died), drives, counts, self.moved_m(), words
+        return LaunchRun(*about, loops, rests, active)
+
+    def _last_words(self) -> list[str]:
+        folder = Path(self.ros.environment["ROS_LOG_DIR"])
+        logs = map(self._workspace.read, sorted(folder.rglob("*-stdout.log")))
+        return [line for log in logs for line in log.splitlines()[-1:] if "INFO" not in line]
+
+
+def plug_in_for(workspace: Workspace, ros: RosSession, plan: Plan) -> Gamepad:
+    """Put a joystick where the joy_node of a launch file will look for it."""
+    if plan.device and not workspace.order.in_namespaces:
+        name = Path(plan.path).name
+        raise CannotCheck(f"the system grants no {plan.device} to try {name} with")
+    gamepad, path = ros.plug_in(*filter(None, [plan.device]))
+    for node in plan.joysticks if not workspace.order.in_namespaces else ():
+        ros.peer.set_parameter(f"{node}/dev", str(path))
+    return gamepad
+
+
+def drives_forwards(ros: RosSession, gamepad: Gamepad, launch: RunningLaunch, *signs: str) -> bool:
+    """Push the stick forwards once signs, topics, have a message; return whether it moves."""
+    plan = launch.plan
+
+    def ready() -> bool:
+        counts = [ros.peer.publishers(topic) for topic in (plan.joys, plan.twists, ODOM)]
+        return gamepad.connected() and all(counts + [ros.peer.count(sign) for sign in signs])
+
+    def moves() -> bool:
+        return launch.moved_m() > NEAR_M
+
+    def touch(move: Callable[..., None], *where: float) -> None:
+        before = ros.peer.count(plan.joys)
+        move(*where)
+        ros.wait(lambda: launch.is_over or ros.peer.count(plan.joys) > before, 1.0)
+
+    launch.wait(ready)
+    # LB alone, touched and let go: a joy_node with autorepeat_rate 0 is silent while nothing moves.
+    touch(gamepad.push, 0.0, 0.0)
+    touch(gamepad.release)
+    # A new robot obeys only after a while of zero velocities; so does this check.
+    ros.wait(lambda: launch.is_over, 0.6)
+    gamepad.push(0.0, 1.0)
+    ros.wait(lambda: moves() or launch.is_over, 4.0 if ready() else 0.0)
+    return moves()

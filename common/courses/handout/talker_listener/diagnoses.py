@@ -1,0 +1,219 @@
+"""What is wrong with a talker that sends, one that is silent, and a listener that displays less."""
+
+from __future__ import annotations
+
+import statistics
+from dataclasses import dataclass
+from functools import cached_property
+
+from tutorial_check import Note, Script, Wrong, first_of, with_import
+
+from ..task import other_topic
+from .record import KIND, LISTEN_S, STRINGS, TOPIC, Talk
+
+LISTENS = "every text sent on /chatter, displayed once"
+GOES_ON = "it goes on until Ctrl-C"
+LOOP = "while not rospy.is_shutdown(): ..., rate.sleep() within it"
+RATE_TOLERANCE = 0.2  # part of the expected rate
+FEW = 3  # messages: too few for a rate
+TORRENT_HZ = 150
+
+
+@dataclass(frozen=True)
+class Talked:
+    """What a talker did, beside its text."""
+
+    seen: Talk
+    script: Script
+    wanted: float | None  # the rate that the task names
+
+    @property
+    def expected(self) -> str:
+        often = "about 10 times a second" if self.wanted is None else "as often as rate says"
+        return f"std_msgs/String on /chatter, {often}"
+
+    @cached_property
+    def times(self) -> list[float]:
+        """When the messages of the first talker came."""
+        received = self.seen.received
+        return [when for when, caller, _ in received if caller == received[0][1]]
+
+    @cached_property
+    def rate(self) -> float:
+        steps = [later - time for time, later in zip(self.times, self.times[1:])] or [LISTEN_S]
+        return 1 / max(1e-6, statistics.median(steps))
+
+    @property
+    def end(self) -> str:
+        return ", and it ends by itself" if self.seen.talker_ended else ""
+
+    @property
+    def hint(self) -> str:
+        """How it is made a publisher."""
+        line = "rospy.Publisher('chatter', String, queue_size=10)"
+        line = with_import(line, "String", self.script.facts)
+        return f"{line}; and {LOOP}" if self.end else line
+
+    @property
+    def publisher(self) -> str:
+        """FILE:LINE of its Publisher."""
+        call = self.script.facts.first("Publisher")
+        return self.script.at_line(call.line if call else 1)
+
+    def crash(self) -> Wrong:
+        loops = ", and does it loop: while not rospy.is_shutdown()"
+        hint = f"does the last line call talker(){loops if self.script.facts.has_main else ''}?"
+        return self.script.end(self.seen.talker, self.expected, hint)
+
+
+def few_messages(talk: Talked) -> Note | None:
+    if len(talk.times) >= FEW or talk.wanted:
+        return None
+    return Note(f"{len(talk.times)} messages in {LISTEN_S + 2:.0f} s: slower than 1 Hz")
+
+
+def no_sleep(talk: Talked) -> Wrong | None:
+    """Find a torrent; where we come late for some, they come at once, but no more than sent."""
+    mean_rate = (len(talk.times) - 1) / max(1e-6, talk.times[-1] - talk.times[0])
+    if min(talk.rate, mean_rate) <= TORRENT_HZ:
+        return None
+    often = f"{talk.rate:.0f}" if talk.rate < 1000 else "thousands of"
+    where = talk.script.at_line(*talk.script.facts.loops[:1])
+    hint = "rate.sleep() is missing within the loop"
+    return Wrong(talk.expected, f"{often} messages a second", where, hint, sure=True)
+
+
+def unwanted_rate(talk: Talked) -> Wrong | None:
+    if not talk.wanted or abs(talk.rate / talk.wanted - 1) < RATE_TOLERANCE:
+        return None
+    where, hint = talk.script.at_call("Rate"), f"rospy.Rate({talk.wanted})"
+    return Wrong(talk.expected, f"{talk.rate:.1f} times a second", where, hint)
+
+
+def same_text(talk: Talked) -> Note | None:
+    texts = {value for _, _, value in talk.seen.received}
+    note = f"always the same text, {min(texts)!r}; the handout's has the time in it"
+    return Note(note) if len(texts) == 1 else None
+
+
+def other_rate(talk: Talked) -> Note | None:
+    is_usual = talk.wanted or 8 <= talk.rate <= 12
+    return None if is_usual else Note(f"{talk.rate:.1f} Hz, the handout's is 10")
+
+
+def crashed_silently(talk: Talked) -> Wrong | None:
+    ran = talk.seen.talker
+    return talk.crash() if "Traceback" in ran.output or ran.spins else None
+
+
+def other_type(talk: Talked) -> Wrong | None:
+    kind = talk.seen.published.get(TOPIC, "")
+    if not kind or (kind == KIND and not any("datatype" in line for line in talk.seen.warnings)):
+        return None
+    seen = f"/chatter carries {kind}{talk.end}"
+    return Wrong(talk.expected, seen, talk.publisher, talk.hint, sure=True)
+
+
+def sent_elsewhere(talk: Talked) -> Wrong | None:
+    topic = other_topic(talk.seen.published, TOPIC, talk.seen.published, KIND)
+    seen = f"it publishes on {topic}{talk.end}"
+    return Wrong(talk.expected, seen, talk.publisher, talk.hint) if topic else None
+
+
+def ended_silently(talk: Talked) -> Wrong | None:
+    return talk.crash() if talk.end else None
+
+
+def silent(talk: Talked) -> Wrong:
+    """Return the Wrong for a talker of which no message came."""
+    diagnoses = (crashed_silently, other_type, sent_elsewhere, ended_silently)
+    hint = "is publish(...) called within the loop?"
+    no_message = Wrong(talk.expected, "not one message", talk.script.where, hint)
+    return first_of(diagnoses, talk) or no_message
+
+
+@dataclass(frozen=True)
+class Listened:
+    """What a listener did, beside its text."""
+
+    seen: Talk
+    script: Script
+
+    @cached_property
+    def times(self) -> list[int]:
+        """How often each text was displayed, with or without colours or a separator."""
+        lines = self.seen.listener.output.splitlines()
+        return [sum(text in line for line in lines) for text in STRINGS]
+
+    @property
+    def hint(self) -> str:
+        """How it is made a subscriber."""
+        line = "rospy.Subscriber('chatter', String, callback)"
+        return with_import(line, "String", self.script.facts)
+
+    @property
+    def subscriber(self) -> str:
+        """FILE:LINE of its Subscriber."""
+        return self.script.at_call("Subscriber")
+
+
+def crashed_deaf(listen: Listened) -> Wrong | None:
+    ran = listen.seen.listener
+    has_failed = "Traceback" in ran.output or ran.spins
+    return listen.script.crash(ran, LISTENS) if has_failed else None
+
+
+def subscribed_elsewhere(listen: Listened) -> Wrong | None:
+    topic = other_topic(listen.seen.subscribers, TOPIC, listen.seen.types, KIND)
+    if TOPIC in listen.seen.subscribers or not topic:
+        return None
+    hint = "the topic is called chatter"
+    return Wrong(LISTENS, f"it subscribes to {topic}", listen.subscriber, hint, sure=True)
+
+
+def not_subscribed(listen: Listened) -> Wrong | None:
+    if TOPIC in listen.seen.subscribers:
+        return None
+    hint = f"{listen.hint}, before rospy.spin()"
+    return Wrong(LISTENS, "it subscribes to nothing", listen.subscriber, hint)
+
+
+def no_callback(listen: Listened) -> Wrong | None:
+    lacking = listen.script.facts.without_callback
+    if any(listen.times) or not lacking:
+        return None
+    where = listen.script.at_line(lacking.line)
+    return Wrong(LISTENS, "its Subscriber has no callback", where, listen.hint, sure=True)
+
+
+def wants_other_type(listen: Listened) -> Wrong | None:
+    """Compare the type that it asks for; rospy says whose types differ."""
+    call = listen.script.facts.first("Subscriber")
+    kind = call.words[1].rpartition(".")[2] if call and len(call.words) > 1 else "String"
+    refused = any("datatype" in line and "chatter" in line for line in listen.seen.warnings)
+    if kind == "String" and not refused:
+        return None
+    kind = "another type of message" if kind == "String" else kind
+    return Wrong(LISTENS, f"it wants {kind} on /chatter", listen.subscriber, listen.hint)
+
+
+def deaf(listen: Listened) -> Wrong:
+    """Return the Wrong for a listener that does not display all texts."""
+    diagnoses = (crashed_deaf, subscribed_elsewhere, not_subscribed, no_callback, wants_other_type)
+    hint = "does callback(data) display data.data, with rospy.loginfo?"
+    seen = f"{sum(map(bool, listen.times))} of {len(STRINGS)} displayed"
+    return first_of(diagnoses, listen) or Wrong(LISTENS, seen, listen.subscriber, hint)
+
+
+def twice_displayed(listen: Listened) -> Note | None:
+    if min(listen.times) < 2:
+        return None
+    called = listen.script.facts.called_back
+    displays = sorted(called.get("print", []) + called.get("loginfo", []))
+    places = (listen.script.facts.lines("Subscriber"), displays)
+    where = listen.script.at_line(next((lines[1] for lines in places if len(lines) > 1), 0))
+    hint = "one Subscriber, and one rospy.loginfo in its callback, are enough"
+    return Note(f"each text is displayed {min(listen.times)} times", where, hint)
+
+
+pace = (few_messages, no_sleep, unwanted_rate, same_text, other_rate)

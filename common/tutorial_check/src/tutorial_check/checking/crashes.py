@@ -1,0 +1,102 @@
+"""Why a program of the student's has failed, or has ended."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from tutorial_check.checking.causes import explain, hider, traced
+from tutorial_check.checking.results import Wrong
+from tutorial_check.checking.submission import Submission
+from tutorial_check.processes.program import Ran
+from tutorial_check.recording.build import built
+from tutorial_check.submission.python_facts import ClassFacts, PythonFacts
+from tutorial_check.submission.tracebacks import Traceback, first_traceback, last_lines
+
+COPY = re.compile(r"checked_\d+_")  # a program with one thing changed; see Builder.sibling
+
+
+def traceback_of(submission: Submission, package: str, output: str) -> Traceback | None:
+    """Return the first Traceback that a program of a package printed, or None."""
+    return first_traceback(output, str(submission.package(package).folder))
+
+
+def cause_of(
+    submission: Submission, package: str, trace: Traceback, name: str = ""
+) -> tuple[str, str]:
+    """Return (the line to blame, what to do) for a Traceback of a program, maybe of that name."""
+    name, paths = COPY.sub("", name), submission.scripts(package)
+    script = next((path for path in paths if Path(path).name == name), "")
+    script = COPY.sub("", trace.where.rpartition(":")[0] or script)  # with the same lines
+    if not script:
+        return trace.where, explain(trace.error, trace.text)
+    facts = PythonFacts(submission.text(package, script))
+    function = re.search(r"(\w+)\(\) (?:takes|missing)", trace.error)
+    line = int(trace.where.rpartition(":")[2] or 0)
+    if not line and function:  # called by rospy itself
+        line = facts.names.get(function[1], 0)
+    line, hint = traced(trace.error, line, facts)
+    hint = hint or explain(trace.error, trace.text, submission.whole(script, package))
+    file, hides = hider(trace.error, script, paths)
+    if hides:
+        return file or f"{script}:{line}", hides
+    is_import = re.match("ImportError|ModuleNotFoundError", trace.error)
+    if is_import and submission.needs_build() and submission.recording(built).code != 0:
+        fails = "catkin_make, which may have to make it, fails: run it, it says why"
+        hint = "; ".join(filter(None, (hint, fails)))
+    return f"{script}:{line}" if line else "", hint
+
+
+def crash(
+    submission: Submission, package: str, program: Ran, expected: str, hint: str = ""
+) -> Wrong:
+    """Return the Wrong for a program that ended or failed, with the cause that its output shows."""
+    trace = traceback_of(submission, package, program.output)
+    if trace and not (program.was_stopped and trace.error.startswith("KeyboardInterrupt")):
+        seen = trace.error + (f"   in: {trace.text}" if trace.text else "")
+        place, cause = cause_of(submission, package, trace, program.name)
+        return Wrong(expected, seen, place, cause or hint, sure=True)
+    if program.code is not None and program.code < 0:
+        return Wrong(expected, f"the program was ended by signal {-program.code}", "", hint)
+    if program.spins:
+        seen = f"{program.name} works all the time and gets nowhere"
+        hint = "a loop without end? In the callback, and before rospy.init_node, there is none"
+        return Wrong(expected, seen, hint=hint, sure=True)
+    seen = "it runs" if program.code is None else f"it ended, exit code {program.code}"
+    said = last_lines(program.output)
+    seen += f"; it printed: {said}" if said else ", and printed nothing"
+    return Wrong(expected, seen, hint=hint)
+
+
+def silent_end(facts: PythonFacts) -> tuple[int, str]:
+    """Return (line or 0, hint) for a program that ends at once, as far as its text shows."""
+    if facts.keyboard:
+        return facts.keyboard, explain("EOF when reading a line")
+    for line, text in facts.bare_names:
+        if text.endswith(("spin", "listener")):
+            return line, f"{text} needs its (): {text}()"
+    for node in (node for node in facts.classes if node.is_node):
+        hint = misspelt_init(node) or never_made(node)
+        if hint:
+            return node.line, hint
+    if facts.sunken_main:
+        line, function = facts.sunken_main
+        hint = f"line {line} stands within {function}(): move it, and what is below it, to the left"
+        return line, f"{hint} margin"
+    if "spin" not in facts.calls:
+        return 0, "rospy.spin() is missing: without it the program comes to its end"
+    if not facts.has_main:
+        return 0, "listener() is never called: if __name__ == '__main__': listener()"
+    return 0, "is listener() called, in the last line, and with ()?"
+
+
+def misspelt_init(node: ClassFacts) -> str:
+    odd = next((name for name in node.methods if re.fullmatch(r"_*init_*", name)), "__init__")
+    if odd == "__init__" or "__init__" in node.methods:
+        return ""
+    return f"`def {odd}`: Python calls `__init__`, two underscores on either side"
+
+
+def never_made(node: ClassFacts) -> str:
+    hint = f"it is never made: {node.name}() under if __name__ == '__main__':"
+    return "" if node.instantiated else hint
