@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from tutorial_check.checking.checks import Check, Run, checks_of
+from tutorial_check.checking.checks import Check, CheckRunner, checks_of
 from tutorial_check.checking.results import OK, UNREACHED, WRONG, Note, Outcome, Wrong
 from tutorial_check.course.definition import read_course
 from tutorial_check.processes.errors import CannotCheck
@@ -15,8 +15,19 @@ ONE, OTHER = Check("A", "1", "a", "1", print), Check("B", "2", "b", "2", print)
 BAD = Wrong("good", "bad", "f:1")
 
 
-def run(checks, busy=False, hopeless=False, **come_to):
-    """(Run, ids of the checks that it has called); come_to: what each comes to, or an iterator."""
+class Machine:
+    """What a submission says of the machine; it counts how often recordings are forgotten."""
+
+    def __init__(self, busy, overloaded):
+        self.busy, self.overloaded = (lambda: busy), (lambda: overloaded)
+        self.forgotten = 0
+
+    def forget_recordings(self):
+        self.forgotten += 1
+
+
+def run(checks, busy=False, overloaded=False, **come_to):
+    """(CheckRunner, ids of checks it has called); come_to: what each comes to, or an iterator."""
     called = []
 
     def function(name):
@@ -31,7 +42,7 @@ def run(checks, busy=False, hopeless=False, **come_to):
         return call
 
     checks = [replace(check, function=function(check.id)) for check in checks]
-    return Run(checks, None, lambda explained: busy or not explained, lambda: hopeless), called
+    return CheckRunner(checks, Machine(busy, overloaded)), called
 
 
 def statuses(one, exercises, **options):
@@ -72,7 +83,7 @@ def test_when_two_checks_are_about_one_cause(expected, where, status):
 
 
 def test_a_cause_that_was_reported_is_not_looked_for_again():
-    """Else the second look may put it in other words, as if there were two."""
+    """Else a retry may put it in other words, as if there were two."""
     second = (Wrong("good", "bad", where) for where in ("f:1", "f"))
     one, called = run([ONE, OTHER], True, A=iter([BAD, BAD]), B=second)
     assert statuses(one, "1 2") == "A:wrong B:unreached"
@@ -95,7 +106,7 @@ def test_what_cannot_be_checked_keeps_no_other_check_from_it(error, why):
 
 
 @pytest.mark.parametrize(
-    ("about", "busy", "hopeless", "looks", "status"),
+    ("about", "busy", "overloaded", "looks", "status"),
     [
         ("", False, False, 1, WRONG),
         ("no line", False, False, 2, WRONG),
@@ -106,13 +117,13 @@ def test_what_cannot_be_checked_keeps_no_other_check_from_it(error, why):
         ("late once", True, False, 2, OK),
     ],
 )
-def test_a_second_look_on_a_busy_machine_or_without_a_line(about, busy, hopeless, looks, status):
+def test_a_retry_on_a_busy_machine_or_without_a_line(about, busy, overloaded, looks, status):
     wrong = Wrong("good", "bad", "f" if about == "no line" else "f:1", sure=about == "sure")
     check = replace(ONE, timeless=about == "timeless")
     come_to = iter([wrong, None if about == "late once" else wrong])
-    one, called = run([check], busy, hopeless, A=come_to)
+    one, called = run([check], busy, overloaded, A=come_to)
     assert one.result("A").status == status
-    assert len(called) == looks
+    assert (len(called), one._submission.forgotten) == (looks, looks - 1)
     assert ("the machine has too much else to do" in one.trouble("1")) == (status == UNREACHED)
     checks = checks_of(read_course())
     assert {"C5", "C13", "C21", "C29"} <= {each.id for each in checks if each.timeless}

@@ -55,21 +55,19 @@ def test_a_recording_that_cannot_be_read_again_is_refused_before_it_is_made(orde
     assert str(error.value) == why
 
 
-@pytest.mark.parametrize(
-    ("busy", "explained", "is_worth_it"),
-    [(False, True, False), (False, False, True), (True, True, True), (True, False, True)],
-)
-def test_a_retry_of_what_was_busy_or_unexplained(order, busy, explained, is_worth_it):
+@pytest.mark.parametrize(("busy", "overloaded"), [(False, False), (True, False), (True, True)])
+def test_what_was_recorded_is_recorded_once_until_it_is_forgotten(order, busy, overloaded):
     count = itertools.count()
 
     def ask(question):
         assert question == Question(f"{__name__}:look")
-        return Reply({"number": next(count)}, busy=busy)
+        return Reply({"number": next(count)}, busy=busy, overloaded=overloaded)
 
-    one = Submission(order, Task({}), ask)
-    assert [one.recording(look).number, one.recording(look).number] == [0, 0]
-    assert one.retry(explained) == is_worth_it
-    assert one.recording(look).number == (1 if is_worth_it else 0)
+    submission = Submission(order, Task({}), ask)
+    assert [submission.recording(look).number, submission.recording(look).number] == [0, 0]
+    assert (submission.busy(), submission.overloaded()) == (busy, overloaded)
+    submission.forget_recordings()
+    assert submission.recording(look).number == 1
 
 
 @pytest.mark.parametrize(

@@ -137,24 +137,13 @@ def _registered(names: set[str]) -> list[Check]:
     return [check for (module, _), check in newest.items() if module in names]
 
 
-class Run:
+class CheckRunner:
     """Makes checks, each at most once, and none that needs one which does not hold."""
 
-    def __init__(
-        self,
-        checks: Iterable[Check],
-        submission: Submission,
-        second_look: Callable[[bool], bool] = lambda explained: False,
-        too_busy: Callable[[], bool] = lambda: False,
-    ) -> None:
-        """Take checks, in order, and the submission that their functions take.
-
-        second_look(whether a line of the student's is to blame): whether to make a check that does
-        not hold again. too_busy(): whether it says nothing if it does not hold then, either.
-        """
+    def __init__(self, checks: Iterable[Check], submission: Submission) -> None:
+        """Take checks, in order, and the submission that their functions take."""
         self._checks = {check.id: check for check in checks}
         self._submission = submission
-        self._second_look, self._too_busy = second_look, too_busy
         self._done: dict[str, Result] = {}
         self._blamed: dict[str, list[Result]] = {}  # for each check that is wrong or unreached
         self._reported: set[str] = set()
@@ -172,9 +161,9 @@ class Run:
         """
         is_wrong = False
         for check in self._of(exercise):
-            found = {one.id: one for one in self._culprits(check) if one.id not in self._reported}
-            others = [one for one in found.values() if self._checks[one.id].exercise != exercise]
-            for result in (*others, self.result(check.id)):
+            culprits = {c.id: c for c in self._culprits(check) if c.id not in self._reported}
+            earlier = [c for c in culprits.values() if self._checks[c.id].exercise != exercise]
+            for result in (*earlier, self.result(check.id)):
                 if result.id not in self._reported or result.status != WRONG:
                     is_wrong = is_wrong or result.status == WRONG
                     self._reported.add(result.id)
@@ -192,15 +181,15 @@ class Run:
 
     def _culprits(self, check: Check) -> list[Result]:
         """Return what keeps a check from being made, after the checks that it needs."""
-        lost = (each for each in check.needs if self.result(each).status in (WRONG, UNREACHED))
-        return [culprit for each in lost for culprit in self._blamed[each]]
+        lost = (name for name in check.needs if self.result(name).status in (WRONG, UNREACHED))
+        return [culprit for name in lost for culprit in self._blamed[name]]
 
     def _make(self, check: Check) -> Result:
         culprits = self._culprits(check)
         try:
             if not culprits:
-                found = self._call(check)
-                return check.result(NOTE if isinstance(found, Note) else OK, found)
+                verdict = self._final_verdict(check)
+                return check.result(NOTE if isinstance(verdict, Note) else OK, verdict)
         except Wrong as wrong:
             # One cause is reported once, at the first check that it keeps from holding.
             culprits = self._same_cause(wrong)
@@ -218,28 +207,37 @@ class Run:
 
     def _same_cause(self, wrong: Wrong) -> list[Result]:
         """Return wrong results of the same cause. "No such file" alone may be about two files."""
-        about, is_line = (wrong.seen, wrong.where), LINE.search(wrong.where)
-        same = [one for one in self._done.values() if (one.seen, one.where) == about]
-        wrongs = [one for one in same if one.status == WRONG]
-        return [one for one in wrongs if is_line or one.expected == wrong.expected]
+        about, is_line = (WRONG, wrong.seen, wrong.where), LINE.search(wrong.where)
+        same = [r for r in self._done.values() if (r.status, r.seen, r.where) == about]
+        return [result for result in same if is_line or result.expected == wrong.expected]
 
-    def _call(self, check: Check) -> Verdict:
+    def _final_verdict(self, check: Check) -> Verdict:
+        """Make a check; once more, with new recordings, where that is worth it."""
         try:
             return self._verdict(check)
         except CannotCheck:
-            self._second_look(False)
+            pass
         except Wrong as wrong:
-            if wrong.sure or check.timeless or self._same_cause(wrong):
+            if not self._is_worth_a_retry(check, wrong):
                 raise
-            if not self._second_look(bool(LINE.search(wrong.where))):
-                raise
+        self._submission.forget_recordings()
         try:
             return self._verdict(check)
         except Wrong as wrong:
-            if wrong.sure or not self._too_busy():
+            if wrong.sure or not self._submission.overloaded():
                 raise
             why = f"the machine has too much else to do for a verdict ({wrong.seen})"
             raise CannotCheck(f"{check.id}: {why}") from None
+
+    def _is_worth_a_retry(self, check: Check, wrong: Wrong) -> bool:
+        """Return whether programs may do something else next time.
+
+        They may on a busy machine, or if no line explains what is wrong: nodes of a launch file
+        meet in any order, and rospy may never end that Ctrl-C meets in the middle of a publish.
+        """
+        if wrong.sure or check.timeless or self._same_cause(wrong):
+            return False
+        return self._submission.busy() or not LINE.search(wrong.where)
 
     def _verdict(self, check: Check) -> Verdict:
         try:

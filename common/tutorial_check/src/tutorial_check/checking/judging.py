@@ -10,7 +10,7 @@ from dataclasses import replace
 from typing import Callable, Iterator
 
 from tutorial_check.checking.ask_once import Ask, AskOnce, Replies
-from tutorial_check.checking.checks import Run, checks_of
+from tutorial_check.checking.checks import CheckRunner, checks_of
 from tutorial_check.checking.results import Outcome, Result
 from tutorial_check.checking.submission import Submission
 from tutorial_check.course.definition import Course, read_course
@@ -74,14 +74,14 @@ def judge(order: Order, course: Course, ask: Ask, report: Report = silent) -> li
     task = task_of(course)(order.variant)  # its class is among the checks
     checks = [replace(c, title=task.fill(c.title), look=task.fill(c.look)) for c in checks]
     submission = Submission(order, task, ask)
-    run = Run(checks, submission, submission.retry, submission.overloaded)
+    runner = CheckRunner(checks, submission)
     outcomes = []
     for name in order.exercises:
         exercise = course.exercises[name]
         outcomes.append(Outcome(name, title=exercise.title, points=exercise.points))
     try:
         for outcome in outcomes:
-            _make_checks(run, submission, outcome, order.only_first, report)
+            _make_checks(runner, submission, outcome, order.only_first, report)
             if order.only_first and not outcome.passed:
                 break
     except Ended as error:
@@ -93,15 +93,15 @@ def judge(order: Order, course: Course, ask: Ask, report: Report = silent) -> li
 
 
 def _make_checks(
-    run: Run, submission: Submission, outcome: Outcome, only_first: bool, report: Report
+    runner: CheckRunner, submission: Submission, outcome: Outcome, only_first: bool, report: Report
 ) -> None:
     began_s, already = time.monotonic(), len(submission.exchanges)
     try:
-        for made in run.exercise(outcome.id, only_first):
+        for made in runner.exercise(outcome.id, only_first):
             result = submission.as_sent(made)
             outcome.results.append(result)
             report(outcome, result)
     finally:  # what was recorded before the worker ended is of most interest
         outcome.recordings = submission.exchanges[already:]
     outcome.seconds = round(time.monotonic() - began_s, 2)
-    outcome.done, outcome.trouble = True, run.trouble(outcome.id)
+    outcome.done, outcome.trouble = True, runner.trouble(outcome.id)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any, Callable, Iterable, TypeVar
+from typing import Callable, Iterable, TypeVar
 
 from tutorial_check.processes.errors import (
     CANNOT_START,
@@ -118,7 +118,7 @@ class Outcome:
     place: str = ""  # the workspace within what was handed in, if another folder
     remark: str = ""  # how well a program of someone else's was isolated, if not by bubblewrap
     # What was asked for these results and not before, with the answers of the worker, which see.
-    recordings: list[dict[str, Any]] = field(default_factory=list)
+    recordings: list[dict[str, object]] = field(default_factory=list)
 
     @property
     def passed(self) -> bool:
@@ -128,7 +128,7 @@ class Outcome:
     @property
     def empty(self) -> bool:
         """Whether it passed because there was nothing to check."""
-        return self.passed and bool(self.results) and all(each.empty for each in self.results)
+        return self.passed and bool(self.results) and all(r.empty for r in self.results)
 
     @property
     def solved(self) -> bool:
@@ -136,4 +136,4 @@ class Outcome:
 
     @property
     def wrong(self) -> list[Result]:
-        return [each for each in self.results if each.status == WRONG]
+        return [result for result in self.results if result.status == WRONG]

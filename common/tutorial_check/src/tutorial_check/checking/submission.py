@@ -59,20 +59,17 @@ class Submission(SubmissionFiles):
             return wrong_of(reply.cut_short)
         return from_json(kind, reply.recording)
 
+    def busy(self) -> bool:
+        """Return whether the machine was busy as something was recorded last."""
+        return self._last.busy
+
     def overloaded(self) -> bool:
         """Return whether the machine was too busy for what was recorded last to mean anything."""
         return self._last.overloaded
 
-    def retry(self, explained: bool) -> bool:
-        """Return whether to look again at what programs do; then forget what they did.
-
-        It is worth it on a busy machine, or if no line explains it: nodes of a launch file meet in
-        any order, and rospy may never end that Ctrl-C meets in the middle of a publish.
-        """
-        if explained and not self._last.busy:
-            return False
+    def forget_recordings(self) -> None:
+        """Forget what programs did: it is recorded anew."""
         self._runs.clear()
-        return True
 
     def as_sent(self, result: Result) -> Result:
         """Return a result with the student's own paths, in words that a terminal may show."""
