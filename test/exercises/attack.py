@@ -112,7 +112,7 @@ ATTACKS = {
     "reach the sockets of your desktop": lambda: (
         os.listdir("/run") or connect(socket.AF_UNIX, f"\0{aims['name']}")
     ),
-    "see your processes": lambda: any(aims["name"].encode() in each for each in processes()),
+    "see your processes": lambda: any(aims["name"].encode() in command for command in processes()),
     "gain rights, as by sudo": rights,
     "fill your memory with files": lambda: subprocess.call(FILLS_MEMORY) == 0 or in_memory("."),
 }

@@ -59,17 +59,17 @@ def folder():
 @pytest.fixture
 def bare_underlay(folder):
     """As much of the underlay as everybody can read: for a build, and no node."""
-    if not all(each.stat().st_mode & 0o001 for each in HERE.parents):
+    if not all(folder.stat().st_mode & 0o001 for folder in HERE.parents):
         pytest.skip(f"{REPOSITORY} is closed to other users")
-    packages = [each.parent for each in REPOSITORY.glob("*/*/src")]
+    packages = [source.parent for source in REPOSITORY.glob("*/*/src")]
     packages += [REPOSITORY / "fake_turtlebot_sim"]
     messages = folder / "messages"  # a copy: what the build made may be closed to others
     shutil.copytree(Path(kobuki_msgs.__file__).parent, messages / "kobuki_msgs")
-    paths = ":".join([*(str(each / "src") for each in packages), str(messages)])
+    paths = ":".join([*(str(package / "src") for package in packages), str(messages)])
     for name in ("devel", "src"):
         (folder / "underlay" / name).mkdir(parents=True)
-    for each in packages:
-        (folder / "underlay" / "src" / each.name).symlink_to(each)
+    for package in packages:
+        (folder / "underlay" / "src" / package.name).symlink_to(package)
     (folder / "underlay" / "devel" / ".catkin").write_text(str(folder / "underlay" / "src"))
     setup = folder / "underlay" / "devel" / "setup.bash"
     setup.write_text(f"export PATH=/usr/bin:/bin PYTHONPATH={paths}\n")
@@ -96,5 +96,5 @@ def examined(request, underlay, tmp_path):
 
 def verdicts(outcomes):
     # A note is right, too; on a busy machine it may be of a Joy that was too old to be displayed.
-    results = [one for outcome in outcomes for one in outcome.results]
-    return {one.id: one.status.replace("note", "ok") for one in results}
+    results = [result for outcome in outcomes for result in outcome.results]
+    return {result.id: result.status.replace("note", "ok") for result in results}

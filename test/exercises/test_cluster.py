@@ -89,7 +89,7 @@ def client(start, underlay, folder):
 
 def kill(program):
     """End all at once, but for what removes folders: as if memory is short."""
-    pids = [each for each in descendants(program.pid) if "rm -rf" not in command_line(each)]
+    pids = [pid for pid in descendants(program.pid) if "rm -rf" not in command_line(pid)]
     signal_all(pids, signal.SIGKILL)
 
 
@@ -111,7 +111,7 @@ def checked(folder):
 
 def verdicts(results):
     """What is to be the same: all but times and other numbers that were measured."""
-    return [(one["id"], one["status"], one["title"]) for one in results]
+    return [(result["id"], result["status"], result["title"]) for result in results]
 
 
 @pytest.mark.night
@@ -146,8 +146,8 @@ def test_results_are_those_of_one_machine(literal, folder, underlay, scheduler, 
     for report in checked(folder):
         order = Order(folder / report.stem, underlay, [EXERCISE], is_callers_own=False)
         (outcome,) = examine(order)
-        found = json.loads(report.read_text())["exercises"][0]["checks"]
-        assert verdicts(found) == verdicts(map(vars, outcome.results)), report.stem
+        checks = json.loads(report.read_text())["exercises"][0]["checks"]
+        assert verdicts(checks) == verdicts(map(vars, outcome.results)), report.stem
 
 
 @pytest.mark.night
@@ -156,9 +156,9 @@ def test_a_submission_that_ends_workers_is_abandoned(scheduler, worker, client):
     scheduler()
     call = client()
     for host in ("one", "two"):
-        each = worker(host, "--jobs", 1)  # with several, another could take it first
-        wait_for(lambda each=each: examines(each), "a worker", 120)
-        kill(each)
+        program = worker(host, "--jobs", 1)  # with several, another could take it first
+        wait_for(lambda program=program: examines(program), "a worker", 120)
+        kill(program)
     assert call.wait(120) == 2, call.output
     assert "abandoned: 2 workers have ended while they checked it" in call.output
 
@@ -219,7 +219,7 @@ def test_who_has_no_key_is_not_let_in_nor_is_a_worker_without_a_scheduler(
 def test_nothing_listens_elsewhere_and_pages_are_empty(scheduler, worker, start, host):
     scheduler()
     programs = [worker("one", "--jobs", 1), worker("two", "--jobs", 1)]
-    wait_for(lambda: all("Registered to" in each.output for each in programs), "workers", 60)
+    wait_for(lambda: all("Registered to" in program.output for program in programs), "workers", 60)
     listening = start(host, "ss", "-Hltn")
     assert listening.wait(60) == 0
     places = [line.split()[3].rsplit(":", 1) for line in listening.output.splitlines()]
@@ -239,10 +239,10 @@ def test_a_worker_that_is_ended_while_it_checks_leaves_no_folder(
     temporary.mkdir()
     scheduler()
     monkeypatch.setenv("TMPDIR", str(temporary))
-    one = worker("one")
+    program = worker("one")
     monkeypatch.delenv("TMPDIR")
     client()
-    wait_for(lambda: examines(one), "a worker", 120)
+    wait_for(lambda: examines(program), "a worker", 120)
     assert list(temporary.glob("tutorial_worker_*/tutorial_check_*"))
-    os.kill(one.pid, number)
+    os.kill(program.pid, number)
     wait_for(lambda: not list(temporary.iterdir()), "an empty folder", 120)

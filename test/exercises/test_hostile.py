@@ -73,8 +73,8 @@ JOINED = {
 
 def first_wrong(outcome):
     """Return (id, report) of the first check that is wrong, or could not be made."""
-    found = (one for one in outcome.results if one.status not in ("ok", "note"))
-    return next(((one.id, "\n".join(lines_of(one))) for one in found), (None, ""))
+    wrong = (result for result in outcome.results if result.status not in ("ok", "note"))
+    return next(((result.id, "\n".join(lines_of(result))) for result in wrong), (None, ""))
 
 
 def processes_like(word):
@@ -130,8 +130,8 @@ def test_a_hostile_talker_harms_none_beside_or_after_it(literal, underlay, tmp_p
             shutil.copytree(literal.parent, student)
         write(TALKER, FIRST + program)(students[-2] / "src")
     with ThreadPoolExecutor(2) as pool:
-        found = list(pool.map(lambda student: examine(Order(student, underlay, ["3"])), students))
-    wrong = [first_wrong(*outcomes) for outcomes in found]
+        orders = [Order(student, underlay, ["3"]) for student in students]
+        wrong = [first_wrong(*outcomes) for outcomes in pool.map(examine, orders)]
     assert wrong[::2] == [(None, "")] * (len(TALKERS) + 1)
     for (check, report), (_, words) in zip(wrong[1::2], TALKERS.values()):
         assert check == "C6" and words in report, report

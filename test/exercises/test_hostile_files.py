@@ -20,11 +20,11 @@ import json, os, socket, sys
 if sys.argv[-1] == "true":  # whether it isolates here
     sys.exit()
 line = socket.socket(fileno=os.dup(1))
-for number, asked in enumerate(line.makefile()):
+for number, order in enumerate(line.makefile()):
     answer = {"cannot": "left out by this test"}
     if number == 0:
         answer = {"ready": True}
-    elif json.loads(asked)["recorder"].endswith(":built"):
+    elif json.loads(order)["recorder"].endswith(":built"):
         output = open(os.path.dirname(os.path.abspath(__file__)) + "/output").read()
         answer = {"recording": {"code": 1, "output": output, "unbuilt": ""}}
     line.sendall(json.dumps(answer).encode() + b"\\n")

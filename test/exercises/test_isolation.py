@@ -165,7 +165,7 @@ def test_a_hostile_program_reaches_what_the_readme_says(
             report = (group / "check" / "ada.txt").read_text()
             numbers = re.search(r"reached:([\d ]*) \.", report)
             assert numbers, report + done.stderr
-            reached = {list(ATTACKS)[int(each)] for each in numbers[1].split()}
+            reached = {list(ATTACKS)[int(attack)] for attack in numbers[1].split()}
             # Printed before the first verdict.
             assert ("no isolation here" in done.stderr) == mode.endswith("not isolated")
             said = REMARKS.get(mode.rpartition(", ")[2], "")

@@ -56,12 +56,12 @@ def wrong_of(literal, examined):
 
     def check(exercises, values):
         outcomes = examined(literal.parent, exercises, variant=values)
-        assert not [one.trouble for one in outcomes if one.trouble]
-        found = [one for each in outcomes for one in each.results]
+        assert not [outcome.trouble for outcome in outcomes if outcome.trouble]
+        results = [result for outcome in outcomes for result in outcome.results]
         own = "\n".join((*texts(literal).values(), *map(str, literal.rglob("*"))))
-        for one in found:
-            assert not given_away(one, values, own), "\n".join(lines_of(one))
-        return [one for one in found if one.status in ("wrong", "unreached")]
+        for result in results:
+            assert not given_away(result, values, own), "\n".join(lines_of(result))
+        return [result for result in results if result.status in ("wrong", "unreached")]
 
     return check
 
@@ -78,16 +78,16 @@ def given_away(result, values, own):
     numbers = ("scale_linear", "scale_angular", "rate")
 
     def is_new(token):
-        return any(found[0] not in own for found in re.finditer(token, words))
+        return any(match[0] not in own for match in re.finditer(token, words))
 
-    found = [key for key, token in tokens.items() if is_new(token)]
-    return found + [key for key in numbers if re.search(rf"\b{values.get(key)}\b", result.expected)]
+    new = [key for key, token in tokens.items() if is_new(token)]
+    return new + [key for key in numbers if re.search(rf"\b{values.get(key)}\b", result.expected)]
 
 
 @pytest.mark.parametrize("values", [ADA, *at_night(BOB, FEW)], ids=str)
 def test_a_right_solution_of_a_task_is_right(values, literal, wrong_of):
     turn(literal, values)
-    assert not [lines_of(one) for one in wrong_of(COURSE.by_default, values)]
+    assert not [*map(lines_of, wrong_of(COURSE.by_default, values))]
 
 
 @pytest.mark.night

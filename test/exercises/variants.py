@@ -33,8 +33,8 @@ LOADS = "import roslib; roslib.load_manifest('joy2twist')\n"
 END_OF_CLASS = '    except:\n        rospy.loginfo("The node has ended.")\n'
 
 
-def node(what, old, new):
-    return right(what, "4.3", put(JOY2TWIST, old, new))
+def node(what, old, new, exercises="4.3"):
+    return right(what, exercises, put(JOY2TWIST, old, new))
 
 
 def cls(what, *changes):
@@ -137,21 +137,18 @@ ROWS = [
     node("format and f-string", SHOW,
         'rospy.loginfo(f"joystick {[round(axis, 2) for axis in data.axes]} buttons '
         '{data.buttons}")'),
-    right("half the speed", "4.3 4.4", put(JOY2TWIST, X, "msg.linear.x = 0.5 * data.axes[1]")),
-    right("a tenth of the speed", "4.3 4.4 4.5",
-        put(JOY2TWIST, X, "msg.linear.x = 0.1 * data.axes[1]")),
-    right("dead zone", "4.3 4.4", put(JOY2TWIST, X,
-        "msg.linear.x = data.axes[1] if abs(data.axes[1]) > 0.35 else 0.0")),
-    right("limit", "4.3 4.4", put(JOY2TWIST, X,
-        "msg.linear.x = max(-0.5, min(0.5, data.axes[1]))")),
-    right("a low limit", "4.3 4.4", put(JOY2TWIST, X,
-        "msg.linear.x = max(-0.22, min(0.22, data.axes[1]))")),
-    right("dead-man LB", "4.3 4.4 4.5", put(JOY2TWIST, f"    {PUBLISH}",
-        "    if not data.buttons[4]:\n        msg = Twist()\n&")),
+    node("half the speed", X, "msg.linear.x = 0.5 * data.axes[1]", "4.3 4.4"),
+    node("a tenth of the speed", X, "msg.linear.x = 0.1 * data.axes[1]", "4.3 4.4 4.5"),
+    node("dead zone", X, "msg.linear.x = data.axes[1] if abs(data.axes[1]) > 0.35 else 0.0",
+        "4.3 4.4"),
+    node("limit", X, "msg.linear.x = max(-0.5, min(0.5, data.axes[1]))", "4.3 4.4"),
+    node("a low limit", X, "msg.linear.x = max(-0.22, min(0.22, data.axes[1]))", "4.3 4.4"),
+    node("dead-man LB", f"    {PUBLISH}", "    if not data.buttons[4]:\n        msg = Twist()\n&",
+        "4.3 4.4 4.5"),
     node("topics from parameters", "'/cmd_vel', Twist",
         "rospy.get_param('~out', '/cmd_vel'), Twist"),
-    right("another node name, not anonymous", "4.3 6.1",
-        put(JOY2TWIST, "'listener', anonymous=True", "'converter'")),
+    node("another node name, not anonymous", "'listener', anonymous=True", "'converter'",
+        "4.3 6.1"),
     right("talkers not anonymous", "3", put(TALKER, "anonymous=True", "anonymous=False")),
     right("programs without .py", "3", move(TALKER, f"{B}/scripts/talker"),
         move(LISTENER, f"{B}/scripts/listener")),
@@ -267,13 +264,12 @@ ROWS = [
     cls("a class named Joy2Twist, with main()", ("NewJoy2Twist", "Joy2Twist"),
         ("if __name__ == '__main__':\n    try:\n        Joy2Twist()\n" + END_OF_CLASS,
         "def main():\n    Joy2Twist()\n\n\nif __name__ == '__main__':\n    main()\n")),
-    right("a node below a base class that calls rospy", "6.2",
-        put(CLASS, "class NewJoy2Twist():", "class Node():"), put(CLASS, "\n\nif __name__",
-        "\n\nclass NewJoy2Twist(Node):\n    speed = 1.0\n&")),
+    cls("a node below a base class that calls rospy", ("class NewJoy2Twist():", "class Node():"),
+        ("\n\nif __name__", "\n\nclass NewJoy2Twist(Node):\n    speed = 1.0\n&")),
     right("env -S and an argument", "4.3 6.2", put(JOY2TWIST, "env python", "env -S python3 -u"),
         put(CLASS, "env python", "env -S PYTHONUNBUFFERED=1 python3")),
     right("the class in joy2twist.py", "4.3 6.2", move(CLASS, JOY2TWIST)),
-    right("two nodes of one class name, a helper class", "6.2", put(CLASS, "class NewJoy2Twist",
+    cls("two nodes of one class name, a helper class", ("class NewJoy2Twist",
         "class Config():\n    speed = 1.0\n\n\n&")),
     right("a part of the suite in src, which hides nothing from the checker", "4.4 4.5",
         part("fake_turtlebot_sim"), part("gamepad")),
