@@ -7,8 +7,9 @@ import pytest
 LAST_LINE = r"(\d+) trials, (\d+) faults, (\d+) violations, worst time to rest (\d+\.\d+) s"
 
 
-def test_random_faults_violate_nothing(call):
-    code, output = call("test", "faults", "--trials", "5", deadline_s=900)
+@pytest.mark.parametrize("base", [(), ("--serial",)], ids=["simulated", "on a serial line"])
+def test_random_faults_violate_nothing(call, base):
+    code, output = call("test", "faults", *base, "--trials", "5", deadline_s=900)
     trials, hits, violations, _ = re.fullmatch(LAST_LINE, output.splitlines()[-1]).groups()
     assert (code, int(violations)) == (0, 0), output
     assert int(hits) >= int(trials) > 0

@@ -14,8 +14,9 @@ import time
 
 import rospy
 
-# Odometry and JointState begin with a Header: seq, secs, nsecs. TFMessage has a length before.
-STAMP = {"nav_msgs/Odometry": 4, "sensor_msgs/JointState": 4, "tf2_msgs/TFMessage": 8}
+# These begin with a Header: seq, secs, nsecs. TFMessage has a length before.
+HEADED = ("nav_msgs/Odometry", "sensor_msgs/JointState", "kobuki_msgs/SensorState")
+STAMP = {**dict.fromkeys(HEADED, 4), "tf2_msgs/TFMessage": 8}
 
 seconds, topics = float(sys.argv[1]), sys.argv[2:]
 rospy.init_node("observer", anonymous=True)

@@ -17,7 +17,7 @@ from tutorial_testing.waiting import tolerance, wait_for
 BAG = Path(rospkg.RosPack().get_path("gamepad"), "bag/joy.bag")
 RECORDING_S = 60.0  # joy.bag, about
 WINDOW = 500  # odometry messages, ten seconds
-MOST_JITTER_S, JITTER_SHARE = 0.003, 0.99
+MEDIAN_S = 0.001  # ./tutorial bench kobuki_node measures the jitter: a busy machine adds to it
 POSE_M, HEADING_DEG = 0.001, 0.1
 BACKS_OFF_S = 0.2
 SAFE_SPEED = -0.1  # [m/s] of the safety controller
@@ -36,17 +36,11 @@ class EndToEnd(RosTest):
         wait_for(lambda: truth.odometry and odometry.odometry, "odometry and truth")
         return odometry, truth
 
-    def test_1_odometry_comes_50_times_a_second_and_evenly(self):
+    def test_1_odometry_comes_50_times_a_second(self):
         odometry, _ = self.launch()
-
-        def is_even():
-            stamps = [moment.stamp for moment in odometry.odometry[-WINDOW:]]
-            gaps = sorted(abs(b - a - PERIOD_S) for a, b in zip(stamps, stamps[1:]))
-            mean_s = (stamps[-1] - stamps[0]) / max(1, len(gaps))
-            is_50_hz = len(stamps) == WINDOW and abs(mean_s - PERIOD_S) < 1e-4
-            return is_50_hz and gaps[int(JITTER_SHARE * len(gaps))] < MOST_JITTER_S
-
-        wait_for(is_even, "ten seconds of even odometry")  # a busy machine may take more of them
+        stamps = [moment.stamp for moment in odometry.more(WINDOW)]
+        gaps = sorted(b - a for a, b in zip(stamps, stamps[1:]))
+        self.assertAlmostEqual(gaps[len(gaps) // 2], PERIOD_S, delta=MEDIAN_S)
 
     def test_2_after_a_figure_of_eight_the_odometry_is_the_truth(self):
         odometry, truth = self.launch()
