@@ -68,7 +68,7 @@ class Submission(SubmissionFiles):
         return self._last.overloaded
 
     def forget_recordings(self) -> None:
-        """Forget what programs did: it is recorded anew."""
+        """Forget what programs did: it is recorded again."""
         self._runs.clear()
 
     def as_sent(self, result: Result) -> Result:

@@ -41,7 +41,9 @@ KEY = Path(CONFIG, "ros1_tutorial/cluster.pem").expanduser()
 OPENSSL = """openssl req -x509 -newkey rsa:3072 -nodes -days 3650 -subj /CN=ros1_tutorial
 -addext keyUsage=critical,keyCertSign,digitalSignature,keyEncipherment"""
 # Even without a dashboard Dask listens for those who ask for pages about it: for nobody, with none.
-NO_PAGES = {f"DASK_DISTRIBUTED__{one}__HTTP__ROUTES": "[]" for one in ("SCHEDULER", "WORKER")}
+NO_PAGES = {
+    f"DASK_DISTRIBUTED__{program}__HTTP__ROUTES": "[]" for program in ("SCHEDULER", "WORKER")
+}
 LOCAL = ("--no-dashboard", "--dashboard-address", "127.0.0.1:0")
 INSISTS = "TUTORIAL_NOT_ISOLATED"  # variable of a worker of --not-isolated
 

@@ -57,7 +57,7 @@ def _has_results(path: Path, out: str | Path) -> bool:
     tables = [os.path.isfile(path / name) for name in TABLES]
     if path.is_symlink() or not all(tables) or not os.access(path, os.R_OK):
         return False
-    is_left_out = all(each.is_file() and each.suffix in RESULTS for each in path.iterdir())
+    is_left_out = all(file.is_file() and file.suffix in RESULTS for file in path.iterdir())
     if is_left_out:
         print(f"{path.name}: left out: the results of an earlier check")
     return is_left_out
@@ -79,16 +79,16 @@ def check_all(options: argparse.Namespace) -> int:
                 (out / f"{student.name}{ending}").unlink()
     for name in TABLES:
         clear(out / name)
-    Check(students, out, options).run()
+    ClassCheck(students, out, options).run()
     write(out / TABLES[0], table_csv(students, options.exercises))
     print(f"{out}/table.html, table.csv, and a report of each")
     outcomes = [outcome for student in students for outcome in student.outcomes]
-    if any([*(one.trouble for one in students), *(one.trouble for one in outcomes)]):
+    if any(s.trouble for s in students) or any(outcome.trouble for outcome in outcomes):
         return 2
     return int(not all(outcome.passed for outcome in outcomes))
 
 
-class Check:
+class ClassCheck:
     """The checks of all students, some at a time; the page shows how far they are."""
 
     def __init__(self, students: list[Student], out: Path, options: argparse.Namespace) -> None:
@@ -131,9 +131,9 @@ class Check:
         began_s = time.monotonic()
         if began_s < self._next_s and not is_last:
             return
-        titles = {name: one.title for name, one in self._options.course.exercises.items()}
-        about = f"{os.path.abspath(self._options.all)}, {time.strftime('%d %B %Y, %H:%M')}"
-        page = table_html(self._students, self._options.exercises, titles, about)
+        titles = {name: about.title for name, about in self._options.course.exercises.items()}
+        subtitle = f"{os.path.abspath(self._options.all)}, {time.strftime('%d %B %Y, %H:%M')}"
+        page = table_html(self._students, self._options.exercises, titles, subtitle)
         write(self._out / f".{TABLES[1]}", page)
         os.replace(self._out / f".{TABLES[1]}", self._out / TABLES[1])
         self._last_run.keep(self._students)
@@ -158,7 +158,7 @@ class Check:
             if student.outcomes:
                 report = as_json(student.outcomes, with_recordings=False)
                 write(self._out / f"{student.name}.json", report)
-            if self._options.keep and any(one.recordings for one in student.outcomes):
+            if self._options.keep and any(outcome.recordings for outcome in student.outcomes):
                 keep(self._options.keep, student.name, student.outcomes)
         except Exception as error:
             student.trouble = student.trouble or fault(error)

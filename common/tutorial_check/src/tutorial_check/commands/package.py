@@ -21,7 +21,7 @@ RUN_ON_GITHUB = "suite/tutorial check --in submission --classroom result.json --
 
 
 def package(what: str, course: Course, exercises: Sequence[str], out: str | None) -> str:
-    """Write what a service takes; return its path. what: as in command_line. Raises CannotCheck."""
+    """Write what a service takes; return its path. what: as in --package. Raises CannotCheck."""
     service, _, repository = what.partition(":")
     if service not in FILES:
         raise CannotCheck(f"--package {what}: there are {GRADESCOPE} and {GITHUB}:OWNER/NAME")
@@ -52,12 +52,12 @@ def _gradescope(path: Path, course: Course, exercises: Sequence[str]) -> None:
             about.external_attr = 0o100755 << 16
             file.writestr(about, _filled(script, WORDS=shlex.join(words)))
         for part, folder in parts.items():
-            for each in sorted(folder.rglob("*")):
-                name = each.relative_to(folder)
-                is_left_out = LEFT_OUT.intersection(name.parts) or each.resolve() == path.resolve()
+            for source in sorted(folder.rglob("*")):
+                name, is_ours = source.relative_to(folder), source.resolve() == path.resolve()
+                is_left_out = is_ours or LEFT_OUT.intersection(name.parts)
                 is_solution = part == "course" and name.parts[0] == "solutions"
-                if each.is_file() and not is_left_out and not is_solution:
-                    file.write(each, f"{part}/{name}")
+                if source.is_file() and not is_left_out and not is_solution:
+                    file.write(source, f"{part}/{name}")
 
 
 def _commit() -> str:

@@ -31,7 +31,7 @@ def solutions(course: Course) -> Iterator[tuple[str, str, list[Path]]]:
     right = folder / RIGHT
     if not right.is_dir():
         raise CannotCheck(f"{right}: no such folder; a self-test needs a right solution")
-    paths = (each for each in folder.iterdir() if each.is_dir() or each.suffix == PATCH)
+    paths = (path for path in folder.iterdir() if path.is_dir() or path.suffix == PATCH)
     for path in sorted(paths):
         if path.name.startswith(WRONG_OF):
             yield path.stem, path.stem.split("_")[1], [right, path]
@@ -45,21 +45,24 @@ def self_test(course: Course, underlay: str, jobs: int) -> int:
     """Check all solutions of a course, a line each; return 0 if all come to what they should."""
     failed, every = 0, list(solutions(course))
     with ThreadPoolExecutor(jobs) as pool:
-        examined = pool.map(lambda one: _examined(course, underlay, *one[1:]), every)
-        for (name, check, _), outcomes in zip(every, examined):
+        tests = [pool.submit(_examined, course, underlay, *about) for about in every]
+        for (name, check, _), test in zip(every, tests):
+            outcomes = test.result()
             complaint = complaint_of(check, outcomes)
             failed += bool(complaint)
-            wrong = (one for outcome in outcomes for one in outcome.wrong if one.id == check)
-            causes = [": ".join(filter(None, (one.where, one.seen))) for one in wrong]
+            wrongs = [wrong for outcome in outcomes for wrong in outcome.wrong if wrong.id == check]
+            causes = [": ".join(filter(None, (wrong.where, wrong.seen))) for wrong in wrongs]
             word = "FAILED" if complaint else "ok"
             print(f"{word:<7}{name}: {complaint or [*causes, 'passes'][0]}", flush=True)
     print(f"{failed} of the solutions failed" if failed else f"all solutions of {course.title}")
     return int(bool(failed))
 
 
-def _examined(course: Course, underlay: str, check: str, layers: list[Path]) -> list[Outcome]:
+def _examined(
+    course: Course, underlay: str, _: str, check: str, layers: list[Path]
+) -> list[Outcome]:
     """Check a solution: a right one in all exercises, a wrong one in that of its check."""
-    exercises = [one.exercise for one in checks_of(course) if one.id == check]
+    exercises = [known.exercise for known in checks_of(course) if known.id == check]
     with tempfile.TemporaryDirectory() as scratch:
         for layer in layers:
             try:
@@ -84,8 +87,8 @@ def patch(folder: Path, file: Path) -> None:
             continue
         done, text = "", path.read_text(encoding="utf-8") if path.exists() else ""
         for hunk in HUNK.findall(hunks):
-            lines = [each if each != "\n" else " \n" for each in hunk.splitlines(keepends=True)]
-            old, new = ("".join(each[1:] for each in lines if each[0] != sign) for sign in "+-")
+            lines = [line if line != "\n" else " \n" for line in hunk.splitlines(keepends=True)]
+            old, new = ("".join(line[1:] for line in lines if line[0] != sign) for sign in "+-")
             if text and text.count(old) != 1:
                 count, first = text.count(old), old.split("\n", 1)[0]
                 raise CannotCheck(f"{file}: {path.name} has {count} places for: {first} ...")
@@ -98,13 +101,13 @@ def patch(folder: Path, file: Path) -> None:
 
 def complaint_of(check: str, outcomes: list[Outcome]) -> str:
     """Return what is wrong with the outcomes of a solution that must fail at a check, or ""."""
-    for one in outcomes:
-        if one.trouble:
-            return f"could not be checked: {one.id}: {one.trouble}"
+    for outcome in outcomes:
+        if outcome.trouble:
+            return f"could not be checked: {outcome.id}: {outcome.trouble}"
     results = [result for outcome in outcomes for result in outcome.results]
-    first = next((one for one in results if one.status == WRONG), None)
+    first = next((result for result in results if result.status == WRONG), None)
     if first is None:
-        missed = (f"; {one.id} was not reached" for one in results if one.status == UNREACHED)
+        missed = (f"; {r.id} was not reached" for r in results if r.status == UNREACHED)
         return check and f"{check} should be wrong, and nothing is{next(missed, '')}"
     if not check:
         return f"{first.id} is wrong: {first.seen}; hint: {first.hint}"

@@ -80,8 +80,8 @@ class Course:
     def meant(self, word: str) -> list[str]:
         """Return the exercises of a word: 4 is 4.2 to 4.5, and 5.1, a section of it, is 5."""
         section = f"{word.rstrip('.')}."
-        inner = [each for each in self.exercises if each.startswith(section)]
-        whole = [each for each in self.exercises if section.startswith(f"{each}.")]
+        inner = [name for name in self.exercises if name.startswith(section)]
+        whole = [name for name in self.exercises if section.startswith(f"{name}.")]
         return inner or whole or [word]
 
     def exercise_of(self, section: str) -> str:
@@ -128,7 +128,7 @@ def read_yaml(file: str | Path, what: str = "") -> object:
 def read_course(folder: str | Path = HANDOUT) -> Course:
     """Return the Course of a folder, or of the name of one that is shipped. Raises CannotCheck."""
     file = Path(folder).resolve() / FILE
-    shipped = {each.parent.name: each for each in sorted(SHIPPED.glob(f"*/{FILE}"))}
+    shipped = {path.parent.name: path for path in sorted(SHIPPED.glob(f"*/{FILE}"))}
     if str(folder) in shipped and not file.exists():
         file = shipped[str(folder)]
     names = f"; a course is a folder with {FILE}, or one of {', '.join(shipped)}"
@@ -153,9 +153,9 @@ def read_course(folder: str | Path = HANDOUT) -> Course:
     return course
 
 
-def _known(kind: type, given: Any) -> dict[str, Any]:
+def _known(kind: type, given: object) -> dict[str, Any]:
     """Return the fields of a dataclass that are given. Raises ValueError."""
-    known = {one.name: str(one.type).partition("[")[0] for one in fields(kind)}
+    known = {known.name: str(known.type).partition("[")[0] for known in fields(kind)}
     known.pop("folder", None)  # where the file itself is
     if not isinstance(given, dict):
         raise ValueError(f"a map of {', '.join(known)} is wanted, and not {given!r}")
@@ -173,8 +173,8 @@ def load(course: Course) -> set[str]:
     package = package_of(course)
     _make_package(package, course.folder)
     try:
-        found = pkgutil.walk_packages([str(course.folder)], f"{package}.")
-        return {importlib.import_module(one.name).__name__ for one in found}
+        modules = pkgutil.walk_packages([str(course.folder)], f"{package}.")
+        return {importlib.import_module(module.name).__name__ for module in modules}
     except Exception as error:
         raise CannotCheck(f"{_place(error, course.folder)}: {error}") from None
 
@@ -183,7 +183,7 @@ def _make_package(package: str, folder: Path) -> None:
     """Let a package be a folder; what another folder of that name has left is forgotten."""
     if package in sys.modules and [*sys.modules[package].__path__] == [str(folder)]:
         return
-    for name in [each for each in sys.modules if f"{each}.".startswith(f"{package}.")]:
+    for name in [known for known in sys.modules if f"{known}.".startswith(f"{package}.")]:
         del sys.modules[name]
     for name, path in ((COURSES, SHIPPED), (package, folder)):
         if name not in sys.modules:

@@ -10,7 +10,7 @@ from typing import Any, Dict, Mapping
 
 import yaml
 
-from tutorial_check.course.definition import Course, Value, package_of, read_yaml
+from tutorial_check.course.definition import Course, package_of, read_yaml
 from tutorial_check.processes.errors import CannotCheck
 
 Variant = Dict[str, Any]  # {name of a value: what it is}; what is not named is as the course has it
@@ -46,8 +46,8 @@ class Task:
 def task_of(course: Course) -> type[Task]:
     """Return the Task of a course whose checks are loaded."""
     package = f"{package_of(course)}."
-    own = [each for each in Task.__subclasses__() if each.__module__.startswith(package)]
-    return own[-1] if own else Task
+    tasks = [task for task in Task.__subclasses__() if task.__module__.startswith(package)]
+    return tasks[-1] if tasks else Task
 
 
 def read_variant(course: Course, file: str | Path) -> Variant:
@@ -59,23 +59,23 @@ def read_variant(course: Course, file: str | Path) -> Variant:
     for name, value in values.items():
         if name not in course.variants:
             raise CannotCheck(f"{file}: {name} is not known; known are: {known}")
-        allowed = _misses(value, course.variants[name])
+        allowed = _misses(value, course.variants[name].allowed)
         if allowed:
             raise CannotCheck(f"{file}: {name}: {value!r}; allowed is {allowed}")
-    whole = {name: values.get(name, one.default) for name, one in course.variants.items()}
-    for name, one in course.variants.items():
-        if one.unlike and whole[name] == whole[one.unlike]:
-            both = f"{name} and {one.unlike} are both {whole[name]!r}"
+    whole = {name: values.get(name, value.default) for name, value in course.variants.items()}
+    for name, value in course.variants.items():
+        if value.unlike and whole[name] == whole[value.unlike]:
+            both = f"{name} and {value.unlike} are both {whole[name]!r}"
             raise CannotCheck(f"{file}: {both}: name both")
     return values
 
 
-def _misses(value: Any, one: Value) -> str:
+def _misses(value: object, allowed: Any) -> str:
     """Return what is allowed in place of a value; empty if it is allowed."""
-    if isinstance(one.allowed, str):
-        fits = isinstance(value, str) and re.fullmatch(one.allowed, value)
-        return "" if fits else f"what fits {one.allowed}"
-    ranges = one.allowed if isinstance(one.allowed[0], list) else [one.allowed]
+    if isinstance(allowed, str):
+        fits = isinstance(value, str) and re.fullmatch(allowed, value)
+        return "" if fits else f"what fits {allowed}"
+    ranges = allowed if isinstance(allowed[0], list) else [allowed]
     kinds = (int,) if isinstance(ranges[0][0], int) else (int, float)
     if type(value) in kinds and any(lowest <= value <= highest for lowest, highest in ranges):
         return ""
@@ -85,8 +85,8 @@ def _misses(value: Any, one: Value) -> str:
 def drawn(course: Course, seed: str, name: str) -> Variant:
     """Return the Variant that a seed gives a student: the same on every machine."""
     values: Variant = {}
-    for key, one in course.variants.items():
-        choices = [each for each in one.draw if each != values.get(one.unlike)]
+    for key, value in course.variants.items():
+        choices = [choice for choice in value.draw if choice != values.get(value.unlike)]
         digest = hashlib.sha256("\0".join((seed, name, key)).encode("utf-8", "replace")).digest()
         values[key] = choices[int.from_bytes(digest, "big") % len(choices)]
     return values
@@ -95,7 +95,7 @@ def drawn(course: Course, seed: str, name: str) -> Variant:
 def variant_of(course: Course, name: str, file: str | None, seed: str | None = None) -> Variant:
     """Return a student's Variant: from NAME.yaml of a folder, drawn, or from the file for all.
 
-    name: empty for who calls, of whom there is no folder of files.
+    name: empty for the caller's own, who has no folder of tasks.
     """
     path = Path(file) if file else None
     if path and path.is_dir():
@@ -124,4 +124,4 @@ def sheet(course: Course, values: Variant, name: str) -> str:
 
 def _filled(text: str, words: Mapping[str, Any]) -> str:
     """Return a text with words for {names}. str.format would take a width, of a gigabyte."""
-    return re.sub(r"\{(\w+)\}", lambda found: str(words.get(found[1], found[0])), text)
+    return re.sub(r"\{(\w+)\}", lambda name: str(words.get(name[1], name[0])), text)

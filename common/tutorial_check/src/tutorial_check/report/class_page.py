@@ -44,7 +44,7 @@ class Student:
         """Return a word of the page's legend for an exercise, the cause in short, and details."""
         if not self.outcomes:
             return ("?", "", self.trouble) if self.trouble else ("...", "", "")
-        outcome = next(each for each in self.outcomes if each.id == exercise)
+        outcome = next(outcome for outcome in self.outcomes if outcome.id == exercise)
         if outcome.empty:
             return "not done", "", "nothing to check"
         if outcome.passed:
@@ -66,17 +66,17 @@ class Student:
     @property
     def notes(self) -> int:
         """How many checks hold with something worth knowing."""
-        results = [one for outcome in self.outcomes for one in outcome.results]
-        return sum(one.status == NOTE and not one.empty for one in results)
+        results = [result for outcome in self.outcomes for result in outcome.results]
+        return sum(result.status == NOTE and not result.empty for result in results)
 
     @property
     def remark(self) -> str:
         """Why there is no verdict, or how well its programs were isolated, if not by bubblewrap."""
-        return self.trouble or next((one.remark for one in self.outcomes), "")
+        return self.trouble or next((outcome.remark for outcome in self.outcomes), "")
 
     @property
     def wrong(self) -> list[Result]:
-        return [one for outcome in self.outcomes for one in outcome.wrong]
+        return [result for outcome in self.outcomes for result in outcome.wrong]
 
 
 def cause_of(result: Result) -> str:
@@ -111,7 +111,7 @@ def table_html(
 
     about: of what, and when.
     """
-    heads = ["student", *(f"{each}<small>{escape(titles[each])}</small>" for each in exercises)]
+    heads = ["student", *(f"{name}<small>{escape(titles[name])}</small>" for name in exercises)]
     rows = [_row((*heads, "done", "notes", "took"), "th")]
     for student in students:
         row = f"<tr><th>{_link(student)}</th>"
@@ -184,7 +184,7 @@ def _section(title: str, head: Sequence[str], rows: Iterable[Iterable[str]]) -> 
 
 def failures(students: Iterable[Student]) -> list[tuple[str, str, int]]:
     """Return (check, its title, how many fail it), the most frequent first."""
-    wrong = Counter((one.id, one.title) for student in students for one in student.wrong)
+    wrong = Counter((result.id, result.title) for student in students for result in student.wrong)
     return [(*about, count) for about, count in wrong.most_common()]
 
 
@@ -193,21 +193,21 @@ def causes(students: Iterable[Student]) -> list[tuple[list[Student], Result]]:
     examples: dict[str, Result] = {}
     whose: dict[str, list[Student]] = {}
     for student in students:
-        for one in student.wrong:
-            whose.setdefault(cause_of(one), []).append(student)
-            name = re.compile(rf"\b{re.escape(student.name)}\b", re.IGNORECASE)
-            words: dict[str, Any] = {word: name.sub("NAME", getattr(one, word)) for word in WORDS}
-            examples.setdefault(cause_of(one), replace(one, **words))
+        name = re.compile(rf"\b{re.escape(student.name)}\b", re.IGNORECASE)
+        for wrong in student.wrong:
+            whose.setdefault(cause_of(wrong), []).append(student)
+            words: dict[str, Any] = {word: name.sub("NAME", getattr(wrong, word)) for word in WORDS}
+            examples.setdefault(cause_of(wrong), replace(wrong, **words))
     frequent = sorted(whose, key=lambda cause: -len(whose[cause]))[:MOST_CAUSES]
     return [(whose[cause], examples[cause]) for cause in frequent]
 
 
 def changes(student: Student) -> dict[str, list[str]]:
     """Return the changes since the last run: exercises now done, no more done, stuck at a check."""
-    pairs = [(one, old) for one in student.outcomes for old in student.before if old.id == one.id]
-    firsts = (both for one, old in pairs for both in zip(one.wrong[:1], old.wrong[:1]))
+    pairs = [(new, old) for new in student.outcomes for old in student.before if old.id == new.id]
+    firsts = (both for new, old in pairs for both in zip(new.wrong[:1], old.wrong[:1]))
     return {
-        "now done": [one.id for one, old in pairs if one.passed and not old.passed],
-        "no more done": [one.id for one, old in pairs if old.passed and not one.passed],
+        "now done": [new.id for new, old in pairs if new.passed and not old.passed],
+        "no more done": [new.id for new, old in pairs if old.passed and not new.passed],
         "stuck": [f"{first.id} {first.title}" for first, was in firsts if first.id == was.id],
     }

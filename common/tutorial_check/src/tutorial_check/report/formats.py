@@ -30,23 +30,23 @@ SUBMISSION = {
 
 
 def without_hints(outcomes: Sequence[Outcome]) -> list[Outcome]:
-    bare = ([replace(each, hint="") for each in one.results] for one in outcomes)
-    return [replace(one, results=results) for one, results in zip(outcomes, bare)]
+    bare = ([replace(result, hint="") for result in outcome.results] for outcome in outcomes)
+    return [replace(outcome, results=results) for outcome, results in zip(outcomes, bare)]
 
 
 def as_json(outcomes: Sequence[Outcome], with_recordings: bool = True) -> str:
     """Return one object with all exercises and checks, and what they were judged by."""
     exercises = [
         {
-            "id": one.id,
-            "passed": one.solved,
-            "nothing_to_check": one.empty,
-            "trouble": one.trouble,
-            "remark": one.remark,
-            "checks": [{name: getattr(each, name) for name in FIELDS} for each in one.results],
-            **({"recordings": one.recordings} if with_recordings else {}),
+            "id": outcome.id,
+            "passed": outcome.solved,
+            "nothing_to_check": outcome.empty,
+            "trouble": outcome.trouble,
+            "remark": outcome.remark,
+            "checks": [{name: getattr(r, name) for name in FIELDS} for r in outcome.results],
+            **({"recordings": outcome.recordings} if with_recordings else {}),
         }
-        for one in outcomes
+        for outcome in outcomes
     ]
     passed = sum(outcome.solved for outcome in outcomes)
     return json.dumps({"exercises": exercises, "passed": passed, "total": len(outcomes)}, indent=1)
@@ -99,9 +99,12 @@ def as_gradescope(outcomes: Sequence[Outcome]) -> str:
         for outcome in outcomes
         for result in outcome.results
     ]
-    seconds = round(sum(each.seconds for each in outcomes), 1)
-    why = "no verdict on exercise {0.id}, through no fault of yours: {0.trouble}"
-    remarks = [why.format(one) for one in outcomes if one.trouble]
+    seconds = round(sum(outcome.seconds for outcome in outcomes), 1)
+    remarks = [
+        f"no verdict on exercise {outcome.id}, through no fault of yours: {outcome.trouble}"
+        for outcome in outcomes
+        if outcome.trouble
+    ]
     output = {"output": "\n".join(remarks)} if remarks else {}
     return json.dumps({"tests": tests, "execution_time": seconds, **output}, indent=1)
 
@@ -110,18 +113,18 @@ def as_classroom(outcomes: Sequence[Outcome], environment: Mapping[str, str] = o
     """Return Classroom 50's result: an exercise's points, or one. environment: of a submission."""
     tests: list[dict[str, Any]] = [
         {
-            "test-name": heading(one),
-            "passed": one.passed,
-            "score": (one.points or 1) * one.passed,
-            "max-score": one.points or 1,
+            "test-name": heading(outcome),
+            "passed": outcome.passed,
+            "score": (outcome.points or 1) * outcome.passed,
+            "max-score": outcome.points or 1,
         }
-        for one in outcomes
+        for outcome in outcomes
     ]
     given = [(field, environment.get(name)) for field, name in SUBMISSION.items()]
     about = {field: value for field, value in given if value}
     if "commit" in about:
         about.setdefault("review", about["commit"])
-    score = {name: sum(one[name] for one in tests) for name in ("score", "max-score")}
+    score = {name: sum(test[name] for test in tests) for name in ("score", "max-score")}
     result = {"schema": "classroom50/result/v1", **about, **score, "tests": tests}
     return json.dumps(result, indent=1)
 

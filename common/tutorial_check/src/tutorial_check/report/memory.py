@@ -7,11 +7,11 @@ in the cache, for each workspace, and not in it; that of --all beside the table.
 from __future__ import annotations
 
 import contextlib
-import dataclasses
 import hashlib
 import json
 import os
 import tempfile
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any, Dict, Iterable, Sequence
 
@@ -32,9 +32,9 @@ LATER = "check again to see it here, or with --hints 2"
 def read_state(file: Path) -> State:
     """Return what write_state has written; empty if it is not there or broken."""
     with contextlib.suppress(OSError, ValueError):
-        found = json.loads(file.read_text(encoding="utf-8"))
-        if isinstance(found, dict):
-            return found
+        state = json.loads(file.read_text(encoding="utf-8"))
+        if isinstance(state, dict):
+            return state
     return {}
 
 
@@ -64,18 +64,18 @@ class Memory:
         """Return the hint for a result, or when there will be one, or ""."""
         if self._level == NEVER or not result.hint:
             return ""
-        shown = self._level == ALWAYS or result.status != WRONG or result.eager
-        return result.hint if shown or cause_of(result) in self._wrong else LATER
+        is_due = self._level == ALWAYS or result.status != WRONG or result.eager
+        return result.hint if is_due or cause_of(result) in self._wrong else LATER
 
     def keep(self, outcomes: Sequence[Outcome]) -> None:
         """Remember what these came to; what was not checked stays as it was."""
         checked = {outcome.id for outcome in outcomes}
-        now = {cause_of(one) for each in outcomes for one in each.wrong}
-        made = {one.id for each in outcomes for one in each.results}
+        now = {cause_of(result) for outcome in outcomes for result in outcome.wrong}
+        made = {result.id for outcome in outcomes for result in outcome.results}
         before = [cause for cause in self._wrong if cause.split()[0] not in made]
         self._wrong = sorted({*before, *now})
-        self.done = [each for each in self.done if each not in checked]
-        self.done += [one.id for one in outcomes if one.solved]
+        self.done = [name for name in self.done if name not in checked]
+        self.done += [outcome.id for outcome in outcomes if outcome.solved]
         known = read_state(self._cache)
         there = {key: known[key] for key in known if os.path.exists(key.split("\n")[0])}
         # Without a memory each failure is a first one.
@@ -107,33 +107,34 @@ class LastRun:
     def __init__(self, out: Path) -> None:
         """out: the folder of the results."""
         self._file = out / STATE
-        self._found = read_state(self._file)
+        self._state = read_state(self._file)
 
     def outcomes(self, name: str) -> list[Outcome]:
         """Return what came of a student in the last run; empty if there is nothing."""
         with contextlib.suppress(KeyError, TypeError):
             return [
-                Outcome(**{**one, "results": [Result(**each) for each in one["results"]]})
-                for one in self._found[name]["outcomes"]
+                Outcome(**{**outcome, "results": [Result(**words) for words in outcome["results"]]})
+                for outcome in self._state[name]["outcomes"]
             ]
         return []
 
-    def is_same(self, one: Student) -> bool:
+    def is_same(self, student: Student) -> bool:
         """Return whether the last run checked the same, and came to a verdict."""
-        same = one.before and one.digest and self._found[one.name].get("digest") == one.digest
-        return bool(same) and not any(outcome.trouble for outcome in one.before)
+        if not student.before or not student.digest:
+            return False
+        digest = self._state[student.name].get("digest")
+        return digest == student.digest and not any(old.trouble for old in student.before)
 
     def keep(self, students: Iterable[Student]) -> None:
         """Write what the next run needs; students not checked yet keep what they had."""
-        found = {}
+        state = {}
         for student in students:
             if student.outcomes:
-                bare = (dataclasses.replace(one, recordings=[]) for one in student.outcomes)
-                outcomes = [dataclasses.asdict(one) for one in bare]
-                found[student.name] = {"digest": student.digest, "outcomes": outcomes}
-            elif student.name in self._found and not student.trouble:
-                found[student.name] = self._found[student.name]
-        write_state(self._file, found)  # or all are checked again
+                outcomes = [asdict(replace(outcome, recordings=[])) for outcome in student.outcomes]
+                state[student.name] = {"digest": student.digest, "outcomes": outcomes}
+            elif student.name in self._state and not student.trouble:
+                state[student.name] = self._state[student.name]
+        write_state(self._file, state)  # or all are checked again
 
 
 def digest_of_checks(course: Course, exercises: Iterable[str], hints: int) -> str:

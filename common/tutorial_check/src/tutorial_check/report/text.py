@@ -38,14 +38,17 @@ def summary(outcomes: Sequence[Outcome]) -> str:
     place = f"workspace: {first.place}" if first.place else ""
     remarks = (f"{empty}: nothing to check" if empty else "", place, first.remark)
     rest = "".join(f" ({remark})" for remark in remarks if remark)
-    return f"{sum(one.solved for one in outcomes)} of {len(outcomes)} exercises done{rest}"
+    return f"{sum(outcome.solved for outcome in outcomes)} of {len(outcomes)} exercises done{rest}"
 
 
 def text_of(outcomes: Sequence[Outcome]) -> str:
     """Return the whole report without colours."""
     lines = []
     for outcome in outcomes:
-        lines += [heading(outcome), *(line for one in outcome.results for line in lines_of(one))]
+        lines += [
+            heading(outcome),
+            *(line for result in outcome.results for line in lines_of(result)),
+        ]
     return "\n".join([*lines, summary(outcomes)]) + "\n"
 
 
