@@ -91,6 +91,7 @@ MOVED = {
     f"{OLD}:follow": f"{HANDOUT}.simulated_robot.record:follow",
     f"{OLD}:stick": f"{HANDOUT}.gamepad.record:stick",
     f"{HANDOUT}.driving.record:loaded": f"{HANDOUT}.joy2twist.record:loaded",
+    f"{HANDOUT}.driving.record:found": f"{HANDOUT}.driving.record:known_package",
 }
 # How a recording of version 1 names folders, and how one of today.
 WORDS = {
@@ -98,11 +99,34 @@ WORDS = {
     "{handed_in}/ws": "{submission}",
     "{handed_in}": "{scratch}",
 }
+# {part of a Joy2TwistRun: its fields, as they are stored, side by side; with the name of today}
+PARTS = {
+    "connections": "connected publishers subscribers types warnings master_alive",
+    "numbered": "asked:sent samples first_samples missing unasked:extra came waits at_rest twists"
+    " has_clock repeats shown:displayed",
+    "probes": "answers unanswered",
+    "stream": "sent answered strays:stray_zeros delays possible unavoidable_s",
+    "ending": "ended_early:early output taken_s last_words",
+}
+
+
+def _in_parts(answer):
+    """Return an answer with the fields that its recording has today."""
+    run, recorder = answer.get("recording"), answer["recorder"]
+    if run and recorder == f"{HANDOUT}.driving.record:drive" and "numbered" not in run:
+        run = dict(run)
+        for part, fields in PARTS.items():
+            names = (field.partition(":")[::2] for field in fields.split())
+            run[part] = {new or old: run.pop(old) for old, new in names if old in run}
+    elif run and recorder == f"{HANDOUT}.driving.record:found":
+        run = {"is_known": run["found"]}
+    return {**answer, "recording": run} if run else answer
 
 
 def of_today(recorded):
     """Return what is stored as it is recorded today. It goes when all is recorded anew."""
     recorder = MOVED.get(recorded["recorder"], recorded["recorder"])
+    recorded = _in_parts(recorded)
     if recorded["version"] > 1:
         return {**recorded, "recorder": recorder}
     text = json.dumps(recorded)

@@ -4,11 +4,12 @@ from types import SimpleNamespace
 
 import pytest
 
-from courses.handout.driving import behaviour as c
-from courses.handout.driving.facts import Facts, repetition
-from courses.handout.driving.run import Drive
+from courses.handout.driving import answer_diagnoses as a
+from courses.handout.driving import connection_diagnoses as c
+from courses.handout.driving.node import Joy2TwistNode, repetition
+from courses.handout.driving.run import Connections, Joy2TwistRun, NumberedJoys, Stream
 from courses.handout.task import CMD_VEL, JOY, JoystickTask
-from tutorial_check.checking.rows import find
+from tutorial_check import Wrong, first_of
 from tutorial_check.submission.python_facts import PythonFacts
 
 SCRIPT = "joy2twist.py"
@@ -28,68 +29,75 @@ NO_CALLBACK = 'rospy.Subscriber("/joy", Joy)\n'
 LATCHED = "from sensor_msgs.msg import Joy\npub = rospy.Publisher('/cmd_vel', Twist, latch=True)\n"
 
 
-def each(*kinds):
+def answers_with(*kinds):
     """All Twists, if each answer comes with these."""
     return [twist for answer in ANSWERS for twist in [*kinds, answer]]
 
 
 SAMPLES = tuple(((), answer) for answer in ANSWERS)
+ALL_ZERO = Wrong("", "every Twist is zero")
+ODD_NODES = Connections(subscribers={}, publishers={JOY: ("/a",)}, types={JOY: "T"})
 
 
-def conversation(text, complaint="", **recorded):
-    """The Facts with a program of that text, of which this was recorded."""
-    about = {
-        "samples": SAMPLES, "connected": True, "publishers": {CMD_VEL: ("/node",)},
-        "subscribers": {JOY: ("/node",)}, "types": {CMD_VEL: "geometry_msgs/Twist"},
-    }  # fmt: skip
+def connected(publishers=("/node",), kind="geometry_msgs/Twist", topic=CMD_VEL):
+    return Connections(True, {topic: publishers}, {JOY: ("/node",)}, {CMD_VEL: kind})
+
+
+def node(text, connections=None, stray_zeros=0, verdict=None, **numbered):
+    """A node with a program of that text, of which this was recorded."""
     about_files = {"scripts": lambda _: {SCRIPT: PythonFacts(text)}, "text": lambda *_: text}
-    submission = SimpleNamespace(task=JoystickTask({}), **about_files)
-    one = Facts(submission, Drive(SCRIPT, **{**about, **recorded}))
-    one.complaint = complaint
-    return one
+    run = Joy2TwistRun(
+        SCRIPT,
+        connections=connections or connected(),
+        numbered=NumberedJoys(**{"samples": SAMPLES, **numbered}),
+        stream=Stream(stray_zeros=stray_zeros),
+    )
+    recorded = Joy2TwistNode(SimpleNamespace(task=JoystickTask({}), **about_files), run)
+    recorded.rule_verdict = verdict
+    return recorded
 
 
 @pytest.mark.parametrize(
-    ("rows", "text", "recorded", "seen", "where"),
+    ("diagnoses", "recorded", "seen", "where"),
     [
-        ("NOT_CONNECTED", PROGRAM, {"subscribers": {}, "publishers": {JOY: 1}, "types": {JOY: "T"}},
-         "PUBLISHES on /joy (T)", f"{SCRIPT}:5"),
-        ("DISPLAYED", PROGRAM, {"shown": 3}, "3 of 20 were displayed", ""),
-        ("NOT_DISPLAYED", "rospy.Publisher()\nrospy.logdebug(1)", {}, "level debug", ""),
-        ("TOPICS", PROGRAM, {"types": {CMD_VEL: "T"}}, "/cmd_vel carries T", f"{SCRIPT}:4"),
-        ("TOPICS", "", {"publishers": {CMD_VEL: ["/a", "/b"]}}, "several do: /a, /b", SCRIPT),
-        ("TOPICS", PROGRAM, {}, "the Publisher is made in the callback", f"{SCRIPT}:4"),
-        ("NO_TOPIC", PROGRAM, {"publishers": {"/cmd_vel_mux/a": 1}}, "_mux/a", f"{SCRIPT}:4"),
-    ],
-)  # fmt: skip
-def test_recorded_facts_have_a_diagnosis(rows, text, recorded, seen, where):
-    wrong = find(getattr(c, rows), conversation(text, **recorded), "")
-    assert seen in wrong.seen and wrong.where == where
-
-
-@pytest.mark.parametrize(
-    ("rows", "text", "recorded"),
-    [
-        ("CONNECTED", NO_CALLBACK, {"shown": 3}),
-        ("TOPICS", LATCHED, {}),
-        ("ONCE", LOOP, {"strays": 2}),  # the machine stuttered
-        ("ONCE", LOOP, {"twists": each(ZERO), "has_clock": True}),  # before the first Joy
-        ("ONCE", LOOP, {"twists": [ZERO], "has_clock": True, "complaint": "every Twist is zero"}),
-        ("RIGHT_RULE", LOOP, {}),
+        (c.NOT_CONNECTED, node(PROGRAM, ODD_NODES), "PUBLISHES on /joy (T)", f"{SCRIPT}:5"),
+        (a.DISPLAYED, node(PROGRAM, displayed=3), "3 of 20 were displayed", ""),
+        (a.NOT_DISPLAYED, node("rospy.Publisher()\nrospy.logdebug(1)"), "level debug", ""),
+        (c.TOPICS, node(PROGRAM, connected(kind="T")), "/cmd_vel carries T", f"{SCRIPT}:4"),
+        (c.TOPICS, node("", connected(("/a", "/b"))), "several do: /a, /b", SCRIPT),
+        (c.TOPICS, node(PROGRAM), "the Publisher is made in the callback", f"{SCRIPT}:4"),
+        (c.NO_TOPIC, node(PROGRAM, connected(topic="/cmd_vel_mux/a")), "_mux/a", f"{SCRIPT}:4"),
+        (a.ONCE, node(LOOP, stray_zeros=3), "zeros come between the answers", f"{SCRIPT}:3"),
     ],
 )
-def test_recorded_facts_that_are_right_have_none(rows, text, recorded):
-    assert find(getattr(c, rows), conversation(text, **recorded)) is None
+def test_recorded_facts_have_a_diagnosis(diagnoses, recorded, seen, where):
+    verdict = first_of(diagnoses, recorded)
+    assert seen in verdict.seen and verdict.where == where
+
+
+@pytest.mark.parametrize(
+    ("diagnoses", "recorded"),
+    [
+        (c.CONNECTED, node(NO_CALLBACK, displayed=3)),
+        (c.TOPICS, node(LATCHED)),
+        (a.ONCE, node(LOOP, stray_zeros=2)),  # the machine stuttered
+        (a.ONCE, node(LOOP, twists=answers_with(ZERO), has_clock=True)),  # before the first Joy
+        (a.ONCE, node(LOOP, twists=[ZERO], has_clock=True, verdict=ALL_ZERO)),
+        (a.RIGHT_RULE, node(LOOP)),
+    ],
+)
+def test_recorded_facts_that_are_right_have_none(diagnoses, recorded):
+    assert first_of(diagnoses, recorded) is None
 
 
 @pytest.mark.parametrize(
     ("twists", "expected"),
     [
         ([], (1, False)),  # there was no second pass
-        ([*each(), ZERO], (1, False)),  # a late one of before
-        (each(ZERO, ZERO), (3, True)),
+        ([*answers_with(), ZERO], (1, False)),  # a late one of before
+        (answers_with(ZERO, ZERO), (3, True)),
         (sorted(2 * ANSWERS)[1:], (2, False)),  # each of the second ones late
-        ([*each(), *10 * [ZERO]], (1, False)),  # by now and then
+        ([*answers_with(), *10 * [ZERO]], (1, False)),  # by now and then
     ],
 )
 def test_how_often_each_twist_comes(twists, expected):

@@ -7,7 +7,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from courses.handout.driving.bag import Bag
-from courses.handout.driving.run import Drive
+from courses.handout.driving.run import Joy2TwistRun
 from courses.handout.gamepad.record import Stick
 from courses.handout.launching.record import LaunchRun
 from courses.handout.node_class.record import Alone, Endings
@@ -17,7 +17,7 @@ from courses.handout.talker_listener.record import Talk
 from courses.handout.world import record as s7
 from tutorial_check.recording.data import as_json, from_json
 
-KINDS = [Talk, Bag, Follow, Stick, Drive, LaunchRun, Remap, Alone, Endings, s7.Presses, s7.Drive]
+KINDS = [Talk, Bag, Follow, Stick, Joy2TwistRun, LaunchRun, Remap, Alone, Endings, s7.Presses, s7.Drive]
 st.register_type_strategy(float, st.floats(allow_nan=False))
 
 

@@ -14,14 +14,14 @@ NO_JOY = "sensor_msgs/Joy on /joy"
 
 def check_recording(submission: Submission, name: str) -> tuple[str, ...]:
     """Return the topics of a recording fit for joy2twist. name: within src. Raises Wrong."""
-    found = submission.recording(bag, name)
-    if found.error:
+    recording = submission.recording(bag, name)
+    if recording.error:
         hint = f"copy it again: {COPY_BAG[:-1]}{shlex.quote(str(submission.source / name))}"
-        raise Wrong("a recording that rosbag can read", found.error, name, hint)
-    if found.axes is None:
-        seen = f"topics: {', '.join(found.topics) or 'none'}"
+        raise Wrong("a recording that rosbag can read", recording.error, name, hint)
+    if recording.axes is None:
+        seen = f"topics: {', '.join(recording.topics) or 'none'}"
         hint = f"rosbag record /joy; or copy ours: {COPY_BAG}"
         raise Wrong(NO_JOY, seen, name, hint)
-    if found.axes < 2:
-        raise Wrong("at least two axes", f"{found.axes}", name)
-    return found.topics
+    if recording.axes < 2:
+        raise Wrong("at least two axes", f"{recording.axes}", name)
+    return recording.topics

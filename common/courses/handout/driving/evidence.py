@@ -24,8 +24,8 @@ class Rule(NamedTuple):
     factor: float
 
 
-def is_near(one: float, other: float) -> bool:
-    return abs(one - other) <= SMALL + 0.01 * abs(other)
+def is_near(value: float, other: float) -> bool:
+    return abs(value - other) <= SMALL + 0.01 * abs(other)
 
 
 def factor_of(values: Sequence[float], inputs: Sequence[float]) -> float | None:
@@ -74,17 +74,21 @@ class Evidence:
     again: list[Sample] = field(default_factory=list)
     at_rest: Sequence[float] | None = None
     factors: Mapping[int, float] = field(default_factory=dict)
-    task: JoystickTask = HANDOUT  # for the words
+    task: JoystickTask = HANDOUT  # for names
 
     def __post_init__(self) -> None:
         twists = [twist for _, twist in self.samples]
         self.rules = {index: rule_of(index, self.samples) for index in range(6)}
         self.moving = [i for i in range(6) if any(abs(twist[i]) > SMALL for twist in twists)]
-        axes, rules = self.task.names.axes, self.rules.items()
-        self.follows = {index: f"follows {axes[rule.axis]}" for index, rule in rules if rule}
-        # What is said of each field that moves and should stay 0, by its index.
-        strange = [index for index in self.moving if index not in RIGHT]
-        self.strange = {i: f"{FIELDS[i]} {self.follows.get(i, 'is not 0')}" for i in strange}
+        self.strange = [index for index in self.moving if index not in RIGHT]  # should stay 0
+        self.fields = [Field(self, index, axis) for index, axis in RIGHT.items()]
+
+    @property
+    def is_right(self) -> bool:
+        """Whether all values are numbers, each field follows its axis, and the others stay 0."""
+        if self.strange or no_number(self.samples):
+            return False
+        return all(field.is_followed for field in self.fields)
 
 
 class Field:
@@ -92,37 +96,64 @@ class Field:
 
     def __init__(self, evidence: Evidence, index: int, axis: int) -> None:
         self.evidence, self.index, self.name, self.axis = evidence, index, FIELDS[index], axis
-        self.n_axis, self.just = evidence.task.names.axes[axis], evidence.task.answers.rules[axis]
         self.values = [twist[index] for _, twist in evidence.samples]
         self.given = [axes[axis] for axes, _ in evidence.samples]
         self.pairs = list(zip(self.given, self.values))
         self.at_rest = evidence.at_rest[index] if evidence.at_rest else 0.0
         self.rule, self.wanted = evidence.rules[index], evidence.factors.get(index)
+        self.moves = index in evidence.moving
 
     @property
     def is_right(self) -> bool:
         """Whether it is a positive constant times its axis, and the one that is asked for."""
-        if not self.rule or self.rule.axis != self.axis or self.rule.factor <= 0:
+        factor = self.own_factor
+        if factor is None or factor <= 0:
             return False
         # Rounded to two decimals a factor is off by 0.005.
-        return not self.wanted or abs(self.rule.factor / self.wanted - 1) < 0.02
-
-    def is_axis_of(self, index: int) -> bool:
-        """Return whether a field, this or another one, follows this one's axis."""
-        rule = self.evidence.rules[index]
-        return bool(rule and rule.axis == self.axis)
+        return not self.wanted or abs(factor / self.wanted - 1) < 0.02
 
     @property
-    def product(self) -> str:
-        return self.evidence.task.product(self.rule.factor, self.axis) if self.rule else ""
+    def is_followed(self) -> bool:
+        """Whether it is right, or nothing but a curve of its axis where any factor is right."""
+        if self.rule or self.wanted:
+            return self.is_right
+        is_odd = self.mixture or self.is_late or self.adds_up or self.other_answer
+        is_odd = is_odd or self.has_lost_its_sign or self.changes_sign or self.is_whole
+        is_odd = is_odd or self.offset is not None or self.moves_at_rest or self.steps
+        return self.is_curve and not is_odd
+
+    @property
+    def own_factor(self) -> float | None:
+        """The factor of its own axis, if it follows that."""
+        return self.rule.factor if self.rule and self.rule.axis == self.axis else None
+
+    @property
+    def is_late(self) -> bool:
+        """Whether it follows the Joy before."""
+        return factor_of(self.values[1:], self.given[:-1]) is not None
+
+    @property
+    def changes_sign(self) -> bool:
+        """Whether it follows its axis with the sign of the other one."""
+        axes_sent = [axes for axes, _ in self.evidence.samples]
+        signed = [axes[self.axis] * (1 if axes[1 - self.axis] >= 0 else -1) for axes in axes_sent]
+        return factor_of(self.values, signed) is not None
+
+    @property
+    def is_whole(self) -> bool:
+        return all(value == round(value) for value in self.values)
+
+    @property
+    def moves_at_rest(self) -> bool:
+        return abs(self.at_rest) > SMALL
 
     @property
     def other_answer(self) -> tuple[float, float] | None:
         """What the same Joy gave earlier and now, where that differs."""
         earlier = {tuple(axes): twist[self.index] for axes, twist in self.evidence.again}
         known = ((tuple(axes), twist[self.index]) for axes, twist in self.evidence.samples)
-        both = ((earlier[axes], now) for axes, now in known if axes in earlier)
-        return next((each for each in both if not is_near(*each)), None)
+        pairs = ((earlier[axes], now) for axes, now in known if axes in earlier)
+        return next((pair for pair in pairs if not is_near(*pair)), None)
 
     @property
     def has_lost_its_sign(self) -> bool:
@@ -134,19 +165,18 @@ class Field:
         return values[0] > SMALL and _rises(values) and varies
 
     @property
-    def mixture(self) -> str:
-        """The two axes whose sum, or difference, it is, each with its factor; or empty."""
+    def mixture(self) -> tuple[Rule, Rule] | None:
+        """The two axes whose sum, or difference, it is, each with its factor."""
         samples = [(axes, twist[self.index]) for axes, twist in self.evidence.samples]
         order = sorted(range(AXES), key=lambda axis: axis != self.axis)
         for i, j in itertools.combinations(order if len(samples) > 3 else (), 2):
-            (a, b, one), (c, d, other) = ((axes[i], axes[j], value) for axes, value in samples[:2])
+            (a, b, first), (c, d, second) = ((axes[i], axes[j], y) for axes, y in samples[:2])
             whole = a * d - b * c or math.inf
-            p, q = (one * d - other * b) / whole, (other * a - one * c) / whole
+            p, q = (first * d - second * b) / whole, (second * a - first * c) / whole
             fits = all(abs(p * axes[i] + q * axes[j] - value) < 1e-3 for axes, value in samples)
             if fits and min(abs(p), abs(q)) > 0.05:
-                product = self.evidence.task.product
-                return f"{product(p, i)} + {product(q, j)}".replace("+ -", "- ")
-        return ""
+                return Rule(i, p), Rule(j, q)
+        return None
 
     @property
     def adds_up(self) -> bool:
@@ -155,7 +185,7 @@ class Field:
             return False
         factor = steps[-1] / self.given[-1]
         # Values that only change sign are nearly twice as much as those before.
-        fits = (abs(step - factor * each) < 1e-3 for step, each in zip(steps, self.given[1:]))
+        fits = (abs(step - factor * axis) < 1e-3 for step, axis in zip(steps, self.given[1:]))
         return abs(factor) > 1e-2 and all(fits)
 
     @property
@@ -168,21 +198,21 @@ class Field:
         return ""
 
     @property
-    def offset(self) -> str | None:
+    def offset(self) -> float | None:
         offsets = [value - given for given, value in self.pairs]
-        return f"{offsets[0]:.2f}" if max(offsets) - min(offsets) < 0.02 else None
+        return offsets[0] if max(offsets) - min(offsets) < 0.02 else None
 
     @property
-    def steps(self) -> str:
+    def steps(self) -> list[float]:
         """Return the values if there are few for many positions; zero and a limit may be many."""
-        found = {abs(given): abs(value) for given, value in self.pairs}.values()
-        limit = max(found)
-        between = [round(value, 6) for value in found if SMALL < value < limit - SMALL]
-        limited = sum(value >= limit - SMALL for value in found)
+        speeds = {abs(given): abs(value) for given, value in self.pairs}.values()
+        limit = max(speeds)
+        between = [round(value, 6) for value in speeds if SMALL < value < limit - SMALL]
+        limited = sum(value >= limit - SMALL for value in speeds)
         kinds = len(set(between))
         if kinds > 0.6 * len(between) or not limited + len(between) > 2 + kinds:
-            return ""
-        return ", ".join(f"{value:.2f}" for value in sorted({*between, round(limit, 6)})[:3])
+            return []
+        return sorted({*between, round(limit, 6)})
 
     @property
     def is_curve(self) -> bool:
@@ -195,8 +225,7 @@ def _rises(values: Sequence[float]) -> bool:
     return all(after >= before - SMALL for before, after in zip(values, values[1:]))
 
 
-def no_number(samples: Iterable[Sample]) -> str:
-    """Return what is said of a value that is infinite or no number; empty if all are numbers."""
+def no_number(samples: Iterable[Sample]) -> tuple[str, float] | None:
+    """Return the first field with a value that is infinite or no number, and that value."""
     values = ((name, value) for _, twist in samples for name, value in zip(FIELDS, twist))
-    odd = next((each for each in values if not math.isfinite(each[1])), None)
-    return "{} is {}, which is no number".format(*odd) if odd else ""
+    return next((pair for pair in values if not math.isfinite(pair[1])), None)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from tutorial_check import Submission, Wrong, find_script
 
 from ..task import NAME, PACKAGE
-from .record import found
+from .record import known_package
 
 
 def main_script(submission: Submission) -> str:
@@ -29,8 +29,9 @@ def check_manifest(submission: Submission, script: str) -> None:
     call = facts.first("load_manifest") if facts else None
     name = call.words[0] if call and call.words else ""
     # PKG = "joy2twist": what is in it shows when the program runs.
-    is_known = not facts or name in ("", *facts.names, *(each.name for each in submission.packages))
-    if call and not is_known and not submission.recording(found, name).found:
+    packages = [package.name for package in submission.packages]
+    is_known = not facts or name in ("", *facts.names, *packages)
+    if call and not is_known and not submission.recording(known_package, name).is_known:
         expected = "roslib.load_manifest names a package that exists"
         named = submission.task.named(PACKAGE)
         hint = f"load_manifest('{named}'); or leave the line out: catkin needs it no more"

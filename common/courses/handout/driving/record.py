@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import statistics
 import time
 from dataclasses import dataclass, replace
@@ -11,11 +10,11 @@ from typing import Any, Callable, Sequence
 from tutorial_check import GRACE_S, START_S, RosSession, Workspace
 
 from ..task import CMD_VEL, JOY, NEUTRAL, PACKAGE, Joy
-from . import probes
+from . import joys as sent_joys
 from .evidence import FIELDS, LINEAR, RIGHT, rule_of
-from .run import Drive
+from .joys import COUNT
+from .run import Connections, Ending, Joy2TwistRun, NumberedJoys, Stream
 
-COUNT = 20
 RATE, STREAM_S = 50.0, 2.5
 RATED = frozenset(["4.3", "6.2"])  # the exercises that look at the rate
 ANSWER_S = 1.0  # for one Twist, before it counts as missing
@@ -23,17 +22,18 @@ SETTLE_S = 0.15  # after it, in which more of them may come
 QUIET_S = 0.25  # without a Joy, or longer for a slow one: a clock of its own makes itself received
 REST_S = 0.5  # for a Twist at rest; not every program sends one
 SAME_S = 0.06  # in which several Twists answer one Joy
-COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 
 
 @dataclass(frozen=True)
-class Found:
+class KnownPackage:
     """Whether rospack finds a package."""
 
-    found: bool
+    is_known: bool
 
 
-def drive(workspace: Workspace, script: str, wants_twist: bool = True, text: str = "") -> Drive:
+def drive(
+    workspace: Workspace, script: str, wants_twist: bool = True, text: str = ""
+) -> Joy2TwistRun:
     """Start a program and send it Joys. text: in place of its own."""
     if text:
         script = workspace.sibling(PACKAGE, script, text)
@@ -41,10 +41,10 @@ def drive(workspace: Workspace, script: str, wants_twist: bool = True, text: str
         return _Driver(workspace, ros, script).drive(wants_twist)
 
 
-def found(workspace: Workspace, package: str) -> Found:
+def known_package(workspace: Workspace, package: str) -> KnownPackage:
     program = workspace.runner.start(["rospack", "find", package], workspace.environment)
     workspace.runner.wait(lambda: program.ended, 10.0)
-    return Found(not program.process.returncode)
+    return KnownPackage(not program.process.returncode)
 
 
 def rest(ros: RosSession, *topics: str, joys: str = JOY) -> None:
@@ -63,21 +63,25 @@ class _Driver:
         sleeps = tuple(facts.called_back.get("sleep", [])) if facts else ()
         # A queue of one drops what it has no time for, and the newest value is not late.
         drops = facts and facts.keeps_newest and not sleeps
-        self._seen = Drive(
+        self._run = Joy2TwistRun(
             script,
             sleep_lines=sleeps,
             enough=0.5 if drops else 0.95,
-            factors={FIELDS[index]: each for index, each in self._task.factors.items()},
+            factors={FIELDS[index]: factor for index, factor in self._task.factors.items()},
             needs_button=self._task.needs_button,
         )
         ros.peer.advertise(JOY, "Joy")
         ros.peer.listen(CMD_VEL, "Twist")
         self._program = ros.start(PACKAGE, script)
 
-    def _note(self, **changes: Any) -> None:
-        self._seen = replace(self._seen, **changes)
+    @property
+    def _seen(self) -> NumberedJoys:
+        return self._run.numbered
 
-    def drive(self, wants_twist: bool) -> Drive:
+    def _note(self, **changes: Any) -> None:
+        self._run = replace(self._run, numbered=replace(self._seen, **changes))
+
+    def drive(self, wants_twist: bool) -> Joy2TwistRun:
         ros, program = self._ros, self._program
         ros.wait_for_start(lambda: ros.peer.listeners(JOY) or program.ended)
         connected = bool(ros.peer.listeners(JOY)) and not program.ended
@@ -93,13 +97,13 @@ class _Driver:
         # Only where its end is asked for it is waited for.
         grace_s = GRACE_S if "4.3" in self._workspace.order.exercises else 0.5
         taken_s = self._workspace.runner.end(program, grace_s)
-        self._note(
-            connected=connected, publishers={**publishers, **late}, subscribers=subscribers,
-            types=types, warnings=warnings, master_alive=master_alive, ended_early=ended_early,
-            output=output, taken_s=taken_s, last_words=program.output[len(output) :],
+        topics = {**publishers, **late}
+        return replace(
+            self._run,
             program=program.ran,
-        )  # fmt: skip
-        return self._seen
+            connections=Connections(connected, topics, subscribers, types, warnings, master_alive),
+            ending=Ending(ended_early, output, taken_s, program.output[len(output) :]),
+        )
 
     def _wait(self, longest_s: float, condition: Callable[[], Any] = lambda: False) -> None:
         self._ros.wait(lambda: self._program.ended or condition(), longest_s)
@@ -111,7 +115,7 @@ class _Driver:
         return list(self._ros.peer.received(CMD_VEL, since))
 
     def _converse(self, wants_twist: bool) -> None:
-        ros, joys = self._ros, probes.numbered_joys(COUNT)
+        ros, joys = self._ros, sent_joys.numbered_joys()
         ros.peer.send(JOY, NEUTRAL)
         if wants_twist:
             ros.wait(self._count, 0.5)
@@ -119,40 +123,40 @@ class _Driver:
         else:
             for joy in joys:
                 ros.peer.send(JOY, self._task.joy(joy))
-            self._note(asked=COUNT)
+            self._note(sent=COUNT)
         sent = [*map(self._task.joy, joys)]
 
-        def shown() -> int:
+        def displayed() -> int:
             """Return how many of the Joys were displayed, all six axes in a line."""
-            return len(probes.displayed(sent, COLOUR.sub("", self._program.output)))
+            return len(sent_joys.displayed(sent, self._program.output))
 
-        self._wait(0.7, lambda: shown() >= min(5, self._seen.asked))
-        self._note(shown=shown())
-        seen = self._seen
-        goes = seen.answers and not seen.unanswered and not seen.judge_probes()[0]
-        if goes and RATED.intersection(self._workspace.order.exercises) and not self._program.ended:
+        self._wait(0.7, lambda: displayed() >= min(5, self._seen.sent))
+        self._note(displayed=displayed())
+        probes, is_rated = self._run.probes, RATED.intersection(self._workspace.order.exercises)
+        goes = probes.answers and not probes.unanswered and self._run.replies().is_right
+        if goes and is_rated and not self._program.ended:
             self._stream()
-            if not self._seen.is_prompt and not self._program.ended:
+            if not self._run.is_prompt and not self._program.ended:
                 self._stream(beside_ours=True)
 
     def _ask_numbered(self, joys: Sequence[Joy]) -> None:
         self._one_by_one(joys, 0.0)
         seen = self._seen
-        doubtful = seen.unasked > 2 or (seen.samples and seen.complaint)
-        if doubtful and not seen.naps:
+        doubtful = seen.extra > 2 or (seen.samples and not self._run.evidence().is_right)
+        if doubtful and not self._run.naps:
             self._ask_again(joys)
-        if len(self._seen.samples) > COUNT / 2 and not self._seen.naps:
+        if len(self._seen.samples) > COUNT / 2 and not self._run.naps:
             self._keep_quiet()
             seen = self._seen
             if seen.has_clock and not seen.repeats and not seen.twists:
                 self._ask_again(joys)  # zeros by a watchdog, or between all answers
-            if not self._seen.repeats and not self._seen.complaint:
+            if not self._seen.repeats and self._run.evidence().is_right:
                 self._probe(joys)
 
     def _ask_again(self, joys: Sequence[Joy]) -> None:
         """Ask the same with time: it has a clock of its own, publishes several, or is only slow."""
-        is_plain = self._seen.unasked <= 2
-        low = [] if self._seen.missing else probes.low_joys()
+        is_plain = self._seen.extra <= 2
+        low = [] if self._seen.missing else sent_joys.low_joys()
         first = self._seen.samples
         self._note(samples=(), missing=0)
         self._wait(SETTLE_S)  # late ones belong to the first pass
@@ -164,7 +168,7 @@ class _Driver:
             self._note(samples=again)
         # Of several Twists for one Joy it is not known which of them answers it.
         self._note(twists=twists, first_samples=first if is_plain else ())
-        received = self._ask(probes.AT_REST, SETTLE_S)[1]
+        received = self._ask(sent_joys.AT_REST, SETTLE_S)[1]
         self._note(at_rest=received[-1][2] if received else None)
         self._ask(joys[-1], SETTLE_S)  # the last one moves the robot
 
@@ -173,9 +177,9 @@ class _Driver:
         begun_s, before = time.monotonic(), self._count()
         usual_s = statistics.median(self._seen.waits)
         self._wait(max(QUIET_S, 2.5 * min(ANSWER_S, usual_s)))
-        unasked = self._received(before)
-        has_clock = len(unasked) > 1
-        late = [twist for when, _, twist in unasked if when > begun_s + SAME_S]
+        extra = self._received(before)
+        has_clock = len(extra) > 1
+        late = [twist for when, _, twist in extra if when > begun_s + SAME_S]
         self._note(has_clock=has_clock, repeats=has_clock and any(map(any, late)))
 
     def _probe(self, joys: Sequence[Joy]) -> None:
@@ -184,19 +188,22 @@ class _Driver:
         before, settle_s = joys[-1], SETTLE_S if seen.twists else 0.0
         # By now it is known how many Twists one Joy gets: no time is needed to wait for more.
         times = max(1, round(len(seen.twists) / len(seen.samples)))
-        plan = [(joy, settle_s, 1) for joy in probes.probes(joys)]
-        plan += [(joy, 0.0, times) for joy in probes.small_and_button_probes()]
+        plan = [(joy, settle_s, 1) for joy in sent_joys.probes(joys)]
+        plan += [(joy, 0.0, times) for joy in sent_joys.small_and_button_probes()]
         for joy, wait_s, often in plan:
             _, received = self._ask(joy, wait_s, often)
             if not received and not self._program.ended:
                 self._ask(before, wait_s, often)
                 _, received = self._ask(joy, wait_s, often)
             if not received:
-                self._note(unanswered=(joy, before))
+                self._note_probes(unanswered=(joy, before))
                 return
             answer = joy, received[-1 if settle_s else 0][2]
-            self._note(answers=(*self._seen.answers, answer))
+            self._note_probes(answers=(*self._run.probes.answers, answer))
             before = joy
+
+    def _note_probes(self, **changes: Any) -> None:
+        self._run = replace(self._run, probes=replace(self._run.probes, **changes))
 
     def _ask(
         self, joy: Joy, settle_s: float, often: int = 1, longest_s: float = ANSWER_S
@@ -214,7 +221,7 @@ class _Driver:
         for joy in joys:
             sent_s, received = self._ask(joy, settle_s)
             seen, wait_s = self._seen, received[0][0] - sent_s if received else ANSWER_S
-            self._note(asked=seen.asked + 1, waits=(*seen.waits, wait_s))
+            self._note(sent=seen.sent + 1, waits=(*seen.waits, wait_s))
             if received:
                 sample = joy[0], received[-1][2] if settle_s else received[0][2]
                 self._note(samples=(*seen.samples, sample))
@@ -222,11 +229,11 @@ class _Driver:
             else:
                 self._note(missing=seen.missing + 1)
                 unanswered += 1
-            if unanswered == 3 or self._program.ended or self._seen.naps:
+            if unanswered == 3 or self._program.ended or self._run.naps:
                 break
         # Also those that came between an answer and the next Joy.
-        self._note(unasked=self._seen.unasked + self._count() - before - answered)
-        if unanswered == 3 and not self._program.ended and not self._seen.naps:
+        self._note(extra=self._seen.extra + self._count() - before - answered)
+        if unanswered == 3 and not self._program.ended and not self._run.naps:
             # The rest without much patience, to see how many of all are answered.
             for joy in joys[answered + unanswered :]:
                 self._ask(joy, 0.0, longest_s=SAME_S)
@@ -240,16 +247,17 @@ class _Driver:
             ros.peer.listen(answers, "Twist")
             ros.wait(lambda: echo.ready() and ros.peer.listeners(JOY) > known, START_S)
         before = self._count()
-        joys = [self._task.joy(joy) for joy in probes.rising_joys(count)]
+        joys = [self._task.joy(joy) for joy in sent_joys.rising_joys(count)]
         ros.peer.stream(JOY, joys, RATE, False)
         ros.wait(lambda: len(ros.peer.sent(JOY)) >= count, STREAM_S + 3)
         ros.wait(lambda: self._count() - before >= count, 0.3)
         sent, received = ros.peer.sent(JOY), self._received(before)
         rule = rule_of(LINEAR, self._seen.samples)
-        delays = probes.delays(sent, received, rule.factor if rule else None)
-        strays = probes.strays([any(twist) for _, _, twist in received])
-        self._note(sent=len(sent), answered=len(received), delays=tuple(delays), strays=strays)
+        delays = sent_joys.delays(sent, received, rule.factor if rule else None)
+        strays = sent_joys.strays([any(twist) for _, _, twist in received])
+        stream = Stream(len(sent), len(received), strays, tuple(delays))
         if beside_ours:
             echoed, sign = ros.peer.received(answers), self._task.signs[RIGHT[LINEAR]]
-            ours = statistics.median(probes.delays(sent, echoed, sign) or [0.0])
-            self._note(possible=len(echoed), unavoidable_s=ours)
+            ours = statistics.median(sent_joys.delays(sent, echoed, sign) or [0.0])
+            stream = replace(stream, possible=len(echoed), unavoidable_s=ours)
+        self._run = replace(self._run, stream=stream)

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import statistics
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Dict, Optional, Tuple
 
 from tutorial_check import Ran, Topics
 
 from ..task import HANDOUT, Joy, JoystickTask
-from . import probes
+from . import joys
 from .evidence import FIELDS, Evidence
-from .rules import judge
+from .replies import Replies, Silence
 
 SOON_S = 0.05  # from Joy to Twist
 NAP_S = 0.3  # for one Twist: a correct program never takes this long
@@ -21,20 +21,8 @@ Sample = Tuple[Tuple[float, ...], Twist]
 
 
 @dataclass(frozen=True)
-class Asked:
-    """A program, and what its text and the task say."""
-
-    script: str
-    program: Ran = Ran("", "", None, False, False)  # noqa: RUF009  frozen
-    sleep_lines: Tuple[int, ...] = ()  # in a callback
-    enough: float = 0.95  # so many of the Joys of a stream have to be answered
-    factors: Dict[str, float] = field(default_factory=dict)  # by the name of the field
-    needs_button: bool = False
-
-
-@dataclass(frozen=True)
-class Graph:
-    """Where it is in the graph."""
+class Connections:
+    """Where a program is in the graph."""
 
     connected: bool = False
     publishers: Topics = field(default_factory=dict)
@@ -45,34 +33,42 @@ class Graph:
 
 
 @dataclass(frozen=True)
-class Numbered:
-    """The numbered Joys, one at a time."""
+class NumberedJoys:
+    """What it answered to the numbered Joys, one at a time."""
 
-    asked: int = 0
+    sent: int = 0
     samples: Tuple[Sample, ...] = ()
     first_samples: Tuple[Sample, ...] = ()  # from an earlier pass
     missing: int = 0
-    unasked: int = 0
-    came: int = 0  # for the numbered Joys
+    extra: int = 0  # Twists besides the answers
+    came: int = 0  # Twists in all
     waits: Tuple[float, ...] = ()  # [s] from a Joy to the next Twist
     at_rest: Optional[Twist] = None  # the answer to a Joy at rest
     twists: Tuple[Twist, ...] = ()  # all of the second pass
-    has_clock: bool = False  # more come unasked
+    has_clock: bool = False  # more come without a Joy
     repeats: bool = False  # and move the robot
-    shown: int = 0  # how many Joys were displayed
+    displayed: int = 0  # how many Joys were
 
     @property
-    def all_shown(self) -> bool:
-        return self.shown >= min(5, max(1, self.asked))
+    def all_displayed(self) -> bool:
+        return self.displayed >= min(5, max(1, self.sent))
 
 
 @dataclass(frozen=True)
-class Streamed:
-    """The stream of Joys."""
+class Probes:
+    """What it answered to the probes."""
+
+    answers: Tuple[Tuple[Joy, Twist], ...] = ()
+    unanswered: Optional[Tuple[Joy, Joy]] = None  # (Joy, the one before) without a Twist
+
+
+@dataclass(frozen=True)
+class Stream:
+    """What it answered to a stream of Joys."""
 
     sent: int = 0
     answered: int = 0
-    strays: int = 0  # zeros between the answers
+    stray_zeros: int = 0  # between the answers
     delays: Tuple[float, ...] = ()
     possible: Optional[int] = None  # what our own Echo answered beside it
     unavoidable_s: Optional[float] = None
@@ -81,64 +77,72 @@ class Streamed:
     def delay_s(self) -> float | None:
         return statistics.median(self.delays) if self.delays else None
 
-    @property
-    def rate(self) -> str:
-        late = f", {1000 * self.delay_s:.1f} ms late" if self.delay_s is not None else ""
-        return f"{self.answered} Twists for {self.sent} Joys{late}"
+    def is_prompt(self, enough: float) -> bool:
+        """Return whether enough Joys were answered, and soon, as far as the machine allows."""
+        if self.answered < enough * min(self.sent, self.possible or self.sent):
+            return False
+        return self.delay_s is None or self.delay_s < SOON_S + (self.unavoidable_s or 0.0)
 
 
 @dataclass(frozen=True)
-class Drive(Streamed, Numbered, Graph, Asked):
-    """A recording; Joys have the axes and buttons of the handout's task."""
+class Ending:
+    """How it ended."""
 
-    # The probes.
-    answers: Tuple[Tuple[Joy, Twist], ...] = ()
-    unanswered: Optional[Tuple[Joy, Joy]] = None  # (Joy, the one before) without a Twist
-    # The end.
-    ended_early: bool = False
-    output: str = ""  # before Ctrl-C
+    early: bool = False  # before Ctrl-C
+    output: str = ""  # before that
     taken_s: Optional[float] = None  # to the end; None: it was killed
     last_words: str = ""
 
-    @property
-    def evidence(self) -> Evidence:
-        given = self.factors
+
+@dataclass(frozen=True)
+class Joy2TwistRun:
+    """A program that was sent Joys, which have the axes and buttons of the handout's task."""
+
+    script: str
+    program: Ran = Ran("", "", None, False, False)  # noqa: RUF009  frozen
+    sleep_lines: Tuple[int, ...] = ()  # in a callback
+    enough: float = 0.95  # so many of the Joys of a stream have to be answered
+    factors: Dict[str, float] = field(default_factory=dict)  # by the name of the field
+    needs_button: bool = False
+    connections: Connections = Connections()
+    numbered: NumberedJoys = NumberedJoys()
+    probes: Probes = Probes()
+    stream: Stream = Stream()
+    ending: Ending = Ending()
+
+    def evidence(self, task: JoystickTask = HANDOUT) -> Evidence:
+        """Return the answers to the numbered Joys. task: for names."""
+        seen, given = self.numbered, self.factors
         factors = {index: given[name] for index, name in enumerate(FIELDS) if name in given}
-        return Evidence(list(self.samples), list(self.first_samples), self.at_rest, factors)
+        return Evidence([*seen.samples], [*seen.first_samples], seen.at_rest, factors, task)
 
-    @property
-    def complaint(self) -> str:
-        """What is odd about the answers to the numbered Joys; empty if nothing is."""
-        return judge(self.evidence)[0]
+    def replies(self, task: JoystickTask = HANDOUT) -> Replies:
+        """Return the answers to the probes."""
+        return Replies(self.evidence(task), self.probes.answers, self.needs_button)
 
-    def judge_probes(self, task: JoystickTask = HANDOUT) -> tuple[str, str]:
-        """Return (what is wrong with the answers to the probes, what to do); empty if nothing."""
-        evidence = replace(self.evidence, task=task)
-        return probes.judge_probes(evidence, self.answers, self.needs_button)
-
-    def silence(self, task: JoystickTask) -> probes.Silence | None:
+    def silence(self, task: JoystickTask) -> Silence | None:
         """Return the first probe that was not answered."""
-        last = self.answers[-1][1] if self.answers else (1.0,)
-        return probes.Silence(*self.unanswered, last, task) if self.unanswered else None
+        joys_sent, answers = self.probes.unanswered, self.probes.answers
+        last = answers[-1][1] if answers else (1.0,)
+        return Silence(*joys_sent, last, task) if joys_sent else None
 
     @property
     def is_prompt(self) -> bool:
-        """Whether enough Joys were answered, and soon, as far as the machine allows."""
-        if self.answered < self.enough * min(self.sent, self.possible or self.sent):
-            return False
-        return self.delay_s is None or self.delay_s < SOON_S + (self.unavoidable_s or 0.0)
+        return self.stream.is_prompt(self.enough)
 
     @property
     def naps(self) -> bool:
         """Whether its callback sleeps, and so long that each Joy waits for the one before."""
-        is_slow = len(self.waits) > 2 and statistics.median(self.waits[:5]) > NAP_S
+        waits = self.numbered.waits
+        is_slow = len(waits) > 2 and statistics.median(waits[:5]) > NAP_S
         return bool(self.sleep_lines) and is_slow
 
     @property
-    def shows_numbers(self) -> bool:
+    def displays_numbers(self) -> bool:
         """Whether it prints lines with as many numbers as a Joy has axes."""
-        return any(len(probes.NUMBER.findall(line)) >= 6 for line in self.output.splitlines())
+        lines = self.ending.output.splitlines()
+        return any(len(joys.NUMBER.findall(line)) >= 6 for line in lines)
 
     @property
-    def trouble(self) -> bool:
-        return "Traceback (most recent call last)" in self.output
+    def has_traceback(self) -> bool:
+        return "Traceback (most recent call last)" in self.ending.output

@@ -45,9 +45,10 @@ def rate(submission: Submission) -> Note | str | None:
 
 @check("C34", "Ctrl-C ends it", "4.3", needs=mapping, look="Ctrl-C in its terminal")
 def ctrl_c(submission: Submission) -> Note | str:
-    seen = submission.recording(drive, main_script(submission))
-    note = Script(submission, PACKAGE, seen.script).check_end(seen.taken_s, seen.last_words)
-    return note or f"{seen.taken_s:.1f} s"
+    run = submission.recording(drive, main_script(submission))
+    end = run.ending
+    note = Script(submission, PACKAGE, run.script).check_end(end.taken_s, end.last_words)
+    return note or f"{end.taken_s:.1f} s"
 
 
 @check("C18", "it starts while the joystick sends", "4.3", needs=mapping,

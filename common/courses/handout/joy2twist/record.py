@@ -27,11 +27,11 @@ def loaded(workspace: Workspace, script: str) -> Loaded:
         names = [f"__name:=loaded_{number}" for number in range(STARTS)]
         programs = [ros.start(PACKAGE, script, name) for name in names]
 
-        def one_has_failed() -> bool:
-            return any("NameError" in each.output for each in programs)
+        def has_failed() -> bool:
+            return any("NameError" in program.output for program in programs)
 
         def all_publish() -> bool:
             return len({caller for _, caller, _ in ros.peer.received(CMD_VEL)}) >= STARTS
 
-        ros.wait(lambda: all_publish() or one_has_failed(), START_S)
-        return Loaded(one_has_failed())
+        ros.wait(lambda: all_publish() or has_failed(), START_S)
+        return Loaded(has_failed())

@@ -139,9 +139,8 @@ def is_class(submission: Submission) -> Note | str | None:
 def behaves(submission: Submission) -> Note | str | None:
     script, _, _ = program(submission)
     notes: list[object] = [behaviour.displays(submission, script, few_are_enough=True)]
-    notes += [
-        each(submission, script) for each in (behaviour.topics, behaviour.mapping, behaviour.rate)
-    ]
+    behaviours = (behaviour.topics, behaviour.mapping, behaviour.rate)
+    notes += [judge(submission, script) for judge in behaviours]
     return next((note for note in notes if isinstance(note, Note)), None)
 
 

@@ -22,7 +22,6 @@ from tutorial_check.checking.programs import (
     recorded,
 )
 from tutorial_check.checking.results import Note, Wrong, first_of, must_pass, wrong_of
-from tutorial_check.checking.rows import Row, demand, find
 from tutorial_check.checking.script_faults import check_file
 from tutorial_check.checking.submission import Submission
 from tutorial_check.checking.texts import Lines, read_xml, text_of_file
@@ -63,10 +62,10 @@ __all__ = [
     "BUMPER", "GAPS", "GRACE_S", "MASTER_GONE", "ODOM", "SETTLE_S", "START_S", "TRUTH", "Answer",
     "Built", "CannotCheck", "ClassFacts", "Client", "CutShort", "Fault", "File", "Heard",
     "HeardText", "Launch", "LaunchFile", "Lines", "Node", "Note", "Package", "Program",
-    "PythonFacts", "Ran", "RosSession", "Row", "Sample", "Script", "Seen", "SimulatedRobot",
+    "PythonFacts", "Ran", "RosSession", "Sample", "Script", "Seen", "SimulatedRobot",
     "Submission", "SubmissionFiles", "Task", "Topics", "Transform", "Variant", "Workspace", "Wrong",
     "attribute", "build_error", "build_output", "built", "cause_of", "check", "check_file",
-    "cmake_of", "crash", "demand", "find", "find_launch", "find_script", "first_of",
+    "cmake_of", "crash", "find_launch", "find_script", "first_of",
     "first_traceback", "flipped_anonymous", "has_moved", "is_lacking", "is_stand_in", "last_lines",
     "launch_file", "line_of", "meant", "missing_in", "must_be_launchable", "must_be_one_program",
     "must_be_unique", "must_build", "must_pass", "not_found", "own_built", "package_hint",

@@ -1,0 +1,194 @@
+"""What is wrong with what a program from Joy to Twist displays and answers, and when. Pure."""
+
+from __future__ import annotations
+
+import re
+import statistics
+
+from tutorial_check import Note, Wrong, first_of
+
+from ..task import AXES
+from .connection_diagnoses import crashed, ended_early, hidden_crash
+from .joys import COUNT, ROUNDED
+from .node import Joy2TwistNode
+from .probe_diagnoses import SILENCES
+
+MOST_STRAY_ZEROS = 2  # in a row of Joys
+IN_CALLBACK = "publish in the callback alone, once for every Joy; end with rospy.spin()"
+
+
+def callback_sleeps(node: Joy2TwistNode) -> Wrong | None:
+    if not node.run.naps:
+        return None
+    wait_s = statistics.median(node.run.numbered.waits)
+    seen = f"{wait_s:.1f} s from one Twist to the next: the callback sleeps"
+    hint = "no sleep in the callback: it is called once for every message"
+    return Wrong("", seen, node.at(node.run.sleep_lines), hint)
+
+
+def displayed_by_another_file(node: Joy2TwistNode) -> Note | None:
+    script = node.first_version
+    return Note(f"displayed by {script}, no more by {node.script}") if script else None
+
+
+def some_displayed(node: Joy2TwistNode) -> Note | None:
+    count = node.run.numbered.displayed
+    return Note(f"{count} of {COUNT} were displayed") if count else None
+
+
+def throttled(node: Joy2TwistNode) -> Note | None:
+    names = [name for name in node.source.calls if name.endswith("_throttle")]
+    if not names or not node.run.displays_numbers:
+        return None
+    seen = "it displays a Joy now and then; the handout's displays every one"
+    hint = "rospy.loginfo in place of rospy.loginfo_throttle"
+    return Note(seen, node.at_call(names[0]), hint)
+
+
+DISPLAYED = (crashed, displayed_by_another_file, some_displayed, callback_sleeps, throttled)
+
+
+def rounded_too_far(node: Joy2TwistNode) -> Wrong | None:
+    if node.values_displayed(10 * ROUNDED) != AXES:
+        return None
+    seen = "the six values have less than two decimals"
+    return Wrong("", seen, node.script, "%.2f for each value")
+
+
+def some_values_left_out(node: Joy2TwistNode) -> Wrong | None:
+    count = node.values_displayed()
+    hint = "all six: [%.2f, %.2f, %.2f, %.2f, %.2f, %.2f] % data.axes"
+    seen = f"a line has {count} of the six values of a message"
+    return Wrong("", seen, node.script, hint) if count else None
+
+
+def logs_at_debug(node: Joy2TwistNode) -> Note | None:
+    is_debug = {"logdebug", "Publisher"} <= {*node.source.calls}
+    return Note("it logs at the level debug, which is not shown") if is_debug else None
+
+
+def nothing_displayed(node: Joy2TwistNode) -> Wrong:
+    hint = "display data.axes in the callback, with rospy.loginfo(...)"
+    return Wrong("", "not one value of a message was found in its output", node.script, hint)
+
+
+NOT_DISPLAYED = (
+    hidden_crash, rounded_too_far, some_values_left_out, logs_at_debug, nothing_displayed
+)  # fmt: skip
+
+
+def few_answers(node: Joy2TwistNode) -> Wrong:
+    seen, where = node.run.numbered, node.at_call("publish")
+    count = max(seen.came, len(seen.samples))
+    if count:
+        hint = "publish in the callback, for every message"
+        return Wrong("", f"{count} Twists for {COUNT} Joys", where, hint)
+    hint = "is pub.publish(msg) called in the callback, for every message?"
+    return Wrong("", "no Twist came for any Joy", where, hint)
+
+
+ANSWERED = (crashed, ended_early, hidden_crash, few_answers)
+
+
+def zeros_between_answers(node: Joy2TwistNode) -> Wrong | None:
+    numbered = node.run.numbered
+    # An odd answer may be such a zero.
+    is_mixed = numbered.has_clock and len({any(twist) for twist in numbered.twists}) == 2
+    if node.run.stream.stray_zeros <= MOST_STRAY_ZEROS and not (is_mixed and node.is_odd):
+        return None
+    seen = "zeros come between the answers: the robot jerks"
+    return Wrong("", seen, node.loop, IN_CALLBACK)
+
+
+def twists_without_joys(node: Joy2TwistNode) -> Wrong | None:
+    if not node.run.numbered.repeats:
+        return None
+    seen = "Twists come by a clock of its own: without a joystick the robot drives on"
+    return Wrong("", seen, node.loop, IN_CALLBACK)
+
+
+def second_twist_is_zero(node: Joy2TwistNode) -> Wrong | None:
+    moves = any(any(twist) for _, twist in node.run.numbered.samples)
+    if node.repeated != (2, True) or moves:
+        return None
+    seen = "two Twists for one Joy, and the second is zero: the robot jerks"
+    hint = "publish once, at the end of the callback: delete this second publish"
+    return Wrong("", seen, node.second_publish, hint)
+
+
+def several_differ(node: Joy2TwistNode) -> Wrong | None:
+    count, differ = node.repeated
+    seen = f"{count} Twists for each Joy, and they differ: the robot jerks"
+    hint = "publish once, at the end of the callback"
+    return Wrong("", seen, node.second_publish, hint) if differ else None
+
+
+ONCE = (zeros_between_answers, twists_without_joys, second_twist_is_zero, several_differ)
+
+
+def unanswered(node: Joy2TwistNode) -> Wrong | None:
+    silence = node.run.silence(node.submission.task)
+    if not silence or node.is_odd:
+        return None
+    wrong = crashed(node) or first_of(SILENCES, silence)
+    if wrong and not node.run.has_traceback:
+        wrong.where = node.at_call("publish")
+    return wrong
+
+
+def another_rule(node: Joy2TwistNode) -> Wrong | None:
+    # The line to blame sets the field that the words name.
+    verdict, where = node.rule_verdict, node.at_call("publish")
+    if not isinstance(verdict, Wrong):
+        return None
+    hint, numbered = verdict.hint, node.run.numbered
+    field = re.search(r"(linear|angular)\.[xyz]", verdict.seen)
+    name = re.escape(field[0]) if field else r"(?:linear\.x|angular\.z)"
+    for number, line in node.source.text.items():
+        takes_buttons = re.search(name + r"\s*=.*\bbuttons\b(?!.*\baxes\b)", line)
+        if takes_buttons or (field and re.search(name + r"\s*[-+*/]?=", line)):
+            where = node.at([number])
+            hint = "the stick is data.axes, not data.buttons" if takes_buttons else hint
+            break
+    return Wrong("", verdict.seen, where, hint, not (numbered.missing or numbered.extra))
+
+
+def right_but_crashed(node: Joy2TwistNode) -> Note | None:
+    wrong = crashed(node)
+    return Note(f"right, but also: {wrong.seen}", wrong.where, wrong.hint) if wrong else None
+
+
+def the_same_again(node: Joy2TwistNode) -> Note | None:
+    count, hint = node.repeated[0], "one is enough: publish once"
+    return Note(f"{count} Twists for each Joy", node.second_publish, hint) if count > 1 else None
+
+
+def another_scale(node: Joy2TwistNode) -> Note | None:
+    return node.rule_verdict if isinstance(node.rule_verdict, Note) else None
+
+
+def latched(node: Joy2TwistNode) -> Note | None:
+    calls = node.source.calls.get("Publisher", [])
+    if not any(call.names.get("latch") == "True" for call in calls):
+        return None
+    seen = "latch=True: a subscriber that comes late gets a velocity of long ago"
+    return Note(seen, hint="leave latch out")
+
+
+RIGHT_RULE = (unanswered, another_rule, right_but_crashed, the_same_again, another_scale, latched)
+
+
+def rate_of(node: Joy2TwistNode) -> str:
+    stream = node.run.stream
+    late = f", {1000 * stream.delay_s:.1f} ms late" if stream.delay_s is not None else ""
+    return f"{stream.answered} Twists for {stream.sent} Joys{late}"
+
+
+def too_slow(node: Joy2TwistNode) -> Wrong:
+    if not node.run.sleep_lines:
+        return Wrong("", rate_of(node), node.script, "what in the callback takes so long?")
+    hint = "no sleep and no Rate in the callback: it is called for each message"
+    return Wrong("", rate_of(node), node.at(node.run.sleep_lines), hint)
+
+
+RATE = (crashed, too_slow)
