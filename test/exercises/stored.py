@@ -84,7 +84,7 @@ def judged(test, workspace, underlay, exercises, folder, **about):
     return judge(order, read_course(), ask)
 
 
-# {recorder of what is stored: what it is called now}, until all is recorded anew.
+# {recorder of what is stored: what it is called now}, until all is recorded again.
 OLD, HANDOUT = "courses.handout.s4.record", "courses.handout"
 MOVED = {
     f"{OLD}:bag": f"{HANDOUT}.driving.bag:bag",

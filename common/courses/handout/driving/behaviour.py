@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import Callable, Iterable
 
-from tutorial_check import Note, Submission, Wrong, first_of
+from tutorial_check import Note, Submission, Wrong
 
 from . import answer_diagnoses as answers
 from . import connection_diagnoses as connections
@@ -19,11 +19,14 @@ Diagnosis = Callable[[Joy2TwistNode], "Wrong | Note | None"]
 
 def must_hold(diagnoses: Iterable[Diagnosis], node: Joy2TwistNode, expected: str) -> Note | None:
     """Return the Note of the first diagnosis that applies, or None. Raises its Wrong."""
-    verdict = first_of(diagnoses, node)
-    if isinstance(verdict, Wrong):
-        verdict.expected = verdict.expected or expected
-        raise verdict
-    return verdict
+    for diagnosis in diagnoses:
+        verdict = diagnosis(node)
+        if isinstance(verdict, Wrong):
+            verdict.expected = verdict.expected or expected
+            raise verdict
+        if verdict:
+            return verdict
+    return None
 
 
 def _node(submission: Submission, script: str = "") -> Joy2TwistNode:

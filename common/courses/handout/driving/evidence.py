@@ -117,10 +117,12 @@ class Field:
         """Whether it is right, or nothing but a curve of its axis where any factor is right."""
         if self.rule or self.wanted:
             return self.is_right
-        is_odd = self.mixture or self.is_late or self.adds_up or self.other_answer
-        is_odd = is_odd or self.has_lost_its_sign or self.changes_sign or self.is_whole
-        is_odd = is_odd or self.offset is not None or self.moves_at_rest or self.steps
-        return self.is_curve and not is_odd
+        oddities = (
+            self.mixture, self.is_late, self.adds_up, self.other_answer, self.has_lost_its_sign,
+            self.changes_sign, self.is_whole, self.offset is not None, self.moves_at_rest,
+            self.steps,
+        )  # fmt: skip
+        return self.is_curve and not any(oddities)
 
     @property
     def own_factor(self) -> float | None:

@@ -168,8 +168,8 @@ def rule_verdict(evidence: Evidence) -> Wrong | Note | None:
     """Return the Wrong for the answers, or a Note on a factor or curve where any is right."""
     wrong = not_a_number(evidence.samples) or first_of((all_zero, axes_swapped), evidence)
     wrongs = (first_of(OF_A_FIELD, field) for field in evidence.fields if not field.is_right)
-    wrong = wrong or next(filter(None, wrongs), None)
-    return wrong or first_of((other_field_moves, curves, factors), evidence)
+    wrong = wrong or next(filter(None, wrongs), None) or other_field_moves(evidence)
+    return wrong or first_of((curves, factors), evidence)
 
 
 def curves(evidence: Evidence) -> Note | None:
