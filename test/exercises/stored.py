@@ -124,7 +124,7 @@ def _in_parts(answer):
 
 
 def of_today(recorded):
-    """Return what is stored as it is recorded today. It goes when all is recorded anew."""
+    """Return what is stored as it is recorded today. It goes when all is recorded again."""
     recorder = MOVED.get(recorded["recorder"], recorded["recorder"])
     recorded = _in_parts(recorded)
     if recorded["version"] > 1:
