@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import re
-from typing import Callable, Iterable
 
-from tutorial_check import Note, Submission, Wrong
+from tutorial_check import Note, Submission, Wrong, must_pass
 
 from . import answer_diagnoses as answers
 from . import connection_diagnoses as connections
@@ -13,20 +12,6 @@ from .joys import COUNT
 from .node import Joy2TwistNode
 from .program import main_script
 from .record import drive
-
-Diagnosis = Callable[[Joy2TwistNode], "Wrong | Note | None"]
-
-
-def must_hold(diagnoses: Iterable[Diagnosis], node: Joy2TwistNode, expected: str) -> Note | None:
-    """Return the Note of the first diagnosis that applies, or None. Raises its Wrong."""
-    for diagnosis in diagnoses:
-        verdict = diagnosis(node)
-        if isinstance(verdict, Wrong):
-            verdict.expected = verdict.expected or expected
-            raise verdict
-        if verdict:
-            return verdict
-    return None
 
 
 def _node(submission: Submission, script: str = "") -> Joy2TwistNode:
@@ -39,10 +24,10 @@ def _connected(submission: Submission, script: str) -> Joy2TwistNode:
     """Return the same of a program that subscribes to Joys. Raises Wrong."""
     node = _node(submission, script)
     expected = f"it subscribes to {node.names.joy}, sensor_msgs/Joy"
-    must_hold(connections.CONNECTED, node, expected)
+    must_pass(connections.CONNECTED, node, expected)
     has_worked = node.run.numbered.samples or node.run.numbered.displayed
     if not node.graph.connected or (node.run.ending.early and not has_worked):
-        must_hold(connections.NOT_CONNECTED, node, expected)
+        must_pass(connections.NOT_CONNECTED, node, expected)
     return node
 
 
@@ -53,10 +38,10 @@ def displays(submission: Submission, script: str = "", few_are_enough: bool = Fa
     if numbered.all_displayed or (numbered.displayed and few_are_enough):
         return None
     expected = "every Joy displayed with its six axes, two decimals, in one line"
-    note = must_hold(answers.DISPLAYED, node, expected)
+    note = must_pass(answers.DISPLAYED, node, expected)
     if note or few_are_enough:
         return note or Note("it displays nothing; the handout's does")
-    return must_hold(answers.NOT_DISPLAYED, node, expected)
+    return must_pass(answers.NOT_DISPLAYED, node, expected)
 
 
 def topics(submission: Submission, script: str = "") -> Note | str:
@@ -64,9 +49,9 @@ def topics(submission: Submission, script: str = "") -> Note | str:
     node = _connected(submission, script)
     joy, cmd_vel = node.answers.joy, node.answers.cmd_vel
     expected = f"it publishes on {node.names.cmd_vel}, geometry_msgs/Twist"
-    note = must_hold(connections.TOPICS, node, expected)
+    note = must_pass(connections.TOPICS, node, expected)
     if cmd_vel not in node.graph.publishers:
-        must_hold(connections.NO_TOPIC, node, expected)
+        must_pass(connections.NO_TOPIC, node, expected)
     wanted, name = submission.task.values.get("node"), node.graph.subscribers.get(joy, ("",))[0]
     if wanted and not script and not re.fullmatch(rf"/{wanted}(_\d+_\d+)?", name):
         expected, hint = "the name of the node that the task asks for", f"init_node('{wanted}')"
@@ -80,15 +65,15 @@ def mapping(submission: Submission, script: str = "") -> Note | None:
     rules = node.names.rules
     expected = f"for each Joy one Twist: linear.x = {rules[1]}, angular.z = {rules[0]}, all else 0"
     if not node.run.has_traceback:
-        must_hold([answers.callback_sleeps], node, expected)
+        must_pass([answers.callback_sleeps], node, expected)
     if len(node.run.numbered.samples) < COUNT * 0.9:
-        must_hold(answers.ANSWERED, node, expected)
-    must_hold(answers.ONCE, node, expected)
-    return must_hold(answers.RIGHT_RULE, node, expected)
+        must_pass(answers.ANSWERED, node, expected)
+    must_pass(answers.ONCE, node, expected)
+    return must_pass(answers.RIGHT_RULE, node, expected)
 
 
 def rate(submission: Submission, script: str = "") -> Note | str | None:
     """Check that it keeps up with the joystick."""
     expected = "at 50 Joys a second as many Twists, each within 50 ms"
     node = _node(submission, script)
-    return answers.rate_of(node) if node.run.is_prompt else must_hold(answers.RATE, node, expected)
+    return answers.rate_of(node) if node.run.is_prompt else must_pass(answers.RATE, node, expected)

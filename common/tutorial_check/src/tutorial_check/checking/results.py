@@ -68,12 +68,16 @@ def first_of(
 
 
 def must_pass(
-    diagnoses: Iterable[Callable[[Facts], Wrong | Note | None]], facts: Facts
+    diagnoses: Iterable[Callable[[Facts], Wrong | Note | None]], facts: Facts, expected: str = ""
 ) -> Note | None:
-    """Return the Note of the first diagnosis that applies, or None. Raises its Wrong."""
+    """Return the Note of the first diagnosis that applies, or None. Raises its Wrong.
+
+    expected: what a Wrong expects that does not say so itself.
+    """
     for diagnosis in diagnoses:
         verdict = diagnosis(facts)
         if isinstance(verdict, Wrong):
+            verdict.expected = verdict.expected or expected
             raise verdict
         if verdict:
             return verdict
