@@ -87,6 +87,8 @@ def test_a_wrong_file_is_one_line(course, text, why):
     ("checks", "why"),
     [
         ("def\n", "checks.py:1: "),
+        ("import tutorial_check.judge.scripts\n", "COURSES.md says what a course of an earlier"),
+        ("import tutorial_course.other\n", "COURSES.md says what a course of an earlier"),
         ("\nX = unknown\n", "checks.py:2: name 'unknown' is not defined"),
         (CHECKS.replace('"1.1"', '"3"'), "S2: section 3 is of no exercise"),
         (CHECKS.replace('"S10"', '"S1"'), "two checks are S1"),

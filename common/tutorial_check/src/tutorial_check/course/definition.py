@@ -25,6 +25,7 @@ SHIPPED = SUITE / "common" / "courses"  # a folder in it is also known by its na
 HANDOUT = SHIPPED / "handout"
 # The modules of a course, which may be anywhere, are below courses.NAME, by the folder's name.
 COURSES = "courses"
+RENAMED = ": common/doc/COURSES.md says what a course of an earlier release has to change"
 
 # Of what YAML gives, by the type of a field; of others anything.
 KINDS: dict[str, tuple[type, ...]] = {
@@ -176,7 +177,12 @@ def load(course: Course) -> set[str]:
         modules = pkgutil.walk_packages([str(course.folder)], f"{package}.")
         return {importlib.import_module(module.name).__name__ for module in modules}
     except Exception as error:
-        raise CannotCheck(f"{_place(error, course.folder)}: {error}") from None
+        is_old = (getattr(error, "name", None) or "").startswith(
+            ("tutorial_check.", "tutorial_course")
+        )
+        raise CannotCheck(
+            f"{_place(error, course.folder)}: {error}{RENAMED if is_old else ''}"
+        ) from None
 
 
 def _make_package(package: str, folder: Path) -> None:
