@@ -81,10 +81,10 @@ def endings(workspace: Workspace, script: str) -> Endings:
         failed = _drive(workspace, ros, programs)
         if failed:
             return Endings(failed, programs[failed].ran)
-        found = _end(workspace, ros, programs)
+        ended = _end(workspace, ros, programs)
         if robot.ended:
             raise CannotCheck(f"the simulated robot has ended: {robot.output[-200:]}")
-    return found
+    return ended
 
 
 def _start(workspace: Workspace, ros: RosSession, script: str, way: str) -> Program:
@@ -101,7 +101,7 @@ def _start(workspace: Workspace, ros: RosSession, script: str, way: str) -> Prog
 def _twists(ros: RosSession, since: int = 0) -> dict[str, list[Heard]]:
     """Return {way: what that node has sent}."""
     received = ros.peer.received(CMD_VEL, since)
-    return {way: [one for one in received if one[1] == name] for way, name in NODES.items()}
+    return {way: [twist for twist in received if twist[1] == name] for way, name in NODES.items()}
 
 
 def _robot_rests(ros: RosSession) -> bool:
@@ -112,25 +112,25 @@ def _robot_rests(ros: RosSession) -> bool:
 def _drive(workspace: Workspace, ros: RosSession, programs: dict[str, Program]) -> str:
     """Drive until they all move the robot; return the first way in which one does not."""
 
-    def one_has_ended() -> bool:
-        return any(each.ended for each in programs.values())
+    def has_ended() -> bool:
+        return any(program.ended for program in programs.values())
 
     def are_connected() -> bool:
         ends = ros.peer.listeners(JOY), ros.peer.publishers(CMD_VEL)
         return min(ends) >= len(programs) and bool(ros.peer.count(ODOM))
 
     def moving() -> list[int]:
-        return [sum(one[2] != ZERO for one in sent) for sent in _twists(ros).values()]
+        return [sum(value != ZERO for _, _, value in sent) for sent in _twists(ros).values()]
 
-    ros.wait_for_start(lambda: one_has_ended() or are_connected())
+    ros.wait_for_start(lambda: has_ended() or are_connected())
     # The robot obeys a node that has sent it zeros before.
     ros.peer.stream(JOY, [NEUTRAL], 50.0, True)
-    ros.wait(lambda: one_has_ended() or min(map(len, _twists(ros).values())) >= 5, 0.5)
+    ros.wait(lambda: has_ended() or min(map(len, _twists(ros).values())) >= 5, 0.5)
     ros.peer.end_stream(JOY)
     ros.peer.stream(JOY, [workspace.task.held(0.2, 0.3)], 50.0, True)
-    ros.wait(lambda: one_has_ended() or (min(moving()) >= 10 and not _robot_rests(ros)), 4.0)
+    ros.wait(lambda: has_ended() or (min(moving()) >= 10 and not _robot_rests(ros)), 4.0)
     counts = zip(programs.items(), moving())
-    return next((way for (way, each), count in counts if each.ended or not count), "")
+    return next((way for (way, program), count in counts if program.ended or not count), "")
 
 
 def _end(workspace: Workspace, ros: RosSession, programs: dict[str, Program]) -> Endings:
@@ -144,17 +144,17 @@ def _end(workspace: Workspace, ros: RosSession, programs: dict[str, Program]) ->
     ros.peer.kill_node(NODES[KILL])
 
     def all_gone() -> bool:
-        for way, each in programs.items():
+        for way, program in programs.items():
             # A launch takes its time, also when its nodes are gone.
             left = way == LAUNCH and launched and not Path(f"/proc/{launched}").exists()
-            if each.ended or left:
+            if program.ended or left:
                 took_s.setdefault(way, time.monotonic() - began_s)
         return len(took_s) == len(NODES)
 
     def stopped() -> dict[str, bool]:
         all_gone()
         sent = _twists(ros, index)
-        return {way: way in took_s or ZERO in [one[2] for one in sent[way]] for way in NODES}
+        return {way: way in took_s or ZERO in [value for _, _, value in sent[way]] for way in NODES}
 
     before_s = runner.clock.now()
     ros.wait(lambda: all(stopped().values()), STOP_S)

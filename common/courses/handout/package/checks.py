@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 import os
 import re
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Sequence
 
@@ -17,11 +18,13 @@ from tutorial_check import (
     build_output,
     check,
     cmake_of,
+    first_of,
     is_lacking,
     is_stand_in,
     missing_in,
     must_be_unique,
     must_build,
+    must_pass,
     not_found,
     packages_beside,
     packages_of_ros,
@@ -32,6 +35,7 @@ from tutorial_check import (
 )
 
 SUITE = ("node_kit", "fake_turtlebot_sim")  # packages of the underlay
+COMPONENTS = r"find_package\s*\(\s*catkin\b[^)]*\bCOMPONENTS\b([^)]*)\)"
 AGAIN = "in the workspace: rm -r build devel, then catkin_make"
 
 
@@ -64,8 +68,8 @@ def workspace(submission: Submission) -> Note | str | None:
         return Note("never built here (no devel/setup.bash)", hint="catkin_make in the workspace")
     if not any(devel.glob("setup.*")):  # git may leave these out
         return Note("its devel folder has no setup.bash; built again here", hint=AGAIN)
-    own = str(devel.resolve())
-    return _over(submission, [each for each in below if os.path.realpath(each) != own])
+    lower = [folder for folder in below if os.path.realpath(folder) != str(devel.resolve())]
+    return _over(submission, lower)
 
 
 def _over(submission: Submission, below: Sequence[str]) -> Note | str:
@@ -76,7 +80,7 @@ def _over(submission: Submission, below: Sequence[str]) -> Note | str:
     suite = os.path.realpath(Path(submission.order.underlay).parent)
     if suite in map(os.path.realpath, below):
         return "src and devel, on top of this suite"
-    if below and all(each.startswith("/opt/ros/") for each in below):
+    if below and all(folder.startswith("/opt/ros/") for folder in below):
         return Note(f"built over {', '.join(below)} alone; built again here, on top of this suite")
     seen = f"devel was built over {', '.join(below) or 'nothing'}"
     hint = "built in a terminal without ./tutorial shell:"
@@ -93,16 +97,17 @@ def _over(submission: Submission, below: Sequence[str]) -> Note | str:
 def _check_names(submission: Submission) -> None:
     """Raise Wrong for a package with the name of one that the exercises need."""
     share = Path(submission.order.underlay).parent / "share"
-    for each in submission.packages:
-        is_suite = (share / each.name).is_dir() and not is_stand_in(each.name)
-        brings = (each.folder / "msg", each.folder / "src" / each.name)
-        is_ros = any(each.name in _wanted(submission, name) for name in submission.course.packages)
+    for package in submission.packages:
+        name, folder = package.name, package.folder
+        is_suite = (share / name).is_dir() and not is_stand_in(name)
+        is_ros = any(name in _wanted(submission, ours) for ours in submission.course.packages)
         # A clone of the real one is no package that catkin_create_pkg made by mistake.
-        if is_suite or (is_ros and not any(map(Path.is_dir, brings))):
-            seen = f"a package {each.name}: it hides {'the suite' if is_suite else 'ROS'}'s own"
+        is_clone = (folder / "msg").is_dir() or (folder / "src" / name).is_dir()
+        if is_suite or (is_ros and not is_clone):
+            seen = f"a package {name}: it hides {'the suite' if is_suite else 'ROS'}'s own"
             hint = "remove it from src. If catkin_create_pkg made it: its first word is the name"
             hint += " of the new package, those after it what that depends on"
-            raise Wrong("packages of names of their own", seen, f"src/{each.inside}", hint)
+            raise Wrong("packages of names of their own", seen, f"src/{package.inside}", hint)
 
 
 def _wanted(submission: Submission, name: str) -> list[str]:
@@ -111,85 +116,123 @@ def _wanted(submission: Submission, name: str) -> list[str]:
 
 
 def _package(submission: Submission, name: str) -> Package:
-    packages, expected = submission.packages, f"one package {submission.task.shown(name)} in src"
-    own = submission.task.named(name)
-    named = [each for each in packages if each.name == own]
-    broken = [each for each in packages if each.error and own in (each.name, each.folder.name)]
-    if broken:
-        raise unreadable(broken[0])
+    """Return the package that the checks know by a name. Raises Wrong."""
+    expected, own = f"one package {submission.task.shown(name)} in src", submission.task.named(name)
+    named = [package for package in submission.packages if package.name == own]
+    for package in submission.packages:
+        if package.error and own in (package.name, package.folder.name):
+            raise unreadable(package)
     must_be_unique(named)
     if not named:
-        raise _missing(submission, name, expected)
-    outer = [each for each in packages if each.folder in named[0].folder.parents]
-    if outer:
-        seen = f"it is within another package, {outer[0].inside}"
+        diagnoses = (package_beside_src, link_to_nowhere, similar_package)
+        lost = LostPackage(submission, name, own, expected)
+        raise first_of(diagnoses, lost) or no_package(lost)
+    for outer in (p for p in submission.packages if p.folder in named[0].folder.parents):
+        seen = f"it is within another package, {outer.inside}"
         hint = "move it up: packages stand side by side in src"
         raise Wrong(expected, seen, named[0].inside, hint)
     return named[0]
+
+
+@dataclass(frozen=True)
+class LostPackage:
+    """A package that is not in src."""
+
+    submission: Submission
+    name: str  # by which the checks know it
+    own: str  # which it should have
+    expected: str
+
+
+def package_beside_src(lost: LostPackage) -> Wrong | None:
+    packages = packages_beside(lost.submission.layout)
+    for beside in (package.inside for package in packages if package.name == lost.own):
+        hint = f"mv {lost.submission.whole(beside)} {lost.submission.whole('src')}"
+        return Wrong(lost.expected, f"it is beside src: {beside}", beside, hint)
+    return None
+
+
+def link_to_nowhere(lost: LostPackage) -> Wrong | None:
+    link, inside = lost.submission.layout.source / lost.own, f"src/{lost.own}"
+    if not link.is_symlink() or link.exists():
+        return None
+    seen = f"{inside} is a link to {os.readlink(link)}, and leads nowhere here"
+    return Wrong(lost.expected, seen, inside, "put the folder itself into src, no link")
 
 
 def _plain(name: str) -> str:
     return re.sub(r"[^a-z0-9]", "", name.lower())
 
 
-def _missing(submission: Submission, name: str, expected: str) -> Wrong:
-    """Return the Wrong for a package that is not there, or is elsewhere, or has another name."""
-    own = submission.task.named(name)
-    for beside in (each.inside for each in packages_beside(submission.layout) if each.name == own):
-        hint = f"mv {submission.whole(beside)} {submission.whole('src')}"
-        return Wrong(expected, f"it is beside src: {beside}", beside, hint)
-    link = submission.layout.source / own
-    leads_to = os.readlink(link) if link.is_symlink() and not link.exists() else ""
-    if leads_to:
-        seen = f"src/{own} is a link to {leads_to}, and leads nowhere here"
-        return Wrong(expected, seen, f"src/{own}", "put the folder itself into src, no link")
-    named = {_plain(word): p for p in submission.packages for word in (p.name, p.folder.name)}
-    for near in difflib.get_close_matches(_plain(own), named, 1, 0.8):
-        similar = named[near]
-        hint = f"its name must be exactly {own}: lower case, with _ and without -;"
+def similar_package(lost: LostPackage) -> Wrong | None:
+    packages = lost.submission.packages
+    named = {
+        _plain(word): package
+        for package in packages
+        for word in (package.name, package.folder.name)
+    }
+    for near in difflib.get_close_matches(_plain(lost.own), named, 1, 0.8):
+        seen, where = f"a package called {named[near].name}", f"{named[near].inside}/package.xml"
+        hint = f"its name must be exactly {lost.own}: lower case, with _ and without -;"
         hint += " in package.xml, CMakeLists.txt and the folder"
-        seen, where = f"a package called {similar.name}", f"{similar.inside}/package.xml"
-        return Wrong(expected, seen, where, hint)
-    found = ", ".join(each.name for each in submission.packages) or "no package at all"
-    depends = submission.course.packages[name]
-    hint = f"cd to src of your workspace; catkin_create_pkg {own} {depends}."
+        return Wrong(lost.expected, seen, where, hint)
+    return None
+
+
+def no_package(lost: LostPackage) -> Wrong:
+    names = ", ".join(package.name for package in lost.submission.packages)
+    hint = f"cd to src of your workspace; catkin_create_pkg {lost.own}"
+    hint += f" {lost.submission.course.packages[lost.name]}."
     hint += " ./tutorial shell without --in has one of OURS"
-    return Wrong(expected, f"none; found: {found}", hint=hint)
+    return Wrong(lost.expected, f"none; found: {names or 'no package at all'}", hint=hint)
 
 
-def _dependencies(submission: Submission, name: str) -> Package:
-    package, wanted = _package(submission, name), _wanted(submission, name)
-    where = f"{package.inside}/package.xml"
+def odd_name(package: Package) -> Wrong | None:
     for odd in sorted(package.depends):
         if not re.fullmatch(r"[a-z][a-z0-9_+-]*", odd, re.IGNORECASE):
             hint = "between the dependencies stand spaces only, no commas:"
             hint += " fix package.xml and CMakeLists.txt"
-            raise Wrong("names of packages", f"a dependency on {odd!r}", where, hint)
-    missing = [each for each in wanted if each not in package.depends]
+            where = f"{package.inside}/package.xml"
+            return Wrong("names of packages", f"a dependency on {odd!r}", where, hint)
+    return None
+
+
+def _missing(wanted: Sequence[str], package: Package, unknown: Sequence[str]) -> list[str]:
+    """Return what is wanted and not there, or only in one kind of dependency spelt rightly."""
+    missing = [name for name in wanted if name not in package.depends]
+    meant = (difflib.get_close_matches(name, wanted, 1, 0.8) for name in unknown)
+    return missing or next(filter(None, meant), [])
+
+
+def _dependencies(submission: Submission, name: str) -> Package:
+    """Return the package, which has all its dependencies. Raises Wrong."""
+    package, wanted = _package(submission, name), _wanted(submission, name)
+    must_pass([odd_name], package)
     others = sorted(package.depends - set(wanted))
     # What is a package is not misspelt.
-    others_known = (packages_of_ros, is_lacking, lambda name: _is_known(submission, name))
-    unknown = [name for name in others if not any(knows(name) for knows in others_known)]
-    if not missing:  # one kind of dependency may name it rightly
-        meant = (difflib.get_close_matches(each, wanted, 1, 0.8) for each in unknown)
-        missing = next(filter(None, meant), [])
+    unknown = [
+        name
+        for name in others
+        if not (packages_of_ros(name) or is_lacking(name) or _is_known(submission, name))
+    ]
+    missing = _missing(wanted, package, unknown)
     if not missing:
         return package
-    near = {each: difflib.get_close_matches(each, unknown, 1, 0.65) for each in missing}
+    near = {name: difflib.get_close_matches(name, unknown, 1, 0.65) for name in missing}
     seen = f"no {', '.join(missing)}"
     if missing[0] in package.depends:
         seen = f"{near[missing[0]][0]}, which is no package"
-    text = read_xml(package.folder / "package.xml")
+    text, where = read_xml(package.folder / "package.xml"), f"{package.inside}/package.xml"
     place = place_of(where, text, "exec_depend>", "run_depend>", "depend>", "</package>")
     # Format 1 knows no <depend>.
     kinds = ("build_depend", "run_depend") if package.format == 1 else ("depend",)
-    hint = "add " + " and ".join(f"<{k}>{each}</{k}>" for each in missing for k in kinds)
+    hint = "add " + " and ".join(f"<{k}>{name}</{k}>" for name in missing for k in kinds)
     if "rospy" in missing and "roscpp" in others:
         seen, hint = f"{seen}, but roscpp", f"the exercise asks for Python, not for C++: {hint}"
-    for each, (found,) in ((each, words) for each, words in near.items() if words):
-        seen += f" (but {found})" if each not in package.depends else ""
-        place = place_of(where, text, f">{found}<", found)
-        hint = f"correct {found} to {each}, in each line that has it"
+    for right, (odd,) in ((right, words) for right, words in near.items() if words):
+        seen += f" (but {odd})" if right not in package.depends else ""
+        place = place_of(where, text, f">{odd}<", odd)
+        hint = f"correct {odd} to {right}, in each line that has it"
     raise Wrong(f"dependencies on {', '.join(wanted)}", seen, place, hint)
 
 
@@ -209,10 +252,8 @@ def beginner_dependencies(submission: Submission) -> None:
        timeless=True)  # fmt: skip
 def joy2twist(submission: Submission) -> Note | str | None:
     package = _dependencies(submission, "joy2twist")
-    found = re.search(
-        r"find_package\s*\(\s*catkin\b[^)]*\bCOMPONENTS\b([^)]*)\)", cmake_of(package)
-    )
-    for name in found[1].split() if found else ():
+    components = re.search(COMPONENTS, cmake_of(package))
+    for name in components[1].split() if components else ():
         if not _is_known(submission, name) and name in missing_in(build_output(submission)):
             raise Wrong("packages that catkin can find", *not_found(submission, name))
     return f"src/{package.inside}"
@@ -221,12 +262,12 @@ def joy2twist(submission: Submission) -> Note | str | None:
 def _is_known(submission: Submission, name: str) -> bool:
     """Return whether find_package surely finds a package; if not, only a build shows it, slowly."""
     prefixes = submission.underlay_environment.get("CMAKE_PREFIX_PATH", "").split(":")
-    if any(each.name == name for each in submission.packages):
+    if any(package.name == name for package in submission.packages):
         return True
-    file = f"cmake/{name}Config.cmake"
-    found = (Path(prefix, "share", name, file).is_file() for prefix in (*prefixes, "/usr"))
+    file = f"share/{name}/cmake/{name}Config.cmake"
+    is_there = any(Path(prefix, file).is_file() for prefix in (*prefixes, "/usr"))
     # Of a package with a library, as roscpp, Debian has it there.
-    return any(found) or any(Path("/usr/lib").glob(f"*/cmake/{name}/{name}Config.cmake"))
+    return is_there or any(Path("/usr/lib").glob(f"*/cmake/{name}/{name}Config.cmake"))
 
 
 @check("C4", "catkin_make builds", "2.1", needs=beginner, look="catkin_make")

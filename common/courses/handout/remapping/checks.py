@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import re
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from typing import Sequence
 
-from tutorial_check import Submission, Wrong, check, last_lines
+from tutorial_check import Submission, Wrong, check, last_lines, must_pass
 
 from ..launching.files import JOY_HINT, REAL, TURTLEBOT, HandoutLaunch, check_launch
 from ..launching.record import Plan
@@ -16,8 +17,101 @@ from .record import TELEOP, Remap, real_run, remap_run
 EXPECTED = f"Twists on {TELEOP}, none on any other topic"
 
 
-def remap_of(submission: Submission) -> str:
-    return f'<remap from="{submission.task.topic(CMD_VEL)}" to="{TELEOP}"/>'
+@dataclass(frozen=True)
+class Remapping:
+    """joy2twist_turtlebot beside what came of it, where velocities do not flow as they should."""
+
+    file: HandoutLaunch
+    plan: Plan
+    seen: Remap
+
+    @property
+    def own(self) -> str:
+        """The topic of the velocities as the program has it."""
+        return str(self.file.submission.task.topic(CMD_VEL))
+
+    @property
+    def remap(self) -> str:
+        return f'<remap from="{self.own}" to="{TELEOP}"/>'
+
+    @property
+    def remaps(self) -> list[Sequence[str]]:
+        return [remap for node in self.file.own for remap in node["remaps"]]
+
+    def wrong(self, why: str, words: str = "<remap", hint: str = "") -> Wrong:
+        """Return the Wrong for velocities on the program's own topic. words: of its line."""
+        where = self.file.at(words, "joy2twist.py")
+        return Wrong(EXPECTED, f"Twists on {self.own}: {why}", where, hint or self.remap, sure=True)
+
+
+def program_failed(case: Remapping) -> Wrong | None:
+    run = case.seen.run
+    if "Traceback" not in run.program.output and not run.has_died:
+        return None
+    wrong = Wrong(EXPECTED, last_lines(run.program.output), case.file.where)
+    return traced(case.file.submission, run, EXPECTED) or wrong
+
+
+def param_in_place_of_remap(case: Remapping) -> Wrong | None:
+    is_param = re.search(r"<param\s+(from|name)=", case.file.text)
+    if not case.seen.bad or case.remaps or not is_param:
+        return None
+    return case.wrong("a <param> renames nothing", "<param")
+
+
+def remap_outside(case: Remapping) -> Wrong | None:
+    if not case.seen.bad or case.remaps or "<remap" not in case.file.text:
+        return None
+    hint = "a <remap> holds for the node around it, and for those below it: put it between"
+    why = "the <remap> stands outside of the node, and not before it"
+    return case.wrong(why, hint=f"{hint} <node ...> and </node>")
+
+
+def swapped(case: Remapping) -> Wrong | None:
+    if not case.seen.bad or not any(f"/{to.strip('/')}" == case.own for _, to in case.remaps):
+        return None
+    return case.wrong(
+        "from and to are swapped", hint=f"from is the name in the program: {case.remap}"
+    )
+
+
+def published_elsewhere(case: Remapping) -> Wrong | None:
+    for topic in case.seen.others:
+        where = case.file.at("<remap", "joy2twist.py")
+        sure = case.seen.bad or topic in [to for _, to in case.remaps]
+        return Wrong(EXPECTED, f"it publishes on {topic}", where, case.remap, sure)
+    return None
+
+
+def no_velocity(case: Remapping) -> Wrong | None:
+    if case.seen.bad:
+        return None
+    if case.plan.joys not in case.seen.subscribers:
+        hint = "does the node start, and is /joy left as it is?"
+        return Wrong(EXPECTED, f"no node listens to {case.plan.joys}", case.file.where, hint)
+    return Wrong(EXPECTED, "no Twist at all", case.file.where, case.remap)
+
+
+def not_remapped(case: Remapping) -> Wrong:
+    if not case.remaps:
+        return case.wrong("nothing is remapped")
+    return case.wrong(f"the remap from {case.remaps[0][0]} fits no topic of the program")
+
+
+def remapped_by_itself(case: Remapping) -> Wrong | None:
+    is_named = any(node["remaps"] or ":=" in node["args"] for node in case.file.own)
+    if is_named or re.search(r"<(ros)?param\b", case.file.text):
+        return None
+    program, hint = case.file.own[0]["type"], f'type="joy2twist.py", and in it {case.remap}'
+    expected = "the program as it was, whose topic the launch file renames"
+    seen, where = f"{program} publishes on {TELEOP} by itself", case.file.at(program)
+    return Wrong(expected, seen, where, hint)
+
+
+NOT_REMAPPED = (
+    program_failed, param_in_place_of_remap, remap_outside, swapped, published_elsewhere,
+    no_velocity, not_remapped,
+)  # fmt: skip
 
 
 @check("C27", "joy2twist_turtlebot sends to the multiplexer", "6.1", needs="C16",
@@ -28,44 +122,8 @@ def remapped(submission: Submission) -> None:
     joys = topic_of(file.own[0], submission.task.topic(JOY))
     plan = replace(plan_of(file, TELEOP), joys=joys)
     seen = submission.recording(remap_run, plan, own)
-    if not seen.good or seen.bad or own in seen.publishers:
-        raise _not_remapped(file, plan, seen)
-    is_named = any(node["remaps"] or ":=" in node["args"] for node in file.own)
-    if not is_named and not re.search(r"<(ros)?param\b", file.text):
-        program = file.own[0]["type"]
-        expected = "the program as it was, whose topic the launch file renames"
-        hint = f'type="joy2twist.py", and in it {remap_of(submission)}'
-        raise Wrong(expected, f"{program} publishes on {TELEOP} by itself", file.at(program), hint)
-
-
-def _not_remapped(file: HandoutLaunch, plan: Plan, seen: Remap) -> Wrong:
-    """Return the Wrong for velocities that do not flow where they should, or elsewhere, too."""
-    own, hint = file.submission.task.topic(CMD_VEL), remap_of(file.submission)
-    remaps = [remap for node in file.own for remap in node["remaps"]]
-    where, others = file.at("<remap", "joy2twist.py"), seen.others
-    if "Traceback" in seen.run.program.output or seen.run.has_died:
-        said = last_lines(seen.run.program.output)
-        return traced(file.submission, seen.run, EXPECTED) or Wrong(EXPECTED, said, file.where)
-    if seen.bad and not remaps and re.search(r"<param\s+(from|name)=", file.text):
-        words, where = "a <param> renames nothing", file.at("<param")
-    elif seen.bad and not remaps and "<remap" in file.text:
-        words = "the <remap> stands outside of the node, and not before it"
-        hint = "a <remap> holds for the node around it, and for those below it: put it between"
-        hint += " <node ...> and </node>"
-    elif seen.bad and any(f"/{to.strip('/')}" == own for _, to in remaps):
-        words, hint = "from and to are swapped", f"from is the name in the program: {hint}"
-    elif others:
-        sure = seen.bad or others[0] in [to for _, to in remaps]
-        return Wrong(EXPECTED, f"it publishes on {others[0]}", where, hint, sure)
-    elif not seen.bad and plan.joys not in seen.subscribers:
-        hint = "does the node start, and is /joy left as it is?"
-        return Wrong(EXPECTED, f"no node listens to {plan.joys}", file.where, hint)
-    elif not seen.bad:
-        return Wrong(EXPECTED, "no Twist at all", file.where, hint)
-    else:
-        words = "nothing is remapped"
-        words = f"the remap from {remaps[0][0]} fits no topic of the program" if remaps else words
-    return Wrong(EXPECTED, f"Twists on {own}: {words}", where, hint, sure=True)
+    is_wrong = not seen.good or seen.bad or own in seen.publishers
+    must_pass(NOT_REMAPPED if is_wrong else (remapped_by_itself,), Remapping(file, plan, seen))
 
 
 @check("C28", "launch_joy_node_realTurtlebot drives the TurtleBot", "6.1", needs=remapped,
@@ -74,7 +132,7 @@ def real_robot(submission: Submission) -> None:
     file = check_launch(submission, REAL)
     # Its node, with the remap, may stand here once more.
     topics = [f"/{to.strip('/')}" for node in file.own for _, to in node["remaps"]]
-    is_included = any(each.endswith(f"/{TURTLEBOT}") for each in file.facts["files"])
+    is_included = any(path.endswith(f"/{TURTLEBOT}") for path in file.facts["files"])
     if TELEOP not in topics and not is_included:
         hint = f'<include file="$(find {file.student_package})/launch/{TURTLEBOT}"/>'
         raise Wrong(f"it includes {TURTLEBOT}", "it does not", file.where, hint)
@@ -90,6 +148,7 @@ def real_robot(submission: Submission) -> None:
     if not run.drives:
         expected = "cmd_vel_mux lets teleop through, and the robot moves with the stick"
         raise fault_of(file, plan, run, expected)
-    if not any("teleop" in each for each in run.active):
+    if not any("teleop" in name for name in run.active):
         seen = ", ".join(run.active) or "nothing"
-        raise Wrong("cmd_vel_mux/active says teleop", seen, file.where, remap_of(submission))
+        hint = f'<remap from="{submission.task.topic(CMD_VEL)}" to="{TELEOP}"/>'
+        raise Wrong("cmd_vel_mux/active says teleop", seen, file.where, hint)
