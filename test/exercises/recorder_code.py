@@ -24,6 +24,8 @@ def code_hash(module):
 
     Of its words, and not of its syntax tree, which each Python writes in another way.
     """
+    if not file_of(module):  # there is no such recorder any more
+        return ""
     files = map(file_of, sorted(closure(module)))
     words = (word for file in files for word in code_of_file(file).split())
     return hashlib.sha256(" ".join(words).encode()).hexdigest()[:12]

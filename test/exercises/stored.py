@@ -87,6 +87,7 @@ def judged(test, workspace, underlay, exercises, folder, **about):
 # {recorder of what is stored: what it is called now}, until all is recorded again.
 OLD, HANDOUT = "courses.handout.s4.record", "courses.handout"
 MOVED = {
+    "tutorial_check.recording.own_build:own_built": "tutorial_check.recording.build:own_built",
     f"{OLD}:bag": f"{HANDOUT}.driving.bag:bag",
     f"{OLD}:follow": f"{HANDOUT}.simulated_robot.record:follow",
     f"{OLD}:stick": f"{HANDOUT}.gamepad.record:stick",

@@ -29,13 +29,12 @@ from tutorial_check.course.tasks import Task, Variant
 from tutorial_check.processes.errors import MASTER_GONE, CannotCheck, CutShort
 from tutorial_check.processes.program import Program, Ran
 from tutorial_check.processes.runner import GRACE_S
-from tutorial_check.recording.build import built
+from tutorial_check.recording.build import built, own_built
 from tutorial_check.recording.builder import Built
 from tutorial_check.recording.client import Answer, Client, Seen, Transform
 from tutorial_check.recording.data import Heard, HeardText, Topics
 from tutorial_check.recording.launch_facts import Node
 from tutorial_check.recording.launch_files import Launch, read_launch_files
-from tutorial_check.recording.own_build import own_built
 from tutorial_check.recording.ros_session import SETTLE_S, START_S, RosSession
 from tutorial_check.recording.simulated_robot import (
     BUMPER,

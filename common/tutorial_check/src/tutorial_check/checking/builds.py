@@ -5,9 +5,8 @@ from __future__ import annotations
 from tutorial_check.checking.build_errors import build_error
 from tutorial_check.checking.results import Wrong
 from tutorial_check.checking.submission import Submission
-from tutorial_check.recording.build import built
+from tutorial_check.recording.build import built, own_built
 from tutorial_check.recording.builder import Built
-from tutorial_check.recording.own_build import own_built
 from tutorial_check.submission.packages import Package
 
 

@@ -43,6 +43,10 @@ class Program:
 
     @property
     def ended(self) -> bool:
+        return self.has_ended()
+
+    def has_ended(self) -> bool:
+        """Return whether it has ended; a condition to wait for."""
         return self.process.poll() is not None
 
     def signal(self, number: int) -> None:

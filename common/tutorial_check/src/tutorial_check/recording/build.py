@@ -18,6 +18,11 @@ def built(workspace: Builder) -> Built:
     return workspace.built
 
 
+def own_built(workspace: Builder) -> Built:
+    """Build the packages of the exercises alone, as another may have kept them from it."""
+    return workspace.build(only_needed=True)
+
+
 def installed(workspace: Builder, package: str, script: str) -> Installed:
     """Look for a program in devel. script: its path within the package."""
     return Installed("/devel/lib/" in workspace.command(package, script)[0])

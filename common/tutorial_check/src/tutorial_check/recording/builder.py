@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Optional
@@ -48,42 +48,46 @@ class Builder(SubmissionFiles):
     def _ended(self, *command: str) -> tuple[Program, bool]:
         """Return a program that was run, and whether it ended by itself."""
         program = self.runner.start(command)
-        ended = self.runner.wait(lambda: program.ended, SLOW_S)
+        ended = self.runner.wait(program.has_ended, SLOW_S)
         self.runner.end(program)
         return program, ended
 
     @cached_property
     def built(self) -> Built:
         """Build all, or if that fails what exercises need: others may need what Debian lacks."""
-        code, output = self._made()
-        names = [each.name for each in self.needed]
-        if code == 0 or len(names) == len(self.packages):
-            return Built(code, output)
-        found, printed = self._made(f"-DCATKIN_WHITELIST_PACKAGES={';'.join(names)}")
-        if found != 0:
-            return Built(code, output)
-        for each in self.packages:  # the suite's own takes the place of such a one
-            if is_stand_in(each.name):
-                student_files.put_file(self.folder, each.folder / "CATKIN_IGNORE", "")
-        return Built(found, printed, output or " ")
+        whole = self.build()
+        if whole.code == 0 or len(self.needed) == len(self.packages):
+            return whole
+        part = self.build(only_needed=True)
+        if part.code != 0:
+            return whole
+        for package in self.packages:  # the suite's own takes the place of such a one
+            if is_stand_in(package.name):
+                student_files.put_file(self.folder, package.folder / "CATKIN_IGNORE", "")
+        return replace(part, unbuilt=whole.output or " ")
 
-    def _made(self, *words: str) -> tuple[int | None, str]:
-        python = "-DPYTHON_EXECUTABLE=/usr/bin/python3"
-        program, ended = self._ended("catkin_make", "-C", str(self.folder / "ws"), python, *words)
-        return (program.process.returncode if ended else None), program.output
+    def build(self, only_needed: bool = False) -> Built:
+        """Run catkin_make. only_needed: for the packages that the exercises need."""
+        command = ["catkin_make", "-C", str(self.source.parent)]
+        command += ["-DPYTHON_EXECUTABLE=/usr/bin/python3"]
+        if only_needed:
+            names = ";".join(package.name for package in self.needed)
+            command += [f"-DCATKIN_WHITELIST_PACKAGES={names}"]
+        program, ended = self._ended(*command)
+        return Built(program.process.returncode if ended else None, program.output)
 
     @cached_property
     def environment(self) -> dict[str, str]:
         """In which the student's programs find their packages before all others."""
         if self.needs_build() and self.built.code == 0:
-            found = self._sourced(self.folder / "ws" / "devel" / "setup.bash")
+            variables = self._sourced(self.folder / "ws" / "devel" / "setup.bash")
         else:
-            found = dict(self.underlay_environment)
+            variables = dict(self.underlay_environment)
             own = {"CMAKE_PREFIX_PATH": self.folder / "devel", "ROS_PACKAGE_PATH": self.source}
             for name, path in own.items():
-                found[name] = f"{path}:{found.get(name, '')}".rstrip(":")
-        found["CMAKE_PREFIX_PATH"] = f"{self.folder / 'view'}:{found['CMAKE_PREFIX_PATH']}"
-        return found
+                variables[name] = f"{path}:{variables.get(name, '')}".rstrip(":")
+        prefixes = f"{self.folder / 'view'}:{variables['CMAKE_PREFIX_PATH']}"
+        return {**variables, "CMAKE_PREFIX_PATH": prefixes}
 
     def _sourced(self, setup: Path) -> dict[str, str]:
         """Return the environment after a setup.bash, which runs like a program of the student's."""

@@ -29,17 +29,17 @@ def read_launch_files(workspace: Workspace, *paths: str) -> ReadLaunchFiles:
     whole = [str(workspace.source / path) for path in paths]
     command = ["/usr/bin/python3", launch_facts.__file__, *whole]
     program = workspace.runner.start(command, workspace.environment)
-    ended = workspace.runner.wait(lambda: program.ended, READ_S)
+    ended = workspace.runner.wait(program.has_ended, READ_S)
     workspace.runner.end(program)
     if not ended and workspace.runner.clock.busy():
         raise CannotCheck("launch files cannot be read in time: the machine is too busy")
     if not ended:
         return ReadLaunchFiles(None)
     lines = (line for line in program.output.splitlines() if line.startswith(launch_facts.MARK))
-    found = tuple(json.loads(line[len(launch_facts.MARK) :]) for line in lines)
-    if sorted(one["path"] for one in found) != sorted(whole):
+    files = tuple(json.loads(line[len(launch_facts.MARK) :]) for line in lines)
+    if sorted(file["path"] for file in files) != sorted(whole):
         raise CannotCheck(f"launch files cannot be read: {last_lines(program.output)}")
-    return ReadLaunchFiles(found)
+    return ReadLaunchFiles(files)
 
 
 class Launch:
