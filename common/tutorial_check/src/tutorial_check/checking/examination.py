@@ -21,7 +21,7 @@ from pathlib import Path
 from typing import Any
 
 from tutorial_check.checking import judging
-from tutorial_check.checking.results import Outcome
+from tutorial_check.checking.results import Outcome, Result
 from tutorial_check.course.definition import SOLUTIONS
 from tutorial_check.processes.errors import CannotCheck, fault
 from tutorial_check.recording.launcher import sourced
@@ -110,8 +110,12 @@ def main() -> None:
     order, side_by_side = line.recv()
     privileges.limit_reader()
     threading.Thread(target=_end_with, args=[line], daemon=True).start()
+
+    def report(outcome: Outcome, result: Result) -> None:
+        line.send((outcome, result))
+
     try:
-        answer: Answer = judging.examine(order, lambda *found: line.send(found), side_by_side)
+        answer: Answer = judging.examine(order, report, side_by_side)
     except CannotCheck as error:
         answer = error
     except MemoryError:

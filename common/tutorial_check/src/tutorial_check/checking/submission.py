@@ -28,7 +28,7 @@ class Submission(SubmissionFiles):
         super().__init__(order, task)
         self.source = self.folder / handed_in.COPY
         visible = [self.source, *order.readable, *map(Path, bubblewrap.SYSTEM)]
-        self._visible = [Path(os.path.realpath(each)) for each in visible]
+        self._visible = [Path(os.path.realpath(path)) for path in visible]
         self._ask = ask
         self._runs: dict[object, Any] = {}  # what was recorded, or the Wrong in its place
         self.exchanges: list[dict[str, object]] = []  # as JSON, questions with their replies
@@ -79,9 +79,9 @@ class Submission(SubmissionFiles):
         is_known = self.order.is_callers_own and self.folder not in layout.root.parents
         root = f"{shlex.quote(str(layout.root))}/" if is_known else ""
         roots = {"hint": root, "look": root}
-        found: dict[str, Any] = {
+        texts: dict[str, Any] = {
             name: quotable(words.replace(copied, roots.get(name, "")))
             for name, words in vars(result).items()
             if isinstance(words, str)
         }
-        return replace(result, **found)
+        return replace(result, **texts)

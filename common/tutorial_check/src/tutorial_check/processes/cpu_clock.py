@@ -2,6 +2,9 @@
 
 Waits for a processor, on a busy machine, are not an author's fault. So deadlines use a clock that
 nearly stops during such waits. A program that does nothing although it could ends a wait.
+
+The tests of all packages wait by it, too, through tutorial_testing.waiting: CpuClock and times_of()
+are public.
 """
 
 from __future__ import annotations
@@ -30,23 +33,21 @@ def fields_of(stat: str) -> list[bytes]:
 
 
 def times() -> Times:
-    found: Times = {}
-    for process in filter(str.isdigit, os.listdir("/proc")):
-        found.update(times_of(int(process)))
-    return found
+    processes = map(int, filter(str.isdigit, os.listdir("/proc")))
+    return {thread: spent for process in processes for thread, spent in times_of(process).items()}
 
 
 def times_of(process: int) -> Times:
     """Return the times of one process' threads; none if it has ended."""
-    found: Times = {}
+    threads: Times = {}
     with contextlib.suppress(OSError):  # ended meanwhile
         for thread in os.listdir(f"/proc/{process}/task"):
             # It may have ended meanwhile, or the kernel does not count.
             with contextlib.suppress(OSError, ValueError):
                 with open(f"/proc/{process}/task/{thread}/schedstat") as file:
                     at_work, ready, _ = file.read().split()
-                found[int(thread)] = process, int(at_work), int(ready)
-    return found
+                threads[int(thread)] = process, int(at_work), int(ready)
+    return threads
 
 
 def is_ready(process: int, thread: int) -> bool:
@@ -119,7 +120,7 @@ class CpuClock:
     def starved(self) -> bool:
         """Return whether a thread is ready and has had no turn for long."""
         now_s = self._clock()
-        return any(now_s - self._changed_s[each] > STARVED_S for each in self._ready_threads())
+        return any(now_s - self._changed_s[thread] > STARVED_S for thread in self._ready_threads())
 
     def crowd(self) -> int:
         return len({process for process, _, _ in self._last.values()} - self._ours)

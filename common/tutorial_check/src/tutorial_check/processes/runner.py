@@ -171,12 +171,12 @@ class Runner:
 
     def _strays(self) -> list[int]:
         """Return the ids of the living below this process, whose children orphans become."""
-        found, ours = list(processes()), {os.getpid()}
+        visible, ours = list(processes()), {os.getpid()}
         below: set[int] = set()
-        while more := {pid for pid, _, parent, _ in found if parent in below | ours} - below:
+        while more := {pid for pid, _, parent, _ in visible if parent in below | ours} - below:
             below |= more
-        living = [one for one in found if one[0] in below and one[1] not in ENDED]
-        return [pid for pid, _, _, session in living if session not in self.trusted]
+        living = [(pid, session) for pid, state, _, session in visible if state not in ENDED]
+        return [pid for pid, own in living if pid in below and own not in self.trusted]
 
 
 def _signal(pids: Iterable[int], number: int) -> None:

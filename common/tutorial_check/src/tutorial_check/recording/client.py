@@ -82,9 +82,9 @@ class Client:
         self, service: str, kind: str, values: object = None, seconds: float = START_S
     ) -> Answer:
         """Call a service once it is there; wait no longer than that for the response."""
-        found = self._tell("ask", service, kind, values or {}, of=kind, seconds=seconds)
-        if found:
-            return Answer(*found)
+        response = self._tell("ask", service, kind, values or {}, of=kind, seconds=seconds)
+        if response:
+            return Answer(*response)
         known = self._tell("services")
         trouble = f"there is no service {service}; there are: {', '.join(known) or 'none'}"
         return Answer(None, f"{service} does not respond" if service in known else trouble)
@@ -131,8 +131,8 @@ class Client:
 
     def lookup(self, target: str, source: str, seconds: float = START_S) -> Optional[Transform]:
         """Return the newest transform, or None if there is none within that time."""
-        found = self._ros.wait(lambda: self._tell("lookup", target, source), seconds)
-        return Transform(*map(tuple, found)) if found else None
+        newest = self._ros.wait(lambda: self._tell("lookup", target, source), seconds)
+        return Transform(*map(tuple, newest)) if newest else None
 
     def transforms(self) -> Tuple[str, ...]:
         """Return "PARENT -> CHILD" of each transform that came since the first lookup()."""
@@ -153,7 +153,7 @@ class Client:
             return None
         words = f"what uses {of or 'ROS'} ends, or hangs. {last_lines(self._node.output)}".strip()
         answer = self._answers.pop(number, {"fault": words})
-        own = [each.name for each in self._ros.workspace.packages]
+        own = [package.name for package in self._ros.workspace.packages]
         if "fault" in answer and of.partition("/")[0] in own:
             raise CutShort(NO_TYPE, answer["fault"])
         if "value" not in answer:

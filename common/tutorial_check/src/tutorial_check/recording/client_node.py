@@ -35,10 +35,10 @@ class Fault(Exception):
 
 def class_of(kind: str, of_service: bool = False) -> type[genpy.Message]:
     """Return the class of a type, as it was generated. Raises Fault."""
-    found = service_class(kind) if of_service else message_class(kind)
-    if found is None:
+    cls = service_class(kind) if of_service else message_class(kind)
+    if cls is None:
         raise Fault(f"there is no type {kind}")
-    return found
+    return cls
 
 
 def plain(value: object) -> object:
@@ -63,8 +63,8 @@ def message_of(kind: type[genpy.Message], values: object) -> genpy.Message:
     return message
 
 
-def _fields_of(found: Any) -> list[str]:
-    return [f"{kind} {name}" for kind, name in zip(found._slot_types, found.__slots__)]
+def _fields_of(cls: Any) -> list[str]:
+    return [f"{kind} {name}" for kind, name in zip(cls._slot_types, cls.__slots__)]
 
 
 class Node:
@@ -82,34 +82,40 @@ class Node:
         try:
             return _fields_of(class_of(kind))
         except Fault:
-            found = class_of(kind, of_service=True)
-        return [*_fields_of(found._request_class), "---", *_fields_of(found._response_class)]
+            cls = class_of(kind, of_service=True)
+        return [
+            *_fields_of(cls._request_class),
+            "---",
+            *_fields_of(cls._response_class),
+        ]
 
     def services(self) -> list[str]:
-        found = rosgraph.Master(NAME).getSystemState()[2]
-        return sorted(name for name, _ in found if not name.endswith(("loggers", "logger_level")))
+        services = rosgraph.Master(NAME).getSystemState()[2]
+        return sorted(
+            name for name, _ in services if not name.endswith(("loggers", "logger_level"))
+        )
 
     def ask(self, service: str, kind: str, values: object) -> tuple[object, str]:
         """Return (response, "") or (None, why there is none)."""
-        found = class_of(kind, of_service=True)
-        request = message_of(found._request_class, values)
+        cls = class_of(kind, of_service=True)
+        request = message_of(cls._request_class, values)
         try:
             rospy.wait_for_service(service)
-            return plain(rospy.ServiceProxy(service, found)(request)), ""
+            return plain(rospy.ServiceProxy(service, cls)(request)), ""
         except (rospy.ServiceException, rospy.ROSException, rospy.TransportException) as error:
             text = re.sub(r"\bb'(.*)'", r"\1", " ".join(str(error).split()))
             return None, f"{service} is of another type than {kind}" if "md5sum" in text else text
 
     def serve(self, service: str, kind: str, values: object) -> None:
-        found = class_of(kind, of_service=True)
-        answer = message_of(found._response_class, values)
+        cls = class_of(kind, of_service=True)
+        answer = message_of(cls._response_class, values)
         self._heard[service] = []
 
         def respond(request: Any) -> Any:
             self._keep(request, service)
             return answer
 
-        rospy.Service(service, found, respond)
+        rospy.Service(service, cls, respond)
 
     def listen(self, topic: str, kind: str) -> None:
         self._heard[topic] = []
@@ -135,7 +141,7 @@ class Node:
         return time.monotonic()
 
     def connections(self, topic: str) -> int:
-        ends = [each[topic] for each in (self._publishers, self._subscribers) if topic in each]
+        ends = [known[topic] for known in (self._publishers, self._subscribers) if topic in known]
         return min(end.get_num_connections() for end in ends)
 
     def parameter(self, name: str) -> object:
@@ -149,9 +155,9 @@ class Node:
             buffer = tf2_ros.Buffer()
             self._tf = buffer, tf2_ros.TransformListener(buffer)
         try:
-            found = self._tf[0].lookup_transform(target, source, rospy.Time(0)).transform
-            both = (found.translation, found.rotation)
-            return [[getattr(each, name) for name in each.__slots__] for each in both]
+            newest = self._tf[0].lookup_transform(target, source, rospy.Time(0)).transform
+            both = (newest.translation, newest.rotation)
+            return [[getattr(part, name) for name in part.__slots__] for part in both]
         except tf2_ros.TransformException:
             return None
 

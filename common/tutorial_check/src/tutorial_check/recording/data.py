@@ -39,17 +39,16 @@ def as_json(value: object) -> object:
         names = (field.name for field in dataclasses.fields(value))
         return {name: as_json(getattr(value, name)) for name in names}
     if isinstance(value, dict):
-        return {str(key): as_json(each) for key, each in value.items()}
+        return {str(key): as_json(inner) for key, inner in value.items()}
     if isinstance(value, (list, tuple)):
-        return [as_json(each) for each in value]
+        return list(map(as_json, value))
     return str(value) if isinstance(value, Path) else value
 
 
 def from_json(kind: type[Recording], value: object) -> Recording:
     """Return the recording of a type that as_json() has made. Raises ValueError if it is none."""
     try:
-        found: Recording = _from_json(kind, value)
-        return found
+        return cast(Recording, _from_json(kind, value))
     except (AttributeError, KeyError, TypeError) as error:
         raise ValueError(f"no {getattr(kind, '__name__', kind)}: {error}") from None
 
@@ -59,17 +58,17 @@ def _from_json(kind: Any, value: Any) -> Any:
     inner: Any = getattr(kind, "__args__", ())
     if dataclasses.is_dataclass(kind):
         kinds, make = get_type_hints(kind), cast(Any, kind)
-        return make(**{name: _from_json(kinds[name], each) for name, each in value.items()})
+        return make(**{name: _from_json(kinds[name], part) for name, part in value.items()})
     if origin is Union:  # Optional
         return None if value is None else _from_json(inner[0], value)
     if origin in (tuple, Tuple):
         if inner[-1] is Ellipsis:
-            return tuple(_from_json(inner[0], each) for each in value)
-        return tuple(_from_json(one, each) for one, each in zip(inner, value))
+            return tuple(_from_json(inner[0], part) for part in value)
+        return tuple(map(_from_json, inner, value))
     if origin in (dict, Dict):
-        return {key: _from_json(inner[1], each) for key, each in value.items()}
+        return {key: _from_json(inner[1], part) for key, part in value.items()}
     if origin in (list, List):
-        return [_from_json(inner[0], each) for each in value]
+        return [_from_json(inner[0], part) for part in value]
     return kind(value) if kind in (float, Path) else value
 
 
@@ -84,11 +83,11 @@ def recorded_by(recorder: Callable[..., Recording]) -> type[Recording]:
 def arguments_of(recorder: Callable[..., object], values: Sequence[object]) -> List[object]:
     """Return the arguments of a recorder, after the workspace, that as_json() has made."""
     kinds, names = get_type_hints(recorder), list(inspect.signature(recorder).parameters.values())
-    found = []
+    arguments = []
     for number, value in enumerate(values, 1):
-        one = names[min(number, len(names) - 1)]  # the last may be *arguments
-        found.append(_from_json(kinds.get(one.name, Any), value))
-    return found
+        parameter = names[min(number, len(names) - 1)]  # the last may be *arguments
+        arguments.append(_from_json(kinds.get(parameter.name, Any), value))
+    return arguments
 
 
 def must_be_whole(recorded: type) -> None:
@@ -103,5 +102,5 @@ def must_be_whole(recorded: type) -> None:
                     raise CannotCheck(f"{kind.__name__}.{name}: {how}")
                 parts += get_args(part)
             kinds += [
-                each for each in parts if dataclasses.is_dataclass(each) and each not in kinds
+                part for part in parts if dataclasses.is_dataclass(part) and part not in kinds
             ]

@@ -60,7 +60,7 @@ def fault_of(error: BaseException, path: str) -> dict[str, object]:
     chain = [error]
     while chain[-1].__context__:
         chain.append(chain[-1].__context__)
-    frames = [frame for one in chain for frame, _ in traceback.walk_tb(one.__traceback__)]
+    frames = [frame for cause in chain for frame, _ in traceback.walk_tb(cause.__traceback__)]
     # A <remap> in a <node> is t there.
     key = "t" if any(frame.f_code.co_name == "add_remap" for frame in frames) else "tag"
     places, name = [(path, 1)], ""
@@ -69,7 +69,7 @@ def fault_of(error: BaseException, path: str) -> dict[str, object]:
         if tag and "context" in about:
             places.append(place_of_tag(about["context"].filename, tag))
             name = tag.tagName
-    cause = next((one for one in reversed(chain) if not isinstance(one, KeyError)), error)
+    cause = next((c for c in reversed(chain) if not isinstance(c, KeyError)), error)
     if isinstance(cause, expat.ExpatError):
         places.append((path, cause.lineno))
     words = str(cause.args[0] if len(cause.args) == 1 else cause)  # without ROS's paths
@@ -81,7 +81,7 @@ def _node(node: Any, params: Any) -> Node:
     return {
         **{name: getattr(node, name) for name in plain},
         "args": node.args or "",
-        "remaps": [list(each) for each in node.remap_args],
+        "remaps": list(map(list, node.remap_args)),
         "respawn": bool(node.respawn),
         "device": _device_of(node, params),
         "found": can_be_found(node.package, node.type),
@@ -106,9 +106,9 @@ def facts_of(path: str) -> dict[str, object]:
     try:
         with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
             config = roslaunch.config.load_config_default([path], 11311, verbose=False)
-        facts["errors"] = [str(each) for each in config.config_errors]
+        facts["errors"] = list(map(str, config.config_errors))
         facts["nodes"] = [_node(node, config.params) for node in config.nodes]
-        facts["files"] = sorted({str(Path(each).resolve()) for each in config.roslaunch_files})
+        facts["files"] = sorted({str(Path(file).resolve()) for file in config.roslaunch_files})
     except (Exception, SystemExit) as error:
         facts["fault"] = fault_of(error, path)
     return {**facts, "said": said.getvalue()[-2000:]}
@@ -116,5 +116,5 @@ def facts_of(path: str) -> dict[str, object]:
 
 if __name__ == "__main__":
     sys.path.pop(0)  # this folder, where roslaunch needs nothing
-    for each in sys.argv[1:]:
-        print(MARK + json.dumps(facts_of(each)), flush=True)
+    for argument in sys.argv[1:]:
+        print(MARK + json.dumps(facts_of(argument)), flush=True)

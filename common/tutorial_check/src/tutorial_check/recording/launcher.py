@@ -56,7 +56,7 @@ def prepared(bare: Order, folder: Path) -> Order:
         readable += [layout.source, *map(Path, handed_in.named_outside(copied))]
     # A home folder is no workspace, though one may be in it.
     home = Path(os.path.expanduser("~")).resolve()
-    readable = [each for each in readable if each.resolve() not in (home, *home.parents)]
+    readable = [path for path in readable if path.resolve() not in (home, *home.parents)]
     course = folder / "course" / bare.course.name
     copy_sources(bare.course, course)
     bare = sourced(bare)
@@ -98,10 +98,10 @@ def _environment(underlay: str) -> dict[str, str]:
         why = (getattr(error, "stderr", "") or str(error))[-200:]
         raise CannotCheck(f"{underlay} cannot be sourced: {why}") from None
     # rospy loads numpy, which starts a thread for each processor; none is needed here.
-    found = environment_of(done.stdout.split("\0"))
+    variables = environment_of(done.stdout.split("\0"))
     own = {name: os.environ[name] for name in OF_SUITE if name in os.environ}
     # Nor what a student's program puts into a home folder for all that Python starts later.
-    return {**found, **own, "OPENBLAS_NUM_THREADS": "1", "PYTHONNOUSERSITE": "1"}
+    return {**variables, **own, "OPENBLAS_NUM_THREADS": "1", "PYTHONNOUSERSITE": "1"}
 
 
 def must_start_programs(order: Order, is_other: bool) -> None:
@@ -110,7 +110,7 @@ def must_start_programs(order: Order, is_other: bool) -> None:
         why = "is mounted noexec: set TMPDIR to another folder"
         raise CannotCheck(f"no program can be started: {order.folder.parent} {why}")
     needed = set(_needed(order.underlay)) if is_other else set()
-    ways = {up for one in (order.folder, *needed) for up in one.parents} if is_other else set()
+    ways = {up for path in (order.folder, *needed) for up in path.parents} if is_other else set()
     for folder in sorted(needed if order.in_namespaces else needed | ways):
         if not folder.stat().st_mode & 0o001:
             # What is below a needed one is as closed; but a home folder is opened no further.

@@ -24,7 +24,7 @@ from tutorial_check.recording.data import Heard, HeardText, Topics
 NAME = "tutorial_check"
 JOY = "/joy"  # that it answers
 ECHO = f"/{NAME}/echo"  # topic of the Echo
-KINDS = {each.__name__: each for each in (BumperEvent, Joy, LaserScan, Odometry, String, Twist)}
+KINDS = {kind.__name__: kind for kind in (BumperEvent, Joy, LaserScan, Odometry, String, Twist)}
 MOST_KEPT = 20_000  # messages of a topic
 
 
@@ -203,8 +203,8 @@ class Peer:
 
 def _others(topics: Sequence[tuple[str, list[str]]]) -> Topics:
     ours = f"/{NAME}"
-    found = ((topic, tuple(n for n in nodes if not n.startswith(ours))) for topic, nodes in topics)
-    return {topic: nodes for topic, nodes in found if nodes}
+    others = ((topic, tuple(n for n in nodes if not n.startswith(ours))) for topic, nodes in topics)
+    return {topic: nodes for topic, nodes in others if nodes}
 
 
 def _in_thread(function: Callable[..., Any], *arguments: Any) -> None:

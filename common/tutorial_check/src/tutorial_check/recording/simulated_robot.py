@@ -34,7 +34,7 @@ class SimulatedRobot:
     def __init__(self, ros: RosSession, *arguments: str) -> None:
         """Start it, with parameters such as _world:=room or _initial_x:=1.0. Raises CannotCheck."""
         self._ros = ros
-        self._poses = TRUTH if any("_world:=" in each for each in arguments) else ODOM
+        self._poses = TRUTH if any("_world:=" in word for word in arguments) else ODOM
         ros.peer.listen(self._poses, "Odometry")
         ros.peer.listen(BUMPER, "BumperEvent")
         robot = ros.start_ours("fake_turtlebot_sim", "fake_turtlebot.py", *arguments)
@@ -52,7 +52,7 @@ class SimulatedRobot:
         """Whether it moved within the last second."""
         count = self._ros.peer.count(self._poses)
         newest = self._ros.peer.received(self._poses, max(0, count - NEWEST))
-        return any(one.v or one.w for one in map(_sample, newest))
+        return has_moved(tuple(map(_sample, newest)))
 
     @property
     def bumps(self) -> int:
@@ -68,7 +68,7 @@ class SimulatedRobot:
 
 
 def has_moved(path: Sequence[Sample]) -> bool:
-    return any(one.v or one.w for one in path)
+    return any(sample.v or sample.w for sample in path)
 
 
 def _sample(received: tuple[float, str, Sequence[float]]) -> Sample:

@@ -12,8 +12,10 @@ OWN = ("home", "tmp", "ws")  # folders of a session in which the student's progr
 
 def environment_of(words: Iterable[str]) -> dict[str, str]:
     """Return the variables of NAME=value words, without those of the shell itself."""
-    found = dict(word.split("=", 1) for word in words if "=" in word)
-    return {name: found[name] for name in found if name not in ("_", "SHLVL", "PWD", "OLDPWD")}
+    variables = dict(word.split("=", 1) for word in words if "=" in word)
+    return {
+        name: variables[name] for name in variables if name not in ("_", "SHLVL", "PWD", "OLDPWD")
+    }
 
 
 def variables(folder: Path, environment: Mapping[str, str]) -> dict[str, str]:

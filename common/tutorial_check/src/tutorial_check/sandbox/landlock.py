@@ -48,10 +48,10 @@ X32 = 0x40000000  # and above: system calls of x86_64 with numbers of their own
 
 def _call(number: int, *arguments: object) -> int:
     """Return what a system call returns. Raises OSError."""
-    found = int(ctypes.CDLL(None, use_errno=True).syscall(ctypes.c_long(number), *arguments))
-    if found < 0:
+    result = int(ctypes.CDLL(None, use_errno=True).syscall(ctypes.c_long(number), *arguments))
+    if result < 0:
         raise OSError(ctypes.get_errno(), os.strerror(ctypes.get_errno()))
-    return found
+    return result
 
 
 @functools.lru_cache(maxsize=None)

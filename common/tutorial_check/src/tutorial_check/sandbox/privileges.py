@@ -80,8 +80,8 @@ def unused_user(number: int, uid_map: Path = Path("/proc/self/uid_map")) -> int 
     ids exist, and the lower half of them may be in use. Some kernels map no ids.
     """
     lines = uid_map.read_text().splitlines() if uid_map.exists() else []
-    ranges = [[int(word) for word in line.split()] for line in lines]
-    first, _, count = max(ranges, key=lambda each: each[2], default=(0, 0, 2 * UNUSED))
+    ranges = [tuple(map(int, line.split())) for line in lines]
+    count, first = max(((count, first) for first, _, count in ranges), default=(2 * UNUSED, 0))
     if first <= UNUSED and first + count >= 2 * UNUSED:
         return UNUSED + number % UNUSED
     return first + count // 2 + number % (count // 4) if count >= FEW_IDS else None

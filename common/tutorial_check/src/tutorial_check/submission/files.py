@@ -7,7 +7,7 @@ import re
 import shlex
 from functools import cached_property
 from pathlib import Path
-from typing import Any, Callable, Iterator, Mapping, TypeVar
+from typing import Any, Callable, Iterator, Mapping, TypeVar, cast
 
 from tutorial_check.course.definition import SUITE, Course, read_course
 from tutorial_check.course.tasks import Task
@@ -48,7 +48,7 @@ class SubmissionFiles:
     def may_see(self, path: str | Path) -> bool:
         """Return whether the student's programs may see what is at a path, so that we may, too."""
         real = Path(os.path.realpath(path))
-        return any(each == real or each in real.parents for each in self._visible)
+        return any(folder in (real, *real.parents) for folder in self._visible)
 
     @cached_property
     def places(self) -> Places:
@@ -61,8 +61,7 @@ class SubmissionFiles:
         """Return make(), called once. For facts, which do not change."""
         if key not in self._memory:
             self._memory[key] = make()
-        found: Value = self._memory[key]
-        return found
+        return cast(Value, self._memory[key])
 
     @cached_property
     def course(self) -> Course:
@@ -81,11 +80,11 @@ class SubmissionFiles:
 
     def has(self, name: str) -> bool:
         """Return whether there is the package that the checks know by a name."""
-        return any(each.name == self.task.named(name) for each in self.packages)
+        return self.task.named(name) in {package.name for package in self.packages}
 
     def package(self, name: str) -> Package:
         """Return that package. Raises LookupError."""
-        return {each.name: each for each in reversed(self.packages)}[self.task.named(name)]
+        return {package.name: package for package in self.packages[::-1]}[self.task.named(name)]
 
     def scripts(self, name: str) -> dict[str, PythonFacts]:
         """Return {path within the package: PythonFacts} of the Python programs of a package."""
@@ -120,12 +119,12 @@ class SubmissionFiles:
     @property
     def needed(self) -> list[Package]:
         """The packages of the exercises, and those of the workspace that they depend on."""
-        found, names = [], set(map(self.task.named, SOLUTIONS))
+        needed, names = [], set(map(self.task.named, SOLUTIONS))
         for _ in self.packages:
-            found = [each for each in self.packages if each.name in names]
-            names |= {name for each in found for name in each.depends}
-        return found or self.packages
+            needed = [package for package in self.packages if package.name in names]
+            names |= {name for package in needed for name in package.depends}
+        return needed or self.packages
 
     def needs_build(self) -> bool:
         """Return whether something has to be made before a program can run."""
-        return any(NEEDS_BUILD.search(each.cmake or "") for each in self.packages)
+        return any(NEEDS_BUILD.search(package.cmake or "") for package in self.packages)

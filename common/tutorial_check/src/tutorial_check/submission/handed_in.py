@@ -86,24 +86,28 @@ def find_layout(folder: str | Path) -> Layout:
     if not folder.is_dir():
         raise CannotCheck(f"{folder}: neither a folder nor a zip")
     home = Path(os.path.expanduser("~")).resolve()
-    found: dict[Layout, set[str]] = {}
+    layouts: dict[Layout, set[str]] = {}  # with their packages
     try:
         os.listdir(folder)
         for here, folders, _ in walk(folder):
             layout = _layout_of(Path(here))
             inside = [*packages_below(layout.source), *packages_beside(layout)] if layout else []
-            if layout and (inside or not found):
-                found[layout] = {each.name for each in inside}
+            if layout and (inside or not layouts):
+                layouts[layout] = {package.name for package in inside}
             is_end = inside or folder.resolve() in (home, *home.parents)
             folders[:] = [] if is_end else sorted({*folders} - LEFT_OUT)
-            folders[:] = [each for each in folders if each[0] != "." and each != "__MACOSX"]
+            folders[:] = [name for name in folders if name[0] != "." and name != "__MACOSX"]
     except PermissionError as error:
         raise CannotCheck(f"{error.filename}: may not be read") from None
-    if not found:
+    if not layouts:
         return Layout(folder, folder / "src", True)
-    ranked = [each for each in found if found[each]] or list(found)
-    ranked.sort(key=lambda one: (-len(found[one] & SOLUTIONS), len(one.root.parts), one.root))
-    best, place = ranked[0], ", not ".join(os.path.relpath(one.root, folder) for one in ranked[:4])
+
+    def rank(layout: Layout) -> tuple[int, int, Path]:
+        return -len(layouts[layout] & SOLUTIONS), len(layout.root.parts), layout.root
+
+    ranked = sorted(filter(layouts.get, layouts), key=rank) or sorted(layouts, key=rank)
+    places = [os.path.relpath(layout.root, folder) for layout in ranked[:4]]
+    best, place = ranked[0], ", not ".join(places)
     return replace(best, place="" if best.root in (folder, folder.parent) else place)
 
 
@@ -119,9 +123,9 @@ def _layout_of(folder: Path) -> Layout | None:
 def must_be_ones_own(layout: Layout, suite: Path) -> None:
     """Raise CannotCheck if a package, or what it is a link to, is one of the suite's solutions."""
     solutions = {os.path.realpath(suite / name) for name in SOLUTIONS}
-    for each in (layout.source, *sorted(layout.source.glob("*"))):
-        if os.path.realpath(each) in solutions:
-            raise CannotCheck(f"{each} is this suite's solution, not yours: name YOUR workspace")
+    for path in (layout.source, *sorted(layout.source.glob("*"))):
+        if os.path.realpath(path) in solutions:
+            raise CannotCheck(f"{path} is this suite's solution, not yours: name YOUR workspace")
 
 
 def copy(layout: Layout, target: Path, inside: str | Path | None = None) -> Path:
@@ -192,13 +196,12 @@ class _Copying:
 
 def named_outside(source: Path) -> list[str]:
     """Return the recordings and RViz views that exist and that launch files name by whole paths."""
-    files = [each for each in source.rglob("*.launch") if each.is_file()]
-    files = [each for each in files if not is_too_large(each)]
-    texts = [each.read_text(errors="replace") for each in files]
+    files = [path for path in source.rglob("*.launch") if path.is_file()]
+    texts = [path.read_text(errors="replace") for path in files if not is_too_large(path)]
     words = {word for text in texts for word in BETWEEN_WORDS.split(text)}
     # A path, or a parameter's as _file:=/a/path.
-    named = (WHOLE_PATH.match(one, 0 if one[:1] == "/" else one.find("=/") + 1) for one in words)
-    return sorted({each[0] for each in named if each and os.path.isfile(each[0])})
+    named = (WHOLE_PATH.match(w, 0 if w[:1] == "/" else w.find("=/") + 1) for w in words)
+    return sorted({path[0] for path in named if path and os.path.isfile(path[0])})
 
 
 def all_below(folder: str | Path) -> Iterator[str]:

@@ -63,21 +63,21 @@ def too_deep(folder: str | Path) -> str:
 
 def packages_below(folder: str | Path) -> list[Package]:
     """Return every package in a folder, with what is wrong with it, in the order of their paths."""
-    found = []
+    packages = []
     for here, folders, files in walk(folder):
-        folders[:] = sorted(each for each in {*folders} - LEFT_OUT if each[0] != ".")
+        folders[:] = sorted(name for name in {*folders} - LEFT_OUT if name[0] != ".")
         if "CATKIN_IGNORE" in files:
             folders.clear()
         elif "package.xml" in files and os.path.isfile(f"{here}/package.xml"):
-            found.append(read_package(Path(here), folder))
-    return found
+            packages.append(read_package(Path(here), folder))
+    return packages
 
 
 def packages_beside(layout: Layout) -> list[Package]:
     """Return the packages right beside the src of a workspace; deeper may be another student's."""
     manifests = sorted(layout.root.glob("*/package.xml")) if layout.is_workspace else []
-    beside = (each.parent for each in manifests if each.is_file())
-    return [read_package(each, layout.root) for each in beside if each != layout.source]
+    beside = (manifest.parent for manifest in manifests if manifest.is_file())
+    return [read_package(path, layout.root) for path in beside if path != layout.source]
 
 
 def read_package(place: Path, root: str | Path) -> Package:
@@ -99,7 +99,7 @@ def read_package(place: Path, root: str | Path) -> Package:
         return package
     package.name, package.format = parsed.name, parsed.package_format
     depends = (*parsed.build_depends, *parsed.exec_depends, *parsed.build_export_depends)
-    package.depends = {each.name for each in depends}
+    package.depends = {dependency.name for dependency in depends}
     return package
 
 
@@ -107,9 +107,9 @@ def underlays(devel: str | Path) -> tuple[str, list[str] | None]:
     """Return (the folder a devel space was made for, or ""; what it was laid over, or None)."""
     files = [Path(devel) / name for name in ("_setup_util.py", "setup.sh")]
     # A pipe would never be read to its end.
-    text, setup = (each.read_text(errors="replace") if each.is_file() else "" for each in files)
+    text, setup = (f.read_text(errors="replace") if f.is_file() else "" for f in files)
     # The first of its assignments, written by catkin: CMAKE_PREFIX_PATH = r'/a;/b'.split(';')
-    found = re.search(r"^\s*CMAKE_PREFIX_PATH = r?(['\"])(.*)\1\.split\(", text, re.MULTILINE)
+    paths = re.search(r"^\s*CMAKE_PREFIX_PATH = r?(['\"])(.*)\1\.split\(", text, re.MULTILINE)
     made_for = re.search(r"_CATKIN_SETUP_DIR:=(.*)", setup)
-    below = [each for each in found[2].split(";") if each] if found else None
+    below = list(filter(None, paths[2].split(";"))) if paths else None
     return made_for[1].rstrip("} \t") if made_for else "", below

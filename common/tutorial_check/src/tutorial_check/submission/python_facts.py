@@ -63,7 +63,7 @@ class PythonFacts:
             names = {word.arg: text_of(word.value) for word in node.keywords if word.arg}
             self.calls.setdefault(last_name(node), []).append(Call(node.lineno, words, names))
         self.classes = [_class_facts(node, set(self.calls)) for node in self._of(ast.ClassDef)]
-        inner = [node for one in self._of(ast.FunctionDef) for node in ast.walk(one)]
+        inner = [node for function in self._of(ast.FunctionDef) for node in ast.walk(function)]
         self.inner_names = {name for _, name in _made(inner)}  # that functions make, or are given
         self.has_main = any(map(_is_main, self._nodes))
         self.loops = [node.lineno for node in self._of(ast.While)]
@@ -103,7 +103,7 @@ class PythonFacts:
     def odd_main(self) -> Place:
         """(line, text) of `if __name__ == ' main ':` and its like."""
         tests = [node.test for node in self._nodes[0].body if isinstance(node, ast.If)]
-        for test in (one for one in tests if isinstance(one, ast.Compare)):
+        for test in (compare for compare in tests if isinstance(compare, ast.Compare)):
             left, right = text_of(test.left), text_of(test.comparators[0])
             is_meant = (left.strip("_"), right.strip(" _")) == ("name", "main")
             if is_meant and left not in self.names and (left, right) != ("__name__", "__main__"):
@@ -113,34 +113,34 @@ class PythonFacts:
     @cached_property
     def names(self) -> dict[str, int]:
         """{name: first line} of variables, parameters, functions, classes and imports."""
-        found = list(_made(self._nodes))
-        found += [(node.lineno, node.name) for node in self._of(ast.FunctionDef, ast.ClassDef)]
+        names = list(_made(self._nodes))
+        names += [(node.lineno, node.name) for node in self._of(ast.FunctionDef, ast.ClassDef)]
         for node in self._of(ast.Import, ast.ImportFrom):
-            found += [(node.lineno, each.asname or each.name) for each in node.names]
-        return {name: line for line, name in sorted(found, reverse=True)}
+            names += [(node.lineno, alias.asname or alias.name) for alias in node.names]
+        return {name: line for line, name in sorted(names, reverse=True)}
 
     @property
     def attributes(self) -> dict[str, tuple[int, str]]:
         """{"msg.linear.x": (first line, what it is set to)}."""
         pairs = [(target, node.value) for node in self._of(ast.Assign) for target in node.targets]
         pairs = [both for both in pairs if isinstance(both[0], ast.Attribute)]
-        found = [(target.lineno, text_of(target), text_of(value)) for target, value in pairs]
-        return {name: (line, value) for line, name, value in sorted(found, reverse=True)}
+        texts = [(target.lineno, text_of(target), text_of(value)) for target, value in pairs]
+        return {name: (line, value) for line, name, value in sorted(texts, reverse=True)}
 
     @property
     def loose(self) -> dict[int, str]:
         """{line beside functions, which may have fallen out of one: the function above it}."""
-        found: dict[int, str] = {}
+        functions: dict[int, str] = {}
         for block in self._of(ast.Module, ast.ClassDef):
             above = ""
             for node in block.body:
-                inner = [each.name for each in ast.walk(node) if isinstance(each, ast.FunctionDef)]
+                inner = [f.name for f in ast.walk(node) if isinstance(f, ast.FunctionDef)]
                 if inner:
                     above = inner[-1]
                 elif above and not _is_main(node):
                     lines = range(node.lineno, (node.end_lineno or node.lineno) + 1)
-                    found.update(dict.fromkeys(lines, above))
-        return found
+                    functions.update(dict.fromkeys(lines, above))
+        return functions
 
     @cached_property
     def called_back(self) -> dict[str, list[int]]:
@@ -163,7 +163,7 @@ class PythonFacts:
                 if isinstance(node, ast.Call):
                     lines.setdefault(last_name(node), set()).add(node.lineno)
                     waiting.append(last_name(node))
-        return {name: sorted(found) for name, found in lines.items()}
+        return {name: sorted(numbers) for name, numbers in lines.items()}
 
     @property
     def odd_node(self) -> Place:
@@ -186,9 +186,10 @@ class PythonFacts:
         """Return what catches an error. lines: of the calls to it, the innermost last."""
         blocks = [block for block in self._of(ast.Try) if any(map(is_broad, block.handlers))]
         for line in lines[::-1]:
-            around = [one for one in blocks if one.lineno <= line < one.handlers[0].lineno]
+            # ast.walk comes to what is outside first.
+            around = [block for block in blocks if block.lineno <= line < block.handlers[0].lineno]
             if around:
-                return max(around, key=lambda one: int(one.lineno)).handlers[-1]
+                return around[-1].handlers[-1]
         return None
 
     def first(self, name: str) -> Call | None:
@@ -256,20 +257,20 @@ def _class_facts(node: ast.ClassDef, called: set[str]) -> ClassFacts:
 
 def with_bases(classes: list[ClassFacts]) -> list[ClassFacts]:
     """Return the ClassFacts, each with what the bases among them give it."""
-    by_name = {one.name: one for one in classes}
+    by_name = {facts.name: facts for facts in classes}
 
-    def whole(one: ClassFacts, below: tuple[str, ...] = ()) -> ClassFacts:
-        for base in sorted(one.bases):
+    def whole(facts: ClassFacts, below: tuple[str, ...] = ()) -> ClassFacts:
+        for base in sorted(facts.bases):
             parent = by_name.get(base.rpartition(".")[2])
-            if parent and parent.name not in (one.name, *below):
-                parent = whole(parent, (one.name, *below))
-                one = replace(
-                    one,
-                    methods=[*one.methods, *parent.methods],
-                    is_node=one.is_node or parent.is_node,
-                    attributes=one.attributes | parent.attributes,
-                    bases=(one.bases - {base}) | parent.bases,
+            if parent and parent.name not in (facts.name, *below):
+                parent = whole(parent, (facts.name, *below))
+                facts = replace(
+                    facts,
+                    methods=[*facts.methods, *parent.methods],
+                    is_node=facts.is_node or parent.is_node,
+                    attributes=facts.attributes | parent.attributes,
+                    bases=(facts.bases - {base}) | parent.bases,
                 )
-        return one
+        return facts
 
-    return [whole(one) for one in classes]
+    return list(map(whole, classes))

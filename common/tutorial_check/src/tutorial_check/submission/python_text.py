@@ -76,7 +76,7 @@ def without_name(text: str, name: str) -> str | None:
     for node in ast.walk(ast.parse(text)):
         if not isinstance(node, ast.ImportFrom):
             continue
-        if name in {each.asname or each.name for each in node.names}:
+        if name in {alias.asname or alias.name for alias in node.names}:
             line = lines[node.lineno - 1]
             margin = line[: len(line) - len(line.lstrip())]
             lines.insert(node.end_lineno or node.lineno, f"{margin}del {name}")

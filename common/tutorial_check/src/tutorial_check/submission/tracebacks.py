@@ -38,15 +38,15 @@ def first_traceback(output: str, folder: str) -> Traceback | None:
     """Return the first Traceback in the output, or None; files of the folder are the student's."""
     if OF_SERVICE in output:
         output = LINE_END.sub("\n", output)
-    found: list[Traceback] = []
+    traces: list[Traceback] = []
     is_closed = False
     for block in reversed(output.split("Traceback (most recent call last)")[1:51]):
         if block.strip(": \n"):  # else it was cut off behind this line
             trace = _traceback(block, folder)
             # What led to such an end, which rospy reports before it, is none, either.
             is_closed = bool(CLOSED.search(trace.error)) or (is_closed and ABOVE in block)
-            found += [] if is_closed else [trace]
-    return next((trace for trace in found[::-1] if trace.where), found[-1] if found else None)
+            traces += [] if is_closed else [trace]
+    return next((trace for trace in traces[::-1] if trace.where), traces[-1] if traces else None)
 
 
 def _traceback(block: str, folder: str) -> Traceback:
