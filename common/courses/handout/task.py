@@ -40,14 +40,14 @@ class Words:
 
 def order(places: Mapping[int, int]) -> dict[int, int]:
     """Return a rearrangement with these places, {from: to}, in which nothing gets lost."""
-    left = [each for each in places.values() if each not in places]
-    free = [each for each in places if each not in places.values()]
+    left = [place for place in places.values() if place not in places]
+    free = [place for place in places if place not in places.values()]
     return {**places, **dict(zip(left, free))}
 
 
 def moved(values: Sequence[T], places: Mapping[int, int]) -> tuple[T, ...]:
-    found = {places.get(index, index): value for index, value in enumerate(values)}
-    return tuple(found[index] for index in range(len(values)))
+    by_place = {places.get(index, index): value for index, value in enumerate(values)}
+    return tuple(by_place[index] for index in range(len(values)))
 
 
 class JoystickTask(Task):
@@ -61,7 +61,7 @@ class JoystickTask(Task):
         self.topics = {TOPICS[key]: values[key] for key in TOPICS if key in values}
         # Of linear.x and angular.z, by the index of the Twist's values; without one any is right.
         given = (values.get(scale) for _, scale in FIELDS.values())
-        self.factors = {index: abs(each) for index, each in zip((0, 5), given) if each is not None}
+        self.factors = {i: abs(scale) for i, scale in zip((0, 5), given) if scale is not None}
         # For a factor below 0 the axis is sent with the other sign: the checks see one above 0.
         self.signs = {i: -1 if values.get(scale, 1) < 0 else 1 for i, scale in FIELDS.values()}
         self.needs_button = "enable_button" in values

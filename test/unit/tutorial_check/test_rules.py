@@ -4,7 +4,16 @@ import pytest
 
 from courses.handout.driving.evidence import Evidence
 from courses.handout.driving.field_diagnoses import rule_verdict
-from courses.handout.driving.joys import delays, displayed, numbered_joys, values_displayed
+from courses.handout.driving.joys import (
+    delays,
+    displayed,
+    numbered_joys,
+    probes,
+    small_and_button_probes,
+    values_displayed,
+)
+from courses.handout.driving.probe_diagnoses import probe_verdict
+from courses.handout.driving.replies import Replies
 from tutorial_check import Note, Wrong
 
 JOYS = numbered_joys(20)
@@ -39,6 +48,28 @@ def test_the_rule_is_found_and_named(text, wrong, remark):
     assert verdict is None or (wrong or remark) in verdict.seen
     # The recorder sends probes to a program whose rule is right, without asking a diagnosis.
     assert evidence(text).is_right == (not wrong)
+
+
+@pytest.mark.parametrize(
+    ("text", "wrong"),
+    [
+        ("a[1], a[0]", ""),
+        ("a[1], a[0] or 0.3", "angular.z is 0.30 when axes[0] is 0.00"),
+        ("a[1] if a[0] else 0.0, a[0]", "linear.x is 0 when axes[1] alone is moved"),
+        ("a[1] if abs(a[1]) > 0.03 else NAN, a[0]", "linear.x is nan"),
+        ("a[1] if b[4] else 0.0, a[0]", "the robot drives with LB released"),
+    ],
+)
+def test_the_recorder_and_the_diagnoses_of_probes_agree(text, wrong):
+    convert = eval(f"lambda a, b: ({text})", {"NAN": NAN})
+    answers = []
+    for axes, buttons in [*probes(JOYS), *small_and_button_probes()]:
+        x, z = convert(axes, buttons)
+        answers.append(((axes, buttons), (x, 0.0, 0.0, 0.0, 0.0, z)))
+    replies = Replies(evidence("a[1], a[0]"), answers, "b[4]" in text)
+    verdict = probe_verdict(replies)
+    assert (wrong in verdict.seen) if wrong else verdict is None
+    assert replies.is_right == (not wrong)
 
 
 @pytest.mark.parametrize(

@@ -137,20 +137,24 @@ def unanswered(node: Joy2TwistNode) -> Wrong | None:
 
 
 def another_rule(node: Joy2TwistNode) -> Wrong | None:
-    # The line to blame sets the field that the words name.
-    verdict, where = node.rule_verdict, node.at_call("publish")
+    verdict, numbered = node.rule_verdict, node.run.numbered
     if not isinstance(verdict, Wrong):
         return None
-    hint, numbered = verdict.hint, node.run.numbered
-    field = re.search(r"(linear|angular)\.[xyz]", verdict.seen)
+    line, takes_buttons = _setting_line(node.source.text, verdict.seen)
+    where = node.at([line]) if line else node.at_call("publish")
+    hint = "the stick is data.axes, not data.buttons" if takes_buttons else verdict.hint
+    return Wrong("", verdict.seen, where, hint, not (numbered.missing or numbered.extra))
+
+
+def _setting_line(text: dict[int, str], seen: str) -> tuple[int, bool]:
+    """Return (line that sets the field that is named, or 0; whether to a button)."""
+    field = re.search(r"(linear|angular)\.[xyz]", seen)
     name = re.escape(field[0]) if field else r"(?:linear\.x|angular\.z)"
-    for number, line in node.source.text.items():
+    for number, line in text.items():
         takes_buttons = re.search(name + r"\s*=.*\bbuttons\b(?!.*\baxes\b)", line)
         if takes_buttons or (field and re.search(name + r"\s*[-+*/]?=", line)):
-            where = node.at([number])
-            hint = "the stick is data.axes, not data.buttons" if takes_buttons else hint
-            break
-    return Wrong("", verdict.seen, where, hint, not (numbered.missing or numbered.extra))
+            return number, bool(takes_buttons)
+    return 0, False
 
 
 def right_but_crashed(node: Joy2TwistNode) -> Note | None:

@@ -32,7 +32,7 @@ AT_REST: Joy = (REST, pressed(LB))
 def numbered_joys(count: int = COUNT) -> list[Joy]:
     """Return Joys of which no two are alike, nor any two axes, with LB held.
 
-    Signs change, so that a rule which is right only forwards or to the left is found out. In the
+    Signs change, so that a rule which is right only forwards or to the left shows. In the
     last two an axis is pushed as far as it goes, which int() alone leaves as it is.
     """
     joys = []

@@ -13,7 +13,7 @@ def recording(submission: Submission) -> Note | str | None:
     """Take the first of the recordings that can be played to joy2twist; there may be others."""
     ours = submission.package(PACKAGE).folder if submission.has(PACKAGE) else None
     bags = submission.source.rglob("*.bag") if ours or submission.has("beginner_tutorials") else []
-    bags = sorted(bags, key=lambda each: (each.name != "joy.bag", each))
+    bags = sorted(bags, key=lambda path: (path.name != "joy.bag", path))
     if not bags:
         seen = "no bag in the workspace; look at /joy with rosbag play and rostopic echo /joy"
         return Note(seen, hint=f"the recording: {COPY_BAG}", empty=True)
