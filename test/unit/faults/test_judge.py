@@ -30,6 +30,14 @@ def test_a_base_that_was_restarted_under_a_held_stick_waits(about, fault, hands,
     assert "".join(violation.invariant for violation in Trial(stream).violations) == letters, about
 
 
+@pytest.mark.parametrize(("sees_truth", "gap_s", "late"), [
+    (False, 0.12, False), (False, 0.18, True), (True, 0.04, False), (True, 0.1, True),
+])  # fmt: skip
+def test_a_gap_in_what_wheels_do_may_be_the_machine(sees_truth, gap_s, late):
+    stream = odometry(0.0, 1.0, DRIVES) + odometry(1.0 + gap_s, 2.0, RESTS)
+    assert Trial(stream, sees_truth).was_late == late
+
+
 @pytest.mark.parametrize(
     ("about", "fault", "rests_s", "then", "letters"),
     [

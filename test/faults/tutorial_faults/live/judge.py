@@ -18,6 +18,7 @@ SLACK_S = 0.05  # between the stamps of this process and those of the nodes
 MAX_LINEAR, MAX_ANGULAR = 0.7, 2.0
 STARTS_S = 0.3  # a node that is restarted does nothing sooner: it loads rospy
 LATE_S = 0.15  # a gap in the odometry, or a fault that was not there at once
+LINE_LATE_S = 0.08  # a gap of the truth: after 0.1 s without a packet a driver's robot is offline
 
 # What an Event is about; of the last two the value is a velocity.
 HANDS, BEGINS, ENDS, LATE = "hands show", "begins:", "ends:", "late by [s]:"
@@ -74,7 +75,8 @@ class Trial:
         stamps = [event.at_s for event in self.of(WHEELS)]
         gaps_s = [after - before for before, after in zip(stamps, stamps[1:])]
         is_base_hit = not self._sees_truth and any(fault.part == BASE for fault in self.hits)
-        return bool(self.of(LATE)) or (not is_base_hit and max(gaps_s, default=0.0) > LATE_S)
+        longest_s = LINE_LATE_S if self._sees_truth else LATE_S
+        return bool(self.of(LATE)) or (not is_base_hit and max(gaps_s, default=0.0) > longest_s)
 
     def of(self, *what):
         return [event for event in self.events if event.what in what]

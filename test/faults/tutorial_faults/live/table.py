@@ -66,8 +66,13 @@ class Raw:
 
 RawJoy, RawTwist = type("RawJoy", (Raw, Joy), {}), type("RawTwist", (Raw, Twist), {})
 
-# Cut, or with wrong lengths; of what is too long rospy reads the beginning.
-BROKEN = (b"", bytes(20), serialised(HELD)[:-3], b"\xff" * 100_000)
+
+def broken(message):
+    """Return bytes that are none of its kind: cut, or with wrong lengths.
+
+    Of what is too long rospy reads the beginning, so a Joy would be a Twist, of tiny velocities.
+    """
+    return b"", bytes(20), serialised(message)[:-3], b"\xff" * 100_000
 
 
 def odd_joy(random):
@@ -143,13 +148,13 @@ def rows():
     ):
         yield Fault(family, part, PAUSES, (0.05, 1.5), do, of_line=True)
     nan = lambda random: Twist(linear=Vector3(x=random.choice(ODD[:3])))  # noqa: E731
-    raw = lambda kind: lambda random: kind(random.choice(BROKEN))  # noqa: E731
+    raw = lambda kind, good: lambda random: kind(random.choice(broken(good)))  # noqa: E731
     for family, part, topic, must, kind, make in (
         ("second", "joy", "joy", WAITS, Joy, lambda _: HELD),
         ("odd", "joy", "joy", MAY_STOP, Joy, odd_joy),
-        ("broken", "joy", "joy", MAY_STOP, RawJoy, raw(RawJoy)),
+        ("broken", "joy", "joy", MAY_STOP, RawJoy, raw(RawJoy, HELD)),
         *(("nan", part, topic, DRIVES_ON, Twist, nan) for part, topic in TOPICS.items()),
-        *(("broken", *row, DRIVES_ON, RawTwist, raw(RawTwist)) for row in TOPICS.items()),
+        *(("broken", *row, DRIVES_ON, RawTwist, raw(RawTwist, Twist())) for row in TOPICS.items()),
     ):
         yield Fault(family, part, must, (0.1, 1.0), partial(says, topic, kind, make))
 
