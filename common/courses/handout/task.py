@@ -101,10 +101,10 @@ class JoystickTask(Task):
     def topic(self, name: str) -> str:
         return self.topics.get(name, name)
 
-    def named(self, package: str) -> str:
+    def name_of(self, package: str) -> str:
         return self.values.get("package", package) if package == PACKAGE else package
 
-    def shown(self, package: str) -> str:
+    def in_messages(self, package: str) -> str:
         return self.names.package if package == PACKAGE else package
 
     def fill(self, text: str) -> str:

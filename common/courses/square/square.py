@@ -37,19 +37,19 @@ def path_of(submission):
     return seen.path
 
 
-@check("S1", "it drives", "1", look="rosrun square square.py")
+@check("S1", section="1", look="rosrun square square.py")
 def drives(submission):
-    """Find the program, and look whether it drives."""
+    """It drives."""
     path = path_of(submission)
     return f"for {path[-1].at_s - path[0].at_s:.0f} s"
 
 
-@check("S2", "it passes the corners", "1", needs=drives, look="rostopic echo /odom")
+@check("S2", section="1", needs=drives, look="rostopic echo /odom")
 def passes_corners(submission):
-    """Look for each corner on the way that is left."""
+    """It passes the corners."""
     path = path_of(submission)
     side = 1 if max(path, key=lambda s: abs(s.y)).y > 0 else -1
-    for number, (x, y) in enumerate(CORNERS, 1):
+    for number, (x, y) in enumerate(CORNERS, 1):  # each on the way that is left
         gap, at = min((math.dist((s.x, s.y), (x, side * y)), k) for k, s in enumerate(path))
         if gap > NEAR_M:
             expected = f"corner {number}, ({x}, {side * y}), within {NEAR_M} m"
@@ -57,9 +57,9 @@ def passes_corners(submission):
         path = path[at:]
 
 
-@check("S3", "it rests at the end", "1", needs=drives, look="rostopic echo /odom/twist")
+@check("S3", section="1", needs=drives, look="rostopic echo /odom/twist")
 def rests(submission):
-    """Look at the last sample."""
+    """It rests at the end."""
     end = path_of(submission)[-1]
     if end.v or end.w:
         raise Wrong("a robot at rest", f"{end.v:.2f} m/s", hint="publish Twist() at the end")

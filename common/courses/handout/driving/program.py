@@ -33,6 +33,6 @@ def check_manifest(submission: Submission, script: str) -> None:
     is_known = not facts or name in ("", *facts.names, *packages)
     if call and not is_known and not submission.recording(known_package, name).is_known:
         expected = "roslib.load_manifest names a package that exists"
-        named = submission.task.named(PACKAGE)
+        named = submission.task.name_of(PACKAGE)
         hint = f"load_manifest('{named}'); or leave the line out: catkin needs it no more"
         raise Wrong(expected, f"ResourceNotFound: {name}", f"{script}:{call.line}", hint)

@@ -55,7 +55,7 @@ class HandoutLaunch(LaunchFile):
         folder = submission.package(PACKAGE).folder
         others = (sorted(filter(Path.is_file, folder.rglob(other))) for other in ALL)
         super().__init__(submission, PACKAGE, path, [paths[0] for paths in others if paths])
-        self.name, self.student_package = name, submission.task.named(PACKAGE)
+        self.name, self.student_package = name, submission.task.name_of(PACKAGE)
         # The student's programs.
         self.own = [node for node in self.nodes if node["package"] == self.student_package]
 

@@ -92,7 +92,7 @@ def _start(workspace: Workspace, ros: RosSession, script: str, way: str) -> Prog
     if way != LAUNCH:
         return ros.start(PACKAGE, script, f"__name:={name}")
     file = workspace.folder / "tmp" / "ended.launch"
-    package, program = workspace.task.named(PACKAGE), Path(script).name
+    package, program = workspace.task.name_of(PACKAGE), Path(script).name
     text = LAUNCH_FILE.format(package=package, program=program, name=name)
     put_file(workspace.folder, file, text)
     return ros.launch(["roslaunch", str(file)])

@@ -79,7 +79,7 @@ class LaunchFile(File):
 
 def find_launch(submission: Submission, package: str, name: str, hint: str = "") -> Path:
     """Return the path of a launch file. Raises Wrong; hint: what to do if there is none."""
-    folder, own = package_of(submission, package).folder, submission.task.named(package)
+    folder, own = package_of(submission, package).folder, submission.task.name_of(package)
     paths = sorted(path for path in folder.rglob(name) if path.is_file())
     if len(paths) > 1:
         inside = [str(path.relative_to(folder)) for path in paths]
@@ -90,7 +90,7 @@ def find_launch(submission: Submission, package: str, name: str, hint: str = "")
         return paths[0]
     files = (path for path in submission.source.rglob("*launch*") if path.is_file())
     others = {path.name.lower(): path for path in sorted(files) if path.name != name}
-    expected = f"{submission.task.shown(package)}/launch/{name}"
+    expected = f"{submission.task.in_messages(package)}/launch/{name}"
     for near in difflib.get_close_matches(name.lower(), others, 1, 0.85):
         other = os.path.relpath(others[near], submission.source)
         hint = f"its name must be {name}, and its place {own}/launch"

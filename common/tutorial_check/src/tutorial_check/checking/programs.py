@@ -30,7 +30,7 @@ def find_script(submission: Submission, package: str, name: str) -> str:
         seen, where = f"a program in C++, {path.name}", str(path.relative_to(folder))
         hint = f"the exercise asks for Python, rospy: write scripts/{name}; the C++ may stay"
         raise Wrong(f"a program {name}", seen, where, hint)
-    expected = f"a program {name} in the package {submission.task.shown(package)}"
+    expected = f"a program {name} in the package {submission.task.in_messages(package)}"
     hint = f"create scripts/{name} in YOUR package; ./tutorial shell without --in has one of OURS"
     look = f"ls {submission.whole('scripts', package)}"
     raise Wrong(expected, "no such file anywhere in it", "", hint, look=look)

@@ -37,7 +37,7 @@ def check_file(submission: Submission, package: str, script: str) -> None:
     file = ScriptFile(submission, package, script)
     wrong = first_of(FAULTS, file)
     if wrong:
-        wrong.look = wrong.look or f"rosrun {submission.task.shown(package)} {file.name}"
+        wrong.look = wrong.look or f"rosrun {submission.task.in_messages(package)} {file.name}"
         raise wrong
 
 

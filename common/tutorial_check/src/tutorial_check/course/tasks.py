@@ -30,11 +30,11 @@ class Task:
         """values: those that are given."""
         self.values = values
 
-    def named(self, package: str) -> str:
+    def name_of(self, package: str) -> str:
         """Return the name that the student's files have for a package that the checks name."""
         return package
 
-    def shown(self, package: str) -> str:
+    def in_messages(self, package: str) -> str:
         """Return what stands for that name in messages that are no hints."""
         return package
 

@@ -101,7 +101,7 @@ class Builder(SubmissionFiles):
 
     def command(self, package: str, script: str) -> list[str]:
         """Return the command that starts a script as rosrun does: catkin's own copy, if any."""
-        own_name = self.task.named(package)
+        own_name = self.task.name_of(package)
         installed = self.folder / "ws" / "devel" / "lib" / own_name / Path(script).name
         self.environment  # noqa: B018  builds, if need be
         if installed.exists() and not Path(script).name.startswith("checked_"):

@@ -80,11 +80,11 @@ class SubmissionFiles:
 
     def has(self, name: str) -> bool:
         """Return whether there is the package that the checks know by a name."""
-        return self.task.named(name) in {package.name for package in self.packages}
+        return self.task.name_of(name) in {package.name for package in self.packages}
 
     def package(self, name: str) -> Package:
         """Return that package. Raises LookupError."""
-        return {package.name: package for package in self.packages[::-1]}[self.task.named(name)]
+        return {package.name: package for package in self.packages[::-1]}[self.task.name_of(name)]
 
     def scripts(self, name: str) -> dict[str, PythonFacts]:
         """Return {path within the package: PythonFacts} of the Python programs of a package."""
@@ -119,7 +119,7 @@ class SubmissionFiles:
     @property
     def needed(self) -> list[Package]:
         """The packages of the exercises, and those of the workspace that they depend on."""
-        needed, names = [], set(map(self.task.named, SOLUTIONS))
+        needed, names = [], set(map(self.task.name_of, SOLUTIONS))
         for _ in self.packages:
             needed = [package for package in self.packages if package.name in names]
             names |= {name for package in needed for name in package.depends}
