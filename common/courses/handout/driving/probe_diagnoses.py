@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tutorial_check import Note, Wrong, first_of
+from tutorial_check import Wrong, first_of
 
 from ..task import LB
 from .evidence import RIGHT
@@ -95,13 +95,7 @@ def another_reply(reply: Reply) -> Wrong | None:
     return Wrong("", seen, hint=only_this_joy(reply.name))
 
 
-def answers_without_number(replies: Replies) -> Wrong | None:
-    return not_a_number(replies.samples)
-
-
-def odd_reply(replies: Replies) -> Wrong | None:
-    diagnoses = (drives_on, speed_kept_after_a_button, another_reply)
-    return first_of(diagnoses, replies.odd) if replies.odd else None
+REPLIES = (drives_on, speed_kept_after_a_button, another_reply)
 
 
 def still_alone(replies: Replies) -> Wrong | None:
@@ -120,12 +114,10 @@ def drives_released(replies: Replies) -> Wrong | None:
     return Wrong("", seen, hint=hint) if replies.drives_released else None
 
 
-def odd_as_a_whole(replies: Replies) -> Wrong | None:
-    verdict: Wrong | Note | None = rule_verdict(replies.whole)
-    return verdict if isinstance(verdict, Wrong) else None
-
-
 def probe_verdict(replies: Replies) -> Wrong | None:
     """Return the Wrong for the answers of a program whose rule for the numbered Joys is right."""
-    diagnoses = (answers_without_number, odd_reply, still_alone, drives_released, odd_as_a_whole)
-    return first_of(diagnoses, replies)
+    wrong = not_a_number(replies.samples)
+    wrong = wrong or (first_of(REPLIES, replies.odd) if replies.odd else None)
+    wrong = wrong or first_of((still_alone, drives_released), replies)
+    verdict = wrong or rule_verdict(replies.whole)
+    return verdict if isinstance(verdict, Wrong) else None
