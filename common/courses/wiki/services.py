@@ -40,7 +40,7 @@ def check_fields(submission, path):
     """Look at the text of a type."""
     folder, wanted = package_of(submission, PACKAGE).folder, FIELDS[path]
     if not (folder / path).is_file():
-        names = [str(each.relative_to(folder)) for each in folder.rglob(f"*{path[-4:]}")]
+        names = [str(path.relative_to(folder)) for path in folder.rglob(f"*{path[-4:]}")]
         where, there = "".join(names[:1]), ", ".join(names) or "none"
         raise Wrong(f"{PACKAGE}/{path}", there, where, "capitals count")
     file = File(submission, PACKAGE, path)
@@ -93,9 +93,9 @@ def are_generated(submission):
 
 @check("W6", "the server adds", "2", needs=are_generated, look=f"rosservice call {SERVICE} 1 2")
 def server(submission):
-    file, found = recorded(submission, PACKAGE, "add_two_ints_server.py", serve)
-    values, trouble = found.answers
-    file.must_run(found.program, f"a server of {SERVICE}", may_end=bool(values))
+    file, seen = recorded(submission, PACKAGE, "add_two_ints_server.py", serve)
+    values, trouble = seen.answers
+    file.must_run(seen.program, f"a server of {SERVICE}", may_end=bool(values))
     hint = "look at the names in rospy.Service(...)"
     file.must(values, "Service(", f"{SERVICE}, {KIND}", trouble, hint)
     hint = "return AddTwoIntsResponse(request.a + request.b)"
@@ -105,10 +105,10 @@ def server(submission):
 @check("W7", "the client asks and prints", "2", needs=are_generated,
        look=f"rosrun {PACKAGE} {CLIENT} 4 5")  # fmt: skip
 def client(submission):
-    file, found = recorded(submission, PACKAGE, CLIENT, ask)
-    requests, output = found.heard[SERVICE], found.program.output
+    file, seen = recorded(submission, PACKAGE, CLIENT, ask)
+    requests, output = seen.heard[SERVICE], seen.program.output
     expected, hint = f"it waits for {SERVICE}", f"rospy.wait_for_service('{SERVICE[1:]}')"
-    file.must_run(found.program, expected, f"{hint} before the call", may_end=bool(requests))
+    file.must_run(seen.program, expected, f"{hint} before the call", may_end=bool(requests))
     words, hint = "ServiceProxy( wait_for_service(", "look at the name of the service"
     file.must(requests, words, f"it calls {SERVICE}", "it does not", hint)
     proxy = re.search(r"(\w+)\s*=\s*(?:rospy\.)?ServiceProxy", file.text)

@@ -18,7 +18,7 @@ SECOND, FOLLOWS_S, NEAR_M = "/turtle2/pose", 8.0, 1.5
 def names(submission):
     """Return the package, and the names of broadcaster and listener."""
     package = next(filter(submission.has, PACKAGES), "learning_tf2")
-    return package, *(f"{PACKAGES[package]}_{each}.py" for each in ("broadcaster", "listener"))
+    return package, *(f"{PACKAGES[package]}_{word}.py" for word in ("broadcaster", "listener"))
 
 
 def broadcast(workspace, script, package) -> Seen:
@@ -36,17 +36,19 @@ def broadcast(workspace, script, package) -> Seen:
 @check("W15", "the broadcaster", "7", look="rosrun tf tf_echo /world /turtle1")
 def broadcaster(submission):
     package, name, _ = names(submission)
-    file, found = recorded(submission, package, name, broadcast, package)
+    file, seen = recorded(submission, package, name, broadcast, package)
     expected = "frames: turtle1 in world"
-    file.must_run(found.program, expected)
-    frames = found.heard["/tf"][-1]["transforms"] if found.heard["/tf"] else []
-    given = {f"{one['child_frame_id']} in {one['header']['frame_id']}": one for one in frames}
+    file.must_run(seen.program, expected)
+    frames = seen.heard["/tf"][-1]["transforms"] if seen.heard["/tf"] else []
+    given = {
+        f"{frame['child_frame_id']} in {frame['header']['frame_id']}": frame for frame in frames
+    }
     there, words = ", ".join(given) or "none", "frame_id" if frames else "Subscriber("
     hint = "header.frame_id is world; child_frame_id is the turtle, as in the parameter turtle"
     is_there = "turtle1 in world" in given
     file.must(is_there, f"{words} sendTransform", expected, f"frames: {there}", hint)
     parts = given["turtle1 in world"]["transform"].values()
-    place, turn = ([round(each, 2) for each in part.values()] for part in parts)
+    place, turn = ([round(value, 2) for value in part.values()] for part in parts)
     x, y, theta = PLACE.values()
     words, hint = "translation sendTransform", "those of the pose"
     file.must(math.dist(place, (x, y, 0.0)) < NEAR, words, f"at ({x}, {y}, 0)", place, hint)
@@ -74,15 +76,15 @@ def follows(submission):
     package, broadcaster, name = names(submission)
     listener = File(submission, package, program_of(submission, package, name))
     launch = launch_file(submission, package, DEMO)
-    found = submission.recording(follow, launch.path)
-    apart_m = [gap(pose, PLACE) for pose in found.heard[SECOND][-1:]]
+    seen = submission.recording(follow, launch.path)
+    apart_m = [gap(pose, PLACE) for pose in seen.heard[SECOND][-1:]]
     if apart_m and apart_m[0] < NEAR_M:
         return
     expected, started = "a turtle2, which comes near turtle1", [n["type"] for n in launch.nodes]
     is_whole, there = started.count(broadcaster) > 1 and name in started, ", ".join(started)
     hint = "a broadcaster for each turtle, each with its parameter turtle; and the listener"
     launch.must(is_whole, f"{broadcaster} <launch", expected, f"only {there}", hint)
-    listener.must_run(found.program, expected)
+    listener.must_run(seen.program, expected)
     words, there, hint = "spawn Spawn", "no turtle2", "call the service spawn"
     if apart_m:
         words, there = "lookup_transform lookupTransform", f"{apart_m[0]:.1f} m apart"

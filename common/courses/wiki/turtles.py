@@ -53,9 +53,9 @@ def moves(client, topic=POSE):
     return any(pose["linear_velocity"] or pose["angular_velocity"] for *_, pose in newest)
 
 
-def gap(one, two):
+def gap(pose, other):
     """Return the distance between two poses, or places [m]."""
-    return math.dist((one["x"], one["y"]), (two["x"], two["y"]))
+    return math.dist((pose["x"], pose["y"]), (other["x"], other["y"]))
 
 
 def length(poses):
@@ -75,13 +75,13 @@ def change(workspace, script) -> Seen:
 
 @check("W8", "the background changes", "3", look="rosparam get /turtlesim/background_r")
 def background(submission):
-    file, found = recorded(submission, PACKAGE, "background.py", change)
-    given = {color: found.answers[0].get(f"background_{color}") for color in RGB}
+    file, seen = recorded(submission, PACKAGE, "background.py", change)
+    given = {color: seen.answers[0].get(f"background_{color}") for color in RGB}
     expected = f"/turtlesim/background_r, _g and _b are {RGB}"
-    file.must_run(found.program, expected, may_end=True)
+    file.must_run(seen.program, expected, may_end=True)
     hint = "a number, int(sys.argv[1]), as /turtlesim/background_r, not as /background_r"
     file.must(given == RGB, "set_param", expected, given, hint)
-    color, words = found.heard[SENSOR][0], "ServiceProxy( set_param"
+    color, words = seen.heard[SENSOR][0], "ServiceProxy( set_param"
     hint = "turtlesim reads them when its service clear is called, so call it after that"
     file.must(color == RGB, words, f"turtle1 sees {RGB}", color, hint)
 
@@ -109,7 +109,7 @@ def mimic_file(submission):
     hint = '<group ns="turtlesim1"> around one node, <group ns="turtlesim2"> around the other'
     expected, is_right = "turtlesims in two groups", spaces == ["/turtlesim1/", "/turtlesim2/"]
     file.must(is_right, "ns= turtlesim_node <launch", expected, " and ".join(spaces), hint)
-    remaps = [each for node in file.nodes if node["type"] == "mimic" for each in node["remaps"]]
+    remaps = [pair for node in file.nodes if node["type"] == "mimic" for pair in node["remaps"]]
     given = {old.rpartition("/")[2]: f"/{new.strip('/')}" for old, new in remaps}
     for old, new in (("input", LEADER), ("output", FOLLOWER)):
         hint = f'<remap from="{old}" to="{new[1:]}"/> within the <node> of mimic'
@@ -121,9 +121,9 @@ def mimic_file(submission):
        look=f"rostopic echo {FOLLOWER}/pose")  # fmt: skip
 def mimics(submission):
     file = launch_file(submission, PACKAGE, MIMIC)
-    found = submission.recording(launch_mimic, file.path)
-    first, second = found.heard.values()
-    file.must(first and second, "", "two turtles", last_lines(found.program.output))
+    seen = submission.recording(launch_mimic, file.path)
+    first, second = seen.heard.values()
+    file.must(first and second, "", "two turtles", last_lines(seen.program.output))
     apart_m, words = gap(first[-1], second[-1]), 'cmd_vel <remap "mimic"'
     is_right, there = apart_m < NEAR_M and length(first), f"{apart_m:.1f} m apart"
     file.must(is_right, words, "both drive the same arc", there)
@@ -142,13 +142,13 @@ def drive(workspace, script, x: float, y: float) -> Seen:
 @check("W11", "it reaches the goal, and rests", "5", look=f"rostopic echo {POSE}")
 def reaches(submission):
     for x, y in GOALS:
-        file, found = recorded(submission, CLEANER, "gotogoal.py", drive, x, y)
-        path, expected = found.heard[POSE], f"turtle1 comes within {TOLERANCE_M} m of ({x}, {y})"
+        file, seen = recorded(submission, CLEANER, "gotogoal.py", drive, x, y)
+        path, expected = seen.heard[POSE], f"turtle1 comes within {TOLERANCE_M} m of ({x}, {y})"
         gaps = [gap(pose, {"x": x, "y": y}) for pose in path]
-        others = [topic for topic in found.types if "cmd_vel" in topic and topic != COMMAND]
+        others = [topic for topic in seen.types if "cmd_vel" in topic and topic != COMMAND]
         file.must(not others, "Publisher(", expected, f"it publishes on {others}", COMMAND)
         if not length(path):
-            file.must_run(found.program, expected)
+            file.must_run(seen.program, expected)
         near = next((k for k, gap_m in enumerate(gaps) if gap_m < NEARLY_M), 0)
         hint = "atan2(goal y - y, goal x - x) - theta is the angle to turn by"
         file.must(near, "atan2( angular.z", expected, f"only {min(gaps):.1f} m", hint)
@@ -177,16 +177,16 @@ def play(workspace, path) -> Seen:
 @check("W13", "a recording that drives a turtle", "6", look="rosbag info subset.bag")
 def recording(submission):
     bags = package_of(submission, PACKAGE).folder.rglob("*.bag")
-    best = sorted(bags, key=lambda each: (each.stem != "subset", each))
+    best = sorted(bags, key=lambda path: (path.stem != "subset", path))
     if not best:
         raise Wrong(f"a recording in {PACKAGE}, as bagfiles/subset.bag", "none", hint=RECORD)
     name = str(best[0].relative_to(submission.source))
-    found = submission.recording(play, name)
+    seen = submission.recording(play, name)
     for topic, kind in KINDS.items():
-        if not found.heard[f"/played{topic}"]:
-            there = last_lines(found.program.output) if "Error" in found.program.output else "none"
+        if not seen.heard[f"/played{topic}"]:
+            there = last_lines(seen.program.output) if "Error" in seen.program.output else "none"
             raise Wrong(f"messages of {topic} ({kind})", there, name, RECORD)
-    way = length(found.heard[POSE])
+    way = length(seen.heard[POSE])
     if way < LEAST_M:
         hint = "keys go to the terminal of turtle_teleop_key, while rosbag records in another one"
         raise Wrong(f"the turtle drives {LEAST_M} m or more", f"{way:.1f} m", name, hint)

@@ -10,7 +10,7 @@ from types import SimpleNamespace
 import pytest
 from roslaunch.loader import Loader
 
-from tutorial_check.checking.files import File
+from tutorial_check.checking.files import File, Script
 from tutorial_check.checking.launches import launch_file
 from tutorial_check.checking.results import Wrong
 from tutorial_check.processes.errors import CannotCheck, CutShort
@@ -182,3 +182,23 @@ def test_a_file_names_the_line_of_the_first_word_that_is_there(make_submission):
         assert (wrong.value.seen, wrong.value.where) == ("7", where)
     with pytest.raises(Wrong, match="no such file in the package"):
         File(submission, "p", "b.py")
+
+
+def test_a_launch_file_that_is_there_twice_is_wrong(make_submission):
+    submission = make_submission("p", "1")
+    for name in ("a", "b"):
+        (submission.package("p").folder / name).mkdir()
+        (submission.package("p").folder / name / "a.launch").write_text(LAUNCH)
+    with pytest.raises(Wrong) as wrong:
+        launch_file(submission, "p", "a.launch")
+    assert wrong.value.seen == "several: a/a.launch, b/a.launch"
+
+
+def test_a_script_names_the_lines_of_its_calls(make_submission):
+    submission = make_submission("p", "1")
+    (submission.package("p").folder / "a.py").write_text("import rospy\nwhile True:\n    f(1)\n")
+    script = Script(submission, "p", "a.py")
+    assert (script.at_call("f"), script.at_call("g")) == ("a.py:3", "a.py")
+    with pytest.raises(Wrong, match="it had to be killed") as wrong:
+        script.check_end(None, "")
+    assert wrong.value.where == "a.py:2"

@@ -18,7 +18,7 @@ from courses.handout.world import record as s7
 from tutorial_check.recording.data import as_json, from_json
 
 KINDS = [Talk, Bag, Follow, Stick, Joy2TwistRun, LaunchRun, Remap, Alone, Endings]
-KINDS += [s7.Presses, s7.Drive]
+KINDS += [s7.Presses, s7.RoomDrive]
 st.register_type_strategy(float, st.floats(allow_nan=False))
 
 

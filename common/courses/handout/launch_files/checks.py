@@ -182,7 +182,7 @@ def stick_nodes(submission: Submission) -> Note | str | None:
         seen = f"{sender['type']} sends them on {sends}, {first['type']} listens to {listens[0]}"
         remaps = (*sender["remaps"], *first["remaps"])
         named = [to for source, to in remaps if source.strip("/") in ("joy", own.strip("/"))]
-        where = file.at(*(each for to in named for each in attribute("to", to)))
+        where = file.at(*(word for to in named for word in attribute("to", to)))
         hint = "leave that <remap> out, or give both nodes the same"
         raise Wrong("the Joys go to joy2twist, on /joy", seen, where, hint)
     if file.of("player"):

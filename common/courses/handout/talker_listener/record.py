@@ -139,4 +139,4 @@ def second(workspace: Workspace, talker: str, text: str) -> Second:
 
 
 def _received(ros: RosSession) -> tuple[HeardText, ...]:
-    return tuple(each for each in ros.peer.texts(TOPIC) if each[1] != "/tutorial_check")
+    return tuple(text for text in ros.peer.texts(TOPIC) if text[1] != "/tutorial_check")

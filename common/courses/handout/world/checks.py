@@ -4,23 +4,26 @@ from __future__ import annotations
 
 import math
 import re
+from dataclasses import dataclass
 from typing import Sequence
 
 from tutorial_check import (
     BUMPER,
     Sample,
+    Script,
     Submission,
     Topics,
     Wrong,
     check,
     crash,
     has_moved,
+    must_pass,
     program_of,
 )
 
 from ..task import BEGINNER, CMD_VEL
 from . import record
-from .record import LONGEST_PUSH_S, SIDES, WANDER_S
+from .record import LONGEST_PUSH_S, SIDES, WANDER_S, RoomDrive
 
 WALL_X_M, RADIUS_M = 4.0, 0.178
 SPEEDS = (0.1, 0.3, 0.6)  # [m/s]
@@ -57,9 +60,9 @@ def _elsewhere(
     wrong: Wrong, does: str, topic: str, kind: str, topics: Topics, types: dict[str, str]
 ) -> Wrong:
     """Return the Wrong; where the program uses another topic of that type, that was seen."""
-    others = [one for one in topics if types.get(one) == kind and one != topic]
-    if others:
-        wrong.seen = f"it {does} {others[0]}, not {topic}"
+    for other in (name for name in topics if types.get(name) == kind and name != topic):
+        wrong.seen = f"it {does} {other}, not {topic}"
+        break
     return wrong
 
 
@@ -67,39 +70,85 @@ def _elsewhere(
        look="roslaunch fake_turtlebot_sim fake_turtlebot.launch world:=room;"
        " rosrun beginner_tutorials stop_before_wall.py _speed:=0.3")  # fmt: skip
 def stops(submission: Submission) -> str:
-    script = program_of(submission, BEGINNER, "stop_before_wall.py")
-    gaps = [_gap_m(submission, script, speed) for speed in SPEEDS]
-    return ", ".join(f"{gap:.2f} m at {speed} m/s" for gap, speed in zip(gaps, SPEEDS))
+    path = program_of(submission, BEGINNER, "stop_before_wall.py")
+    script = Script(submission, BEGINNER, path)
+    gaps = []
+    for speed in SPEEDS:
+        stop = Stop(script, speed, submission.recording(record.towards_the_wall, path, speed))
+        diagnoses = (never_moved, program_failed, other_speed, no_zero, wrong_place)
+        must_pass(diagnoses, stop)
+        gaps.append(f"{stop.gap_m:.2f} m at {speed} m/s")
+    return ", ".join(gaps)
 
 
-def _gap_m(submission: Submission, script: str, speed: float) -> float:
-    drive = submission.recording(record.towards_the_wall, script, speed)
-    path = drive.path
-    if not has_moved(path):
-        expected = f"the robot drives towards the wall with _speed:={speed}"
-        hint = "it publishes on cmd_vel for each LaserScan on scan"
-        wrong, kind = (
-            crash(submission, BEGINNER, drive.program, expected, hint),
-            "geometry_msgs/Twist",
-        )
-        raise _elsewhere(wrong, "publishes on", CMD_VEL, kind, drive.publishers, drive.types)
-    fastest, gap_m = max(sample.v for sample in path), WALL_X_M - RADIUS_M - path[-1].x
-    expected = f"a stop {LEAST_GAP_M} to {MOST_GAP_M} m before the wall, with _speed:={speed}"
-    if drive.program.code:
-        raise crash(submission, BEGINNER, drive.program, expected)
-    if abs(fastest - speed) > 0.2 * speed:
-        hint = 'rospy.get_param("~speed", 0.3) is the speed [m/s]'
-        raise Wrong(f"{speed} m/s with _speed:={speed}", f"{fastest:.2f} m/s", script, hint)
-    rests = not drive.bumps and not path[-1].v
-    if rests and LEAST_GAP_M <= gap_m <= MOST_GAP_M:
-        return gap_m
-    if rests and any(drive.last_twist or ()):
-        seen = f"{gap_m:.2f} m: no zero came, and the base stopped 0.6 s after the last velocity"
-        raise Wrong(expected, seen, script, "near the wall publish a Twist of zero")
-    seen = f"it still drives, {gap_m:.2f} m before it" if path[-1].v else f"{gap_m:.2f} m"
-    seen = "it drives into the wall" if drive.bumps else seen
+@dataclass(frozen=True)
+class Stop:
+    """A drive towards the wall."""
+
+    script: Script
+    speed: float  # [m/s] that it is to drive with
+    drive: RoomDrive
+
+    @property
+    def gap_m(self) -> float:
+        """How far from the wall it ended."""
+        return WALL_X_M - RADIUS_M - self.drive.path[-1].x
+
+    @property
+    def expected(self) -> str:
+        return f"a stop {LEAST_GAP_M} to {MOST_GAP_M} m before the wall, with _speed:={self.speed}"
+
+    @property
+    def rests(self) -> bool:
+        return not self.drive.bumps and not self.drive.path[-1].v
+
+    @property
+    def is_right(self) -> bool:
+        return self.rests and LEAST_GAP_M <= self.gap_m <= MOST_GAP_M
+
+
+def never_moved(stop: Stop) -> Wrong | None:
+    drive = stop.drive
+    if has_moved(drive.path):
+        return None
+    expected = f"the robot drives towards the wall with _speed:={stop.speed}"
+    wrong = stop.script.crash(
+        drive.program, expected, "it publishes on cmd_vel for each LaserScan on scan"
+    )
+    kind = "geometry_msgs/Twist"
+    return _elsewhere(wrong, "publishes on", CMD_VEL, kind, drive.publishers, drive.types)
+
+
+def program_failed(stop: Stop) -> Wrong | None:
+    program = stop.drive.program
+    return stop.script.crash(program, stop.expected) if program.code else None
+
+
+def other_speed(stop: Stop) -> Wrong | None:
+    fastest = max(sample.v for sample in stop.drive.path)
+    if abs(fastest - stop.speed) <= 0.2 * stop.speed:
+        return None
+    expected, hint = f"{stop.speed} m/s with _speed:={stop.speed}", "is the speed [m/s]"
+    hint = f'rospy.get_param("~speed", 0.3) {hint}'
+    return Wrong(expected, f"{fastest:.2f} m/s", stop.script.where, hint)
+
+
+def no_zero(stop: Stop) -> Wrong | None:
+    if stop.is_right or not stop.rests or not any(stop.drive.last_twist or ()):
+        return None
+    seen = f"{stop.gap_m:.2f} m: no zero came, and the base stopped 0.6 s after the last velocity"
+    return Wrong(stop.expected, seen, stop.script.where, "near the wall publish a Twist of zero")
+
+
+def wrong_place(stop: Stop) -> Wrong | None:
+    if stop.is_right:
+        return None
+    seen = f"{stop.gap_m:.2f} m"
+    seen = f"it still drives, {seen} before it" if stop.drive.path[-1].v else seen
+    seen = "it drives into the wall" if stop.drive.bumps else seen
     hint = "ranges begin at the camera, 0.087 m behind the middle of the robot, whose radius is"
-    raise Wrong(expected, seen, script, f"{hint} {RADIUS_M} m; too near is -inf, or NaN")
+    hint += f" {RADIUS_M} m; too near is -inf, or NaN"
+    return Wrong(stop.expected, seen, stop.script.where, hint)
 
 
 @check("C37", "it wanders", "7", needs="C2",
@@ -134,8 +183,8 @@ def wanders(submission: Submission) -> str:
 def longest_stand_s(samples: Sequence[Sample]) -> float:
     """Return how long [s] the robot stayed within STANDS_M of a place, at most."""
     longest_s, since = 0.0, samples[0]
-    for one in samples:
-        if math.dist((one.x, one.y), (since.x, since.y)) > STANDS_M:
-            since = one
-        longest_s = max(longest_s, one.at_s - since.at_s)
+    for sample in samples:
+        if math.dist((sample.x, sample.y), (since.x, since.y)) > STANDS_M:
+            since = sample
+        longest_s = max(longest_s, sample.at_s - since.at_s)
     return longest_s

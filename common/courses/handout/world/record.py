@@ -41,7 +41,7 @@ class Presses:
 
 
 @dataclass(frozen=True)
-class Drive:
+class RoomDrive:
     """A program that drives the simulated robot in the room."""
 
     program: Ran
@@ -84,17 +84,17 @@ def _press(ros: RosSession, program: Program, number: int) -> str:
     return shown()
 
 
-def towards_the_wall(workspace: Workspace, script: str, speed: float) -> Drive:
+def towards_the_wall(workspace: Workspace, script: str, speed: float) -> RoomDrive:
     """Let it drive until it rests. speed: its parameter ~speed [m/s]."""
     return _driven(workspace, script, f"_speed:={speed}")
 
 
-def wandering(workspace: Workspace, script: str) -> Drive:
+def wandering(workspace: Workspace, script: str) -> RoomDrive:
     """Let it drive for a minute, or until it pushes for too long."""
     return _driven(workspace, script)
 
 
-def _driven(workspace: Workspace, script: str, *arguments: str) -> Drive:
+def _driven(workspace: Workspace, script: str, *arguments: str) -> RoomDrive:
     with workspace.ros_session() as ros:
         robot = SimulatedRobot(ros, "_world:=room", f"_initial_x:={START_X_M}")
         ros.peer.listen(CMD_VEL, "Twist")
@@ -114,7 +114,7 @@ def _driven(workspace: Workspace, script: str, *arguments: str) -> Drive:
         path, bumps, ended_s = robot.path, ros.peer.received(BUMPER), now_s()
         last = ros.peer.received(CMD_VEL, -1)
     twist = last[0][2] if last else None
-    return Drive(program.ran, path, tuple(bumps), ended_s, twist, publishers, types)
+    return RoomDrive(program.ran, path, tuple(bumps), ended_s, twist, publishers, types)
 
 
 def longest_push_s(events: Sequence[Heard], now_s: float) -> float:

@@ -20,17 +20,15 @@ def cmake_of(package: Package) -> str:
 
 def must_build(submission: Submission) -> Built:
     """Return what catkin_make has built. Raises Wrong."""
-    for each in submission.needed:
-        cmake_of(each)
+    for package in submission.needed:
+        cmake_of(package)
     made = submission.recording(built)
     if made.code is None:
         hint = "catkin_make in your workspace"
         raise Wrong("catkin_make ends", "it runs for more than two minutes", hint=hint)
     if made.code != 0:
-        wrong, own = (
-            build_error(submission, made.output),
-            build_error(submission, build_output(submission)),
-        )
+        outputs = (made.output, build_output(submission))
+        wrong, own = (build_error(submission, output) for output in outputs)
         if (own.seen, own.where) != (wrong.seen, wrong.where):
             place = f" ({wrong.where})" if wrong.where else ""
             own.seen += f"; another package fails, too: {wrong.seen}{place}"

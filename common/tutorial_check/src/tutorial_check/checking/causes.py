@@ -50,11 +50,11 @@ TABLE = _table()
 def explained(section: str, text: str, file: str = "") -> list[str]:
     """Return what is said of the first pattern of a section that is in a text; empty if none is."""
     for pattern, words in TABLE[section]:
-        found = re.search(pattern, text)
-        if found:
-            about = {name: value for name, value in found.groupdict().items() if value}
+        match = re.search(pattern, text)
+        if match:
+            about = {name: value for name, value in match.groupdict().items() if value}
             home = HOMES.get(about.get("m", ""))
-            return [each.format(home=home, file=file, **about) for each in words]
+            return [word.format(home=home, file=file, **about) for word in words]
     return []
 
 
@@ -68,10 +68,10 @@ def explain(error: str, text: str = "", file: str = "FILE", section: str = "pyth
     """Return what an error most often means, in a line of a file; or "". section: or syntax."""
     both = f"{error}\n{text}"
     hint = "".join(explained("python2", both, file) or explained(section, both))
-    found = re.search(r"No module named '([^'.]+)'", error)
-    if hint or not found:
+    missing = re.search(r"No module named '([^'.]+)'", error)
+    if hint or not missing:
         return hint
-    module = found[1]
+    module = missing[1]
     hint = meant(module, COMMON, 0.75, f"there is no module {module}: is {{}} meant?")
     other = f"there is no {module} here: hand in your own file with the program, or install it"
     return advice(module, package_of_module(module)) or hint or other
@@ -89,14 +89,14 @@ def traced(error: str, line: int, facts: PythonFacts) -> tuple[int, str]:
         part = {"linear": "x", "angular": "z"}.get(name.rpartition(".")[2])
         if part and not value.endswith("()") and re.search(NO_VECTOR, error):
             return place, f"{name} has three parts: {name}.{part} = ..."
-    found = re.search(UNDEFINED, error)
-    if not found:
+    undefined = re.search(UNDEFINED, error)
+    if not undefined:
         return line, ""
-    if found[1] in facts.inner_names and line in facts.loose:
+    name, known = undefined[1], facts.names
+    if name in facts.inner_names and line in facts.loose:
         return line, f"this line stands outside of {facts.loose[line]}: indent it as those within"
-    if f"self.{found[1]}" in facts.attributes:
-        return line, f"within a class it is self.{found[1]}"
-    name, known = found[1], facts.names
+    if f"self.{name}" in facts.attributes:
+        return line, f"within a class it is self.{name}"
     for near in difflib.get_close_matches(name, known, 3, 0.6):
         if name not in known and name not in HOMES and near[0].lower() == name[0].lower():
             return line, f"{near} in line {known[near]}, {name} here: one name for one thing"
@@ -105,8 +105,8 @@ def traced(error: str, line: int, facts: PythonFacts) -> tuple[int, str]:
 
 def hider(error: str, script: str, others: Collection[str]) -> tuple[str, str]:
     """Return (file, what to do) if a file beside the script hides a package; else ("", "")."""
-    found = NOT_MEANT.search(error)
-    name = next(filter(None, found.groups()), "") if found else ""
+    match = NOT_MEANT.search(error)
+    name = next(filter(None, match.groups()), "") if match else ""
     beside = f"{script.rpartition('/')[0]}/{name}.py".lstrip("/")
     if not name or beside not in others:
         return "", ""
@@ -116,11 +116,11 @@ def hider(error: str, script: str, others: Collection[str]) -> tuple[str, str]:
     return beside, f"{hint}rename it"
 
 
-def _found(table: str, name: str) -> str:
+def _in_table(table: str, name: str) -> str:
     """Return what a table has after the first pattern that fits a name, its {} filled in; or ""."""
     for row in table.strip().splitlines():
         names, _, words = row.partition(": ")
-        if any(fnmatch.fnmatchcase(name, each) for each in names.split()):
+        if any(fnmatch.fnmatchcase(name, pattern) for pattern in names.split()):
             return words.replace("{}", name.lower().replace("_", "-"))
     return ""
 
@@ -128,13 +128,13 @@ def _found(table: str, name: str) -> str:
 def package_of_module(module: str) -> str:
     """Return the Debian package that has a Python module, or ""."""
     top = module.partition(".")[0]
-    return _found(f"{top}: python3-{{}}" if top in MODULES.split() else OTHER_MODULES, top)
+    return _in_table(f"{top}: python3-{{}}" if top in MODULES.split() else OTHER_MODULES, top)
 
 
 def packages_of_ros(name: str) -> str:
     """Return the Debian packages, with blanks between, that have a ROS package; or ""."""
     table = f"{name}: lib{{}}-dev" if name in DEV_PACKAGES.split() else OTHER_PACKAGES
-    return _found(table, name) or package_of_module(name)
+    return _in_table(table, name) or package_of_module(name)
 
 
 def is_lacking(name: str) -> bool:
@@ -144,7 +144,7 @@ def is_lacking(name: str) -> bool:
 
 def advice(name: str, packages: str) -> str:
     """Return what to do about what is not installed, and is in these Debian packages; or ""."""
-    other = _found(TABLES["LACKING"], name)
+    other = _in_table(TABLES["LACKING"], name)
     if not other and is_lacking(name):
         other = "its sources, cloned into src, may build"
     lacks = f"Debian lacks {name}; {other}" if other else ""

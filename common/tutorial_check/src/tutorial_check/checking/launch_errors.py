@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Callable
 from xml.parsers import expat
 
 from tutorial_check.checking.causes import advice, explained, is_lacking, meant, packages_of_ros
-from tutorial_check.checking.results import Wrong
+from tutorial_check.checking.results import Wrong, first_of
 from tutorial_check.checking.texts import read_xml
 from tutorial_check.submission.launch_xml import (
     COMMENT_END,
@@ -27,6 +28,7 @@ PACKAGES = (
     "rbx1_nav rbx1_bringup turtlebot_rviz_launchers turtlebot_bringup fake_turtlebot_sim joy2twist"
     " gamepad joy rosbag rviz"
 )
+EXPECTED = "a launch file that roslaunch can read"
 # Kinds and words of errors, as roslaunch has them.
 UNSET, UNUSED = "ArgException", r"unused args \[(\w+).*\] for include of \[(.*)\]"
 NO_FILE = r"No such file or directory: '([^']+)'|file does not exist \[([^\]]*)\]"
@@ -39,13 +41,13 @@ def not_xml(error: str, text: str) -> tuple[int | None, str]:
         return line_of(text, curly.start()), 'curly quotes came from the PDF: type " instead'
     if re.search("mismatched tag|no element found", error):
         return _not_closed(text)
-    found = re.search(r"line (\d+), column (\d+)", error)
-    if not found:
+    place = re.search(r"line (\d+), column (\d+)", error)
+    if not place:
         return None, 'Python cannot read the encoding of its first line: write encoding="utf-8"'
-    line, column = map(int, found.groups())
+    line, column = map(int, place.groups())
     if "junk after" in error:
         return line, "nothing may follow </launch>: put it before"
-    start = sum(len(each) + 1 for each in text.split("\n")[: line - 1])
+    start = sum(len(before) + 1 for before in text.split("\n")[: line - 1])
     return _not_well_formed(text, line, start + column)
 
 
@@ -110,40 +112,80 @@ def blamed_place(fault: Fault, is_own: Callable[[str], bool]) -> tuple[str, int]
     return own[-1]
 
 
+@dataclass(frozen=True)
+class Unread:
+    """A launch file that roslaunch cannot read."""
+
+    fault: Fault
+    where: str  # of its tag: the file
+    line: int
+    text: str  # of the file, with comments
+    may_see: Callable[[Path], bool]
+
+    @property
+    def words(self) -> str:
+        return " ".join(self.fault.words.split())[:250]
+
+    def wrong(self, seen: str, hint: str) -> Wrong:
+        return Wrong(EXPECTED, seen, f"{self.where}:{self.line}", hint)
+
+
+def no_xml(file: Unread) -> Wrong | None:
+    if file.fault.kind != "ExpatError":
+        return None
+    line, hint = not_xml(file.fault.words, file.text)
+    return Wrong(EXPECTED, file.words, f"{file.where}:{line}" if line else file.where, hint)
+
+
+def open_substitution(file: Unread) -> Wrong | None:
+    text = without_comments(file.text)
+    opened = re.search(r"\$\((?:find|arg)\b[^)\"'<>]{0,300}[\"'<>]", text)
+    if not opened:
+        return None
+    hint = "each $( needs its ): $(find PACKAGE)/launch/FILE"
+    return Wrong(
+        EXPECTED, f"{opened[0][:-1]} without )", place_of(file.where, text, opened[0]), hint
+    )
+
+
+def lost_package(file: Unread) -> Wrong | None:
+    if file.fault.kind != "ResourceNotFound":
+        return None
+    return file.wrong(f"package not found: {file.words}", package_hint(file.words))
+
+
+def lost_include(file: Unread) -> Wrong | None:
+    match = re.search(NO_FILE, file.words)
+    if not match:
+        return None
+    path = Path(match[1] or match[2])
+    hint = 'an include needs the whole path: file="$(find PACKAGE)/launch/FILE"'
+    if path.is_absolute():
+        paths = path.parent.glob("*") if file.may_see(path.parent) else ()
+        hint = meant(path.name, [path.name for path in paths], 0.7)
+        hint = hint or "look at the name of the file, and of its folder"
+    return file.wrong(f"no such file: {path}", hint)
+
+
+def unknown_arg(file: Unread) -> Wrong | None:
+    unused = re.search(UNUSED, file.words)
+    if not unused:
+        return None
+    path = Path(unused[2])
+    text = read_xml(path) if file.may_see(path) and path.is_file() else ""
+    known = re.findall(r"<arg\b[^<>]*\bname\s*=\s*[\"']([^\"']+)[\"']", text)
+    hint = meant(unused[1], known, 0.6) or f"leave it out; it has {', '.join(known) or 'none'}"
+    return file.wrong(f"{path.name} has no arg {unused[1]}", hint)
+
+
 def launch_error(
     fault: Fault, where: str, line: int, text: str, may_see: Callable[[Path], bool]
 ) -> Wrong:
     """Return the Wrong for a file that roslaunch cannot read. text: with comments."""
-    expected, place = "a launch file that roslaunch can read", f"{where}:{line}"
-    words = " ".join(fault.words.split())[:250]
-    if fault.kind == "ExpatError":
-        number, hint = not_xml(fault.words, text)
-        return Wrong(expected, words, f"{where}:{number}" if number else where, hint)
-    text = without_comments(text)
-    open_find = re.search(r"\$\((?:find|arg)\b[^)\"'<>]{0,300}[\"'<>]", text)
-    if open_find:
-        place = place_of(where, text, open_find[0])
-        hint = "each $( needs its ): $(find PACKAGE)/launch/FILE"
-        return Wrong(expected, f"{open_find[0][:-1]} without )", place, hint)
-    if fault.kind == "ResourceNotFound":
-        return Wrong(expected, f"package not found: {words}", place, package_hint(words))
-    file = re.search(NO_FILE, words)
-    if file:
-        path = Path(file[1] or file[2])
-        hint = 'an include needs the whole path: file="$(find PACKAGE)/launch/FILE"'
-        if path.is_absolute():
-            files = path.parent.glob("*") if may_see(path.parent) else ()
-            hint = meant(path.name, [each.name for each in files], 0.7)
-            hint = hint or "look at the name of the file, and of its folder"
-        return Wrong(expected, f"no such file: {path}", place, hint)
-    unused = re.search(UNUSED, words)
-    if unused:
-        path = Path(unused[2])
-        text = read_xml(path) if may_see(path) and path.is_file() else ""
-        known = re.findall(r"<arg\b[^<>]*\bname\s*=\s*[\"']([^\"']+)[\"']", text)
-        hint = meant(unused[1], known, 0.6)
-        hint = hint or f"leave it out; it has {', '.join(known) or 'none'}"
-        return Wrong(expected, f"{path.name} has no arg {unused[1]}", place, hint)
-    said = f"{fault.kind} <{fault.tag}>: {words.partition(' xml is ')[0]}"
+    file = Unread(fault, where, line, text, may_see)
+    wrong = first_of((no_xml, open_substitution, lost_package, lost_include, unknown_arg), file)
+    if wrong:
+        return wrong
+    said = f"{fault.kind} <{fault.tag}>: {file.words.partition(' xml is ')[0]}"
     *seen, hint = explained("roslaunch", said)
-    return Wrong(expected, (seen or [words])[0], place, hint)
+    return file.wrong((seen or [file.words])[0], hint)

@@ -33,7 +33,7 @@ def unreadable(package: Package) -> Wrong:
 def must_be_unique(packages: Sequence[Package]) -> None:
     """Raise Wrong for several packages of one name."""
     if len(packages) > 1:
-        seen = f"{len(packages)}: {', '.join(each.inside for each in packages)}"
+        seen = f"{len(packages)}: {', '.join(package.inside for package in packages)}"
         hint = "remove the copy from src, or put an empty file CATKIN_IGNORE into it"
         hint += ": with both of them roslaunch starts nothing"
         expected = f"one package {packages[0].name} in src"

@@ -11,7 +11,7 @@ from tutorial_check.submission.packages import Package
 def package_of(submission: Submission, name: str) -> Package:
     """Return the package of that name. Raises Wrong."""
     if not submission.has(name):
-        there = ", ".join(each.name for each in submission.packages) or "no package at all"
+        there = ", ".join(package.name for package in submission.packages) or "no package at all"
         depends = submission.course.packages.get(name, "rospy")
         raise Wrong(f"a package {name} in src", there, hint=f"catkin_create_pkg {name} {depends}")
     return submission.package(name)
@@ -25,4 +25,4 @@ def must_be_launchable(submission: Submission) -> None:
         if package.error:
             raise unreadable(package)
     for package in submission.packages:
-        must_be_unique([each for each in submission.packages if each.name == package.name])
+        must_be_unique([other for other in submission.packages if other.name == package.name])
