@@ -3,21 +3,17 @@
 import pytest
 from recorder_code import closure, modules_of
 
-SECTIONS = ("talker_listener", "launch_files", "world")
+SECTIONS = ("talker_listener", "driving", "launch_files", "world")
 RECORDERS = [f"courses.handout.{section}.record" for section in SECTIONS]
-DRIVING = pytest.param(
-    "courses.handout.driving.record",
-    marks=pytest.mark.xfail(strict=False, reason="its rules are diagnoses, which are checking's"),
-)
 
 
-@pytest.mark.parametrize("recorder", [*RECORDERS, DRIVING])
+@pytest.mark.parametrize("recorder", RECORDERS)
 def test_a_change_of_a_check_or_a_report_makes_no_recording_old(recorder):
     later = ("tutorial_check.checking", "tutorial_check.report", "tutorial_check.commands")
     assert not [name for name in closure(recorder) if name.startswith(later)]
 
 
-@pytest.mark.parametrize("recorder", [*RECORDERS, "courses.handout.driving.record"])
+@pytest.mark.parametrize("recorder", RECORDERS)
 def test_a_change_of_what_runs_programs_or_reads_them_makes_recordings_old(recorder):
     checker = ("processes.runner", "processes.cpu_clock", "submission.python_facts")
     imported_later = ("recording.peer", "recording.gamepad")  # within functions

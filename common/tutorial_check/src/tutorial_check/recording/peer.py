@@ -185,17 +185,18 @@ class Peer:
 
     def node_process(self, node: str) -> int | None:
         """Return the id of a node's process, or None if it does not answer."""
-        answer = self._ask(node, lambda proxy: proxy.getPid(f"/{NAME}"))
+        answer = self._ask(node, "getPid")
         return int(answer[2]) if answer else None
 
     def kill_node(self, node: str) -> None:
         """Do what rosnode kill does, without waiting for the node."""
-        _in_thread(self._ask, node, lambda proxy: proxy.shutdown(f"/{NAME}", "user request"))
+        _in_thread(self._ask, node, "shutdown", "user request")
 
-    def _ask(self, node: str, question: Callable[[Any], Any]) -> Any:
+    def _ask(self, node: str, method: str, *arguments: str) -> Any:
+        """Call a method of a node's; return its answer, or None."""
         gone = contextlib.suppress(OSError, rosgraph.MasterException, xmlrpc.client.Error)
         with gone, xmlrpc.client.ServerProxy(self._master.lookupNode(node)) as proxy:
-            return question(proxy)
+            return getattr(proxy, method)(f"/{NAME}", *arguments)
 
     def set_parameter(self, name: str, value: object) -> None:
         rospy.set_param(name, value)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import shutil
 import socket
 import uuid
@@ -44,7 +45,7 @@ class RosSession:
         own = dict.fromkeys(("HOME", "ROS_HOME", "ROS_LOG_DIR"), str(workspace.folder / "ours"))
         self._ours = {**workspace.underlay_environment, **master, **own}
         self._helpers: list[Helper[Any]] = []
-        self._master = self.help(lambda: MasterProcess(port))
+        self._master = self.help(MasterProcess, port)
         if not self._master.remote.uri():
             raise CannotCheck("no ROS master can be started here")
         self._peer = self.help(peer.Peer)
@@ -57,8 +58,9 @@ class RosSession:
     def start(self, package: str, script: str, *arguments: str) -> Program:
         return self.launch([*self.workspace.command(package, script), *arguments])
 
-    def help(self, make: Callable[[], Served]) -> Helper[Served]:
-        helper = Helper(make, self._ours)
+    def help(self, make: Callable[..., Served], *arguments: object) -> Helper[Served]:
+        """Return a Helper with what make(*arguments) returns."""
+        helper = Helper(functools.partial(make, *arguments), self._ours)
         self.runner.trusted.add(helper.pid)
         self._helpers.append(helper)
         return helper
@@ -68,7 +70,7 @@ class RosSession:
         from tutorial_check.recording import peer  # noqa: PLC0415
 
         joy = self._topics.get(peer.JOY, peer.JOY)
-        return self.help(lambda: peer.Echo(joy, axis)).remote, peer.ECHO
+        return self.help(peer.Echo, joy, axis).remote, peer.ECHO
 
     def plug_in(self, device: str = "/dev/input/js0") -> tuple[Gamepad, Path]:
         """Return a virtual F710 and its device, which is a FIFO elsewhere without namespaces."""
@@ -76,7 +78,7 @@ class RosSession:
 
         workspace = self.workspace
         path = Path(device) if workspace.order.in_namespaces else workspace.folder / "js0"
-        gamepad = self.help(lambda: Gamepad(str(path), workspace.task.joy)).remote
+        gamepad = self.help(Gamepad, str(path), workspace.task.joy).remote
         gamepad.connected()
         return gamepad, path
 
