@@ -2,40 +2,41 @@
 
 import pytest
 
-from kobuki_driver.choice import choose
+from kobuki_driver.choice import Given, choose
 
 USB = "/dev/ttyUSB0"
 USUAL = "/dev/kobuki"  # as turtlebot_bringup's hook sets the variable
 
 
 @pytest.mark.parametrize(
-    ("given", "variable", "simulation", "world", "has_usual", "port", "part"),
+    ("given", "port", "part"),
     [
-        ("", "", "false", "", False, "", "as there is no /dev/kobuki; serialport:=PATH drives"),
-        ("", USUAL, "false", "", False, "", "as there is no /dev/kobuki"),
-        ("", USUAL, "false", "", True, USUAL, "which is plugged in; simulation:=true simulates"),
-        ("", USB, "false", "", False, USB, "the real Kobuki at /dev/ttyUSB0, by TURTLEBOT_SERIAL"),
-        (USB, "", "false", "", True, USB, "the real Kobuki at /dev/ttyUSB0; simulation:=true"),
-        (USUAL, USUAL, "false", "", False, USUAL, "the real Kobuki at /dev/kobuki;"),
-        (USB, USB, "true", "", True, "", "by simulation:=true; without it, serialport:=PATH"),
-        ("", USB, "false", "room", True, "", "as a world is simulated; without one,"),
+        (Given(), "", "as there is no /dev/kobuki; serialport:=PATH drives"),
+        (Given(port_variable=USUAL), "", "as there is no /dev/kobuki"),
+        (Given(has_usual=True), USUAL, "which is plugged in; simulation:=true simulates"),
+        (Given(port_variable=USB), USB, "at /dev/ttyUSB0, by TURTLEBOT_SERIAL_PORT"),
+        (Given(USB, has_usual=True), USB, "the real Kobuki at /dev/ttyUSB0; simulation:=true"),
+        (Given(USUAL, port_variable=USUAL), USUAL, "the real Kobuki at /dev/kobuki;"),
+        (Given(USB, "true"), "", "by simulation:=true; without it, serialport:=PATH"),
+        (Given(world="room", port_variable=USB, has_usual=True), "", "as a world is simulated"),
+        (Given(simulation_variable="true", has_usual=True), "", "by TURTLEBOT_SIMULATION=true"),
+        (Given(USB, simulation_variable="true"), USB, "the real Kobuki at"),
+        (Given("", "false", simulation_variable="true", has_usual=True), USUAL, "plugged in"),
     ],
-)
-def test_a_port_that_is_named_is_never_replaced(
-    given, variable, simulation, world, has_usual, port, part
-):
-    choice = choose(given, variable, simulation, world, has_usual)
+)  # fmt: skip
+def test_a_port_that_is_named_is_never_replaced(given, port, part):
+    choice = choose(given)
     assert choice.port == port
     assert part in choice.line
 
 
 @pytest.mark.parametrize(
-    ("given", "simulation", "world", "part"),
+    ("given", "part"),
     [
-        (USB, "false", "room", "give one of them"),
-        ("", "yes", "", "simulation:=yes: must be true or false"),
+        (Given(USB, world="room"), "give one of them"),
+        (Given(simulation="yes"), "simulation:=yes: must be true or false"),
     ],
 )
-def test_a_mistake_is_one_line(given, simulation, world, part):
+def test_a_mistake_is_one_line(given, part):
     with pytest.raises(ValueError, match=part):
-        choose(given, "", simulation, world, False)
+        choose(given)

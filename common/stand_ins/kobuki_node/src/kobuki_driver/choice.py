@@ -2,11 +2,25 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import NamedTuple
 
 USUAL_PORT = "/dev/kobuki"  # what the udev rule makes; turtlebot_bringup's hook sets it, too
 VARIABLE = "TURTLEBOT_SERIAL_PORT"
+SIMULATION = "TURTLEBOT_SIMULATION"
 REAL = "serialport:=PATH drives a real Kobuki"
+
+
+@dataclass(frozen=True)
+class Given:
+    """What was given: arguments of the launch file, variables, and what the computer has."""
+
+    port: str = ""  # serialport:=
+    simulation: str = ""  # simulation:=, true or false
+    world: str = ""  # of a simulation
+    port_variable: str = ""
+    simulation_variable: str = ""
+    has_usual: bool = False  # whether USUAL_PORT exists
 
 
 class Choice(NamedTuple):
@@ -16,26 +30,36 @@ class Choice(NamedTuple):
     line: str
 
 
-def choose(given: str, variable: str, simulation: str, world: str, has_usual: bool) -> Choice:
-    """Return the Choice. Raises ValueError, one line.
+def choose(given: Given) -> Choice:
+    """Return the Choice: by arguments, then by variables. Raises ValueError, one line.
 
-    given: serialport:=, or "". variable: the value of VARIABLE. simulation: the argument, true or
-    false. world: of a simulation, or "". has_usual: whether USUAL_PORT exists. A port that is named
-    is never replaced by a simulation.
+    A port that is named is never replaced by a simulation.
     """
-    if simulation not in ("true", "false"):
-        raise ValueError(f"simulation:={simulation}: must be true or false")
-    if simulation == "true":
+    if given.simulation not in ("true", "false", ""):
+        raise ValueError(f"simulation:={given.simulation}: must be true or false")
+    return _by_arguments(given) or _by_variables(given)
+
+
+def _by_arguments(given: Given) -> Choice | None:
+    if given.simulation == "true":
         return Choice("", f"a simulated Kobuki, by simulation:=true; without it, {REAL}")
-    if world and given:
-        raise ValueError(
-            f"a world is simulated, and serialport:={given} is of a real robot: give one of them"
-        )
-    if world:
+    if given.world and given.port:
+        line = f"a world is simulated, and serialport:={given.port} is of a real robot"
+        raise ValueError(f"{line}: give one of them")
+    if given.world:
         return Choice("", f"a simulated Kobuki, as a world is simulated; without one, {REAL}")
-    named = given or (variable if variable != USUAL_PORT else "")
-    if named or has_usual:
-        reason = "" if given else (f", by {VARIABLE}" if named else ", which is plugged in")
-        port = named or USUAL_PORT
-        return Choice(port, f"the real Kobuki at {port}{reason}; simulation:=true simulates one")
+    return _real(given.port, "") if given.port else None
+
+
+def _by_variables(given: Given) -> Choice:
+    if given.simulation_variable == "true" and not given.simulation:
+        return Choice("", f"a simulated Kobuki, by {SIMULATION}=true; {REAL}")
+    if given.port_variable not in ("", USUAL_PORT):
+        return _real(given.port_variable, f", by {VARIABLE}")
+    if given.has_usual:
+        return _real(USUAL_PORT, ", which is plugged in")
     return Choice("", f"a simulated Kobuki, as there is no {USUAL_PORT}; {REAL}")
+
+
+def _real(port: str, why: str) -> Choice:
+    return Choice(port, f"the real Kobuki at {port}{why}; simulation:=true simulates one")

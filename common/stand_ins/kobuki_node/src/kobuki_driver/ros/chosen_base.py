@@ -10,7 +10,7 @@ from typing import Iterable
 import rosgraph
 
 from fake_turtlebot_sim.simulator.parameters import Parameters
-from kobuki_driver.choice import USUAL_PORT, VARIABLE, Choice, choose
+from kobuki_driver.choice import SIMULATION, USUAL_PORT, VARIABLE, Choice, Given, choose
 from kobuki_driver.parameters import DriverParameters
 from node_kit.announcement import full_name
 from node_kit.parameters import declared
@@ -23,7 +23,7 @@ def main() -> int:
     """Choose by the command line, and run; return the exit code."""
     reader = argparse.ArgumentParser(allow_abbrev=False)
     reader.add_argument("--port", default="", help="serialport:= of the launch file")
-    reader.add_argument("--simulation", default="false", help="simulation:= of the launch file")
+    reader.add_argument("--simulation", default="", help="simulation:= of the launch file")
     given, rest = reader.parse_known_args(rosgraph.myargv(sys.argv)[1:])
     remaps = [word for word in sys.argv[1:] if ":=" in word]
     sys.argv[1:] = [*rest, *remaps]
@@ -38,9 +38,9 @@ def main() -> int:
 
 def _choice(port: str, simulation: str) -> Choice:
     world = call(rosgraph.get_master_uri(), "getParam", _own("world"))[1]
+    variables = [os.environ.get(name, "") for name in (VARIABLE, SIMULATION)]
     has_usual = os.path.exists(USUAL_PORT)
-    variable = os.environ.get(VARIABLE, "")
-    return choose(port, variable, simulation, str(world or ""), has_usual)
+    return choose(Given(port, simulation, str(world or ""), *variables, has_usual=has_usual))
 
 
 def _drive(port: str) -> int:
