@@ -5,10 +5,12 @@ import os
 import signal
 import time
 
+from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Twist, Vector3
 from kobuki_msgs.msg import (
     BumperEvent,
     ControllerInfo,
+    DockInfraRed,
     Led,
     MotorPower,
     RobotStateEvent,
@@ -17,7 +19,7 @@ from kobuki_msgs.msg import (
 )
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Imu, JointState
-from std_msgs.msg import Empty
+from std_msgs.msg import Empty, Int16MultiArray, String
 from tf2_msgs.msg import TFMessage
 
 from kobuki_protocol import commands
@@ -33,6 +35,9 @@ TOPICS = {
     "odom": Odometry, "joint_states": JointState, "/tf": TFMessage, "sensors/core": SensorState,
     "sensors/imu_data": Imu, "events/bumper": BumperEvent, "events/robot_state": RobotStateEvent,
     "version_info": VersionInfo, "controller_info": ControllerInfo,
+    "sensors/imu_data_raw": Imu, "sensors/dock_ir": DockInfraRed, "debug/raw_data_stream": String,
+    "debug/raw_data_command": String, "debug/raw_control_command": Int16MultiArray,
+    "/diagnostics": DiagnosticArray,
 }  # fmt: skip
 AHEAD, ZERO = (0.3, 0.5), (0.0, 0.0)
 TIMEOUT_S = 0.6
@@ -101,6 +106,17 @@ class DriverTest(RosTest):
         version = self.got["version_info"][-1]
         self.assertEqual((version.firmware, version.udid), ("1.2.0", (1, 2, 3)))
         self.assertEqual(self.got["controller_info"][-1], ControllerInfo(0, 100.0, 0.1, 2.0))
+        wait_for(lambda: self.got["/diagnostics"], "diagnostics")
+        self.assertEqual([topic for topic, came in self.got.items() if not came], ["events/bumper"])
+        earlier, later = self.got["sensors/imu_data_raw"][-2:]
+        self.assertAlmostEqual(later.angular_velocity.z, math.radians(200 * 0.00875))
+        between = later.header.stamp - earlier.header.stamp
+        self.assertEqual(between.to_nsec(), 10_000_000)
+        zero = "[ 0xaa 0x55 0x06 0x01 0x04 0x00 0x00 0x00 0x00 0x03 ]"
+        self.assertIn(zero, [one.data for one in self.got["debug/raw_data_command"]])
+        self.assertTrue(self.got["debug/raw_data_stream"][-1].data.startswith("{ AA 55 "))
+        controls = [one.data for one in self.got["debug/raw_control_command"]]
+        self.assertIn((357, 600, 300, 500), controls)
         self.robot.core = {"bumper": 4}
         pressed = BumperEvent(BumperEvent.LEFT, BumperEvent.PRESSED)
         wait_for(lambda: pressed in self.got["events/bumper"], "bumper")
@@ -251,6 +267,7 @@ class DriverTest(RosTest):
         topics["motor_power"].publish(MotorPower(MotorPower.ON))
         self.drive()
         self.rests()
+        wait_for(lambda: self.got["odom"][-1].twist.twist.linear.x == 0.0, "rest in the odometry")
         topics["reset_odometry"].publish(Empty())
         wait_for(lambda: self.got["odom"][-1].pose.pose.position.x == 0.0, "reset")
 

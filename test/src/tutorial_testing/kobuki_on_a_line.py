@@ -14,12 +14,13 @@ from math import pi
 
 from kobuki_protocol import commands, robot_packets
 from kobuki_protocol.base_control import velocity_of
-from kobuki_protocol.feedback import Core, Feedback, Inertia
+from kobuki_protocol.feedback import Core, Feedback, Inertia, RawGyro
 from kobuki_protocol.framing import Framer
 from kobuki_protocol.identity import Controller, FirmwareVersion, HardwareVersion, UniqueId
 
 PERIOD_S = 0.02
 TICKS_PER_M = 11724.4
+GYRO = RawGyro(0, ((0, 0, 100), (0, 0, 200)))
 
 
 class KobukiOnALine:
@@ -105,7 +106,7 @@ class KobukiOnALine:
         left, right = (int(ticks // 1) % 65536 for ticks in self.ticks)
         core = Core(stamp, left_encoder=left, right_encoder=right, battery=164)
         inertia = Inertia.of(self.heading, self.velocity[1])
-        return Feedback(core=replace(core, **self.core), inertia=inertia)
+        return Feedback(core=replace(core, **self.core), inertia=inertia, gyro=GYRO)
 
     def _obey(self, payloads):
         answers = []

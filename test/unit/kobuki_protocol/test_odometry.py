@@ -141,6 +141,18 @@ def test_a_driver_that_was_suspended_catches_up(robot):
     assert robot.odometry.counts == 1
 
 
+def test_a_packet_that_came_late_is_known_by_the_clock_of_the_robot(robot):
+    robot.drive(0.0, 0.0, 1.0)
+    assert robot.odometry.late_s < 0.002
+    robot.drive(0.0, 0.0, 0.02, late_s=0.3)
+    assert robot.odometry.late_s == pytest.approx(0.3, abs=0.002)
+    robot.drive(0.0, 0.0, 0.02)
+    assert robot.odometry.late_s < 0.002
+    robot.switch_off_and_on(2.0)  # then nothing is known of it
+    robot.drive(0.0, 0.0, 0.02)
+    assert robot.odometry.late_s == 0.0
+
+
 def test_lost_packets_lose_no_travel(robot):
     for _ in range(20):
         robot.move(0.6, 0.0, 0.2)

@@ -48,6 +48,11 @@ class Odometry:
         self.counts = 0  # the first, and one for each restart of the robot
         self.state = OdometryState()
 
+    @property
+    def late_s(self) -> float:
+        """Return by how much the last packet was late: it waited in a port, or on the way."""
+        return self._clock.late_s
+
     def update(self, core: Core, inertia: Inertia, now_s: float) -> OdometryState:
         """Take a packet that came at now_s, of a clock that never jumps; return the state."""
         last, self._core = self._core, core

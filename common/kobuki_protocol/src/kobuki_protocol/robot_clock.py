@@ -19,13 +19,14 @@ class RobotClock:
         """Begin with the first packet."""
         self._stamp_ms: int | None = None
         self._offset_ms = 0.0  # of our clock from the robot's, when nothing is late
+        self.late_s = 0.0  # by which the last packet came later than it could have
 
     def elapsed_s(self, stamp_ms: int, now_s: float) -> float | None:
         """Return the time since the last packet; None if this is the first one of a count.
 
         stamp_ms: core.time_stamp. now_s: of a clock that never jumps.
         """
-        last, self._stamp_ms = self._stamp_ms, stamp_ms
+        last, self._stamp_ms, self.late_s = self._stamp_ms, stamp_ms, 0.0
         offset_ms = 1000.0 * now_s - stamp_ms
         if last is None:
             self._offset_ms = offset_ms
@@ -36,4 +37,5 @@ class RobotClock:
             self._offset_ms = offset_ms
             return None
         self._offset_ms += min(late_ms, MOST_DRIFT_MS)
+        self.late_s = max(0.0, late_ms / 1000.0)
         return dt_ms / 1000.0

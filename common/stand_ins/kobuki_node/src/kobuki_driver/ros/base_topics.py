@@ -92,7 +92,7 @@ class BaseTopics:
             self._send("sensors/imu_data", messages.imu(heading, rate, stamp, prefix))
         if self._is_wanted("sensors/dock_ir"):
             self._send("sensors/dock_ir", messages.dock_infrared(feedback, stamp, prefix))
-        if self._is_wanted("sensors/imu_data_raw") and stamp > READING * 3:
+        if self._is_wanted("sensors/imu_data_raw") and stamp.to_nsec() > 3 * READING.to_nsec():
             count = len(feedback.gyro.readings)
             stamps = [stamp - READING * (count - 1 - k) for k in range(count)]
             for imu in messages.raw_imu(feedback.gyro, stamps, prefix):

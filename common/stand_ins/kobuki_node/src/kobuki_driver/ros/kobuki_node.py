@@ -56,7 +56,7 @@ class KobukiNode:
         self._line = RobotLine(parameters, topics, self._report)
         self._diagnostics, self._diagnosed_s = DiagnosticTopic(), 0.0
         self._encoder = command_messages.CommandEncoder()
-        self._fresh = FreshOnly()
+        self._fresh, self._velocity_lock = FreshOnly(), threading.Lock()
         self._ending, self._has_ended = threading.Event(), threading.Event()
         self._subscribe()
         rospy.on_shutdown(self._end)
@@ -102,10 +102,10 @@ class KobukiNode:
         self._line.open(port, time.monotonic())
         while not self._ending.is_set():
             data = port.read()
-            if self._fresh.notice():
-                self._line.stop()
-                self._report("the driver was suspended; what was sent meanwhile is not obeyed")
-            self._line.take(data, time.monotonic(), rospy.Time.now())
+            if self._line.take(data, time.monotonic(), rospy.Time.now()):
+                with self._velocity_lock:
+                    self._notice_suspension()
+                self._line.command_robot(time.monotonic())
             self._diagnose()
         self._line.rest()
 
@@ -124,11 +124,18 @@ class KobukiNode:
         if self._throttle.ready(line, time.monotonic()):
             (self._log.warn if is_bad else self._log.info)(line)
 
+    def _notice_suspension(self) -> None:
+        if self._fresh.notice():
+            self._line.stop()
+            self._report("the driver was suspended; what was sent meanwhile is not obeyed")
+
     def _on_velocity(self, twist: Any) -> None:
-        if self._ending.is_set() or self._fresh.is_old(twist):
-            return
         velocity = twist.linear.x, twist.angular.z
-        verdict = self._line.command(velocity, time.monotonic())
+        with self._velocity_lock:
+            self._notice_suspension()
+            if self._ending.is_set() or self._fresh.is_old(twist):
+                return
+            verdict = self._line.command(velocity, time.monotonic())
         if verdict is not Verdict.OBEYED:
             self._report(f"commands/velocity: {verdict.value}", is_bad=True)
 

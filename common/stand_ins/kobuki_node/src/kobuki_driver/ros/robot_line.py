@@ -61,8 +61,8 @@ class RobotLine:
         self._port = None
         self._switch(is_online=False)
 
-    def take(self, data: bytes, now_s: float, stamp: rospy.Time) -> None:
-        """Take what was read, which may be nothing; publish it, and command the robot."""
+    def take(self, data: bytes, now_s: float, stamp: rospy.Time) -> bool:
+        """Take what was read, which may be nothing; return whether to command the robot."""
         payloads = self._framer.feed(data)
         packets = [(payload, robot_packets.parse(payload)) for payload in payloads]
         cores = sum(any(isinstance(part, Core) for part in parts) for _, parts in packets)
@@ -73,9 +73,13 @@ class RobotLine:
             self._take_packet(parts, now_s, stamp)
             self._topics.stream(payload)
         if cores:
-            self._topics.odometry(self._odometry.state, stamp)
-        if cores or (self._watch.was_online and not (data or self._watch.is_online)):
-            self._command(now_s)
+            self._topics.odometry(self._odometry.state, self._stamp(stamp))
+        return cores > 0 or (self._watch.was_online and not (data or self._watch.is_online))
+
+    def _stamp(self, now: rospy.Time) -> rospy.Time:
+        """Return when the robot made the packet, which may have waited in the port."""
+        late_ns = round(1e9 * self._odometry.late_s)
+        return rospy.Time(0, max(0, now.to_nsec() - late_ns))
 
     def _take_packet(self, parts: list[Any], now_s: float, stamp: rospy.Time) -> None:
         before, self.feedback = self.feedback, self.feedback.updated(parts)
@@ -84,7 +88,7 @@ class RobotLine:
         if any(isinstance(part, Core) for part in parts):
             with self._lock:
                 self._odometry.update(now.core, now.inertia, now_s)
-            self._topics.sensors(now, self._odometry.gyro_heading, stamp)
+            self._topics.sensors(now, self._odometry.gyro_heading, self._stamp(stamp))
         for answer in self._introduction.take(parts):
             self._introduce(answer)
 
@@ -98,7 +102,7 @@ class RobotLine:
         if isinstance(answer, FirmwareVersion) and known.objection():
             self._report(known.objection(), is_bad=True)
 
-    def _command(self, now_s: float) -> None:
+    def command_robot(self, now_s: float) -> None:
         """Send a base control, and what waits."""
         with self._lock:
             if self.driving.expires(now_s):
