@@ -76,6 +76,10 @@ class SerialKobukiTest(RosTest):
             with self.assertRaises(EOFError):
                 wait_for(lambda: driver.read() and False, "end of the line")
         self.assertFalse(os.path.lexists(device.port))
+        os.mkdir(device.port)  # in the way
+        call_service("plug_in", SetBool, True)
+        device.wait_for_line("File exists")
+        os.rmdir(device.port)
         call_service("plug_in", SetBool, True)
         wait_for(lambda: os.path.exists(device.port), "cable")
         self.enter(Driver(device.port)).wait_for(Core)

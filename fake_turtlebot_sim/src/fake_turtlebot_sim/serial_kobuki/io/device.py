@@ -92,7 +92,7 @@ class Device:
         now_s = now_ns * 1e-9
         for at_s, happen in self._plan:
             if at_s <= now_s:
-                happen()
+                self._try(happen)
         self._plan = [(at_s, happen) for at_s, happen in self._plan if at_s > now_s]
         self._read()
         stamp_ns = time.time_ns()
@@ -143,10 +143,17 @@ class Device:
     def _obey(self, beside: Beside) -> None:
         for name, *values in beside.wishes():
             self._robot.advance(self._clock.now_ns())
-            self._wishes[name](*values)
+            self._try(self._wishes[name], *values)
         if beside.has_ended:
             self.is_ending = self.is_ending or beside.was_asked_to_end
             self._beside = None
+
+    def _try(self, happen: Callable[..., None], *values: object) -> None:
+        """Do what is asked for, if that is possible."""
+        try:
+            happen(*values)
+        except ValueError as error:
+            self._report(str(error))
 
     def _reboot(self) -> None:
         self._report("switched off and on")
