@@ -37,3 +37,9 @@ def test_a_change_of_what_runs_programs_or_reads_them_makes_recordings_old(recor
 )
 def test_a_name_stands_for_the_module_that_defines_it(base, name, modules):
     assert modules_of(base, name) == modules
+
+
+def test_a_change_of_what_chooses_the_next_joy_makes_recordings_old():
+    driving = "courses.handout.driving"
+    chosen_by = {f"{driving}.{name}" for name in ("evidence", "joys", "replies", "run")}
+    assert chosen_by <= closure(f"{driving}.record")
