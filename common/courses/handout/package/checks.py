@@ -117,7 +117,10 @@ def _wanted(submission: Submission, name: str) -> list[str]:
 
 def _package(submission: Submission, name: str) -> Package:
     """Return the package that the checks know by a name. Raises Wrong."""
-    expected, own = f"one package {submission.task.in_messages(name)} in src", submission.task.name_of(name)
+    expected, own = (
+        f"one package {submission.task.in_messages(name)} in src",
+        submission.task.name_of(name),
+    )
     named = [package for package in submission.packages if package.name == own]
     for package in submission.packages:
         if package.error and own in (package.name, package.folder.name):

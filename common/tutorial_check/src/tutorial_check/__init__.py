@@ -24,7 +24,7 @@ from tutorial_check.checking.programs import (
 from tutorial_check.checking.results import Note, Wrong, first_of, must_pass, wrong_of
 from tutorial_check.checking.script_faults import check_file
 from tutorial_check.checking.submission import Submission
-from tutorial_check.checking.texts import Lines, read_xml, text_of_file
+from tutorial_check.checking.texts import read_xml
 from tutorial_check.course.tasks import Task, Variant
 from tutorial_check.processes.errors import MASTER_GONE, CannotCheck, CutShort
 from tutorial_check.processes.program import Program, Ran
@@ -46,7 +46,7 @@ from tutorial_check.recording.simulated_robot import (
 )
 from tutorial_check.recording.workspace import Workspace
 from tutorial_check.submission.files import SubmissionFiles
-from tutorial_check.submission.launch_xml import GAPS, Fault, attribute, line_of, place_of
+from tutorial_check.submission.launch_xml import GAPS, attribute, line_of, place_of
 from tutorial_check.submission.manifests import is_stand_in
 from tutorial_check.submission.packages import Package, packages_beside, underlays
 from tutorial_check.submission.python_facts import ClassFacts, PythonFacts, shows, with_bases
@@ -59,16 +59,16 @@ if TYPE_CHECKING:  # its module loads ROS
 
 __all__ = [
     "BUMPER", "GAPS", "GRACE_S", "MASTER_GONE", "ODOM", "SETTLE_S", "START_S", "TRUTH", "Answer",
-    "Built", "CannotCheck", "ClassFacts", "Client", "CutShort", "Fault", "File", "Heard",
-    "HeardText", "Launch", "LaunchFile", "Lines", "Node", "Note", "Package", "Program",
-    "PythonFacts", "Ran", "RosSession", "Sample", "Script", "Seen", "SimulatedRobot",
-    "Submission", "SubmissionFiles", "Task", "Topics", "Transform", "Variant", "Workspace", "Wrong",
-    "attribute", "build_error", "build_output", "built", "cause_of", "check", "check_file",
-    "cmake_of", "crash", "find_launch", "find_script", "first_of",
-    "first_traceback", "flipped_anonymous", "has_moved", "is_lacking", "is_stand_in", "last_lines",
-    "launch_file", "line_of", "meant", "missing_in", "must_be_launchable", "must_be_one_program",
-    "must_be_unique", "must_build", "must_pass", "not_found", "own_built", "package_hint",
-    "package_of", "packages_beside", "packages_of_ros", "place_of", "program_of", "put_file",
-    "read_launch_files", "read_xml", "recorded", "shows", "text_of_file", "traceback_of",
-    "underlays", "unmasked", "unreadable", "with_bases", "with_import", "without_name", "wrong_of",
+    "Built", "CannotCheck", "ClassFacts", "Client", "CutShort", "File", "Heard", "HeardText",
+    "Launch", "LaunchFile", "Node", "Note", "Package", "Program", "PythonFacts", "Ran",
+    "RosSession", "Sample", "Script", "Seen", "SimulatedRobot", "Submission", "SubmissionFiles",
+    "Task", "Topics", "Transform", "Variant", "Workspace", "Wrong", "attribute", "build_error",
+    "build_output", "built", "cause_of", "check", "check_file", "cmake_of", "crash", "find_launch",
+    "find_script", "first_of", "first_traceback", "flipped_anonymous", "has_moved", "is_lacking",
+    "is_stand_in", "last_lines", "launch_file", "line_of", "meant", "missing_in",
+    "must_be_launchable", "must_be_one_program", "must_be_unique", "must_build", "must_pass",
+    "not_found", "own_built", "package_hint", "package_of", "packages_beside", "packages_of_ros",
+    "place_of", "program_of", "put_file", "read_launch_files", "read_xml", "recorded", "shows",
+    "traceback_of", "underlays", "unmasked", "unreadable", "with_bases", "with_import",
+    "without_name", "wrong_of",
 ]  # fmt: skip
