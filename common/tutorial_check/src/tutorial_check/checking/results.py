@@ -16,8 +16,8 @@ from tutorial_check.processes.errors import (
 from tutorial_check.submission.student_files import TOO_LARGE
 
 OK, WRONG, NOTE, UNREACHED = "ok", "wrong", "note", "unreached"
-Facts = TypeVar("Facts")
-Verdict = TypeVar("Verdict")
+_Facts = TypeVar("_Facts")
+_Finding = TypeVar("_Finding")
 
 
 @dataclass(frozen=True)
@@ -60,15 +60,15 @@ class Wrong(Exception):
 
 
 def first_of(
-    diagnoses: Iterable[Callable[[Facts], Verdict | None]], facts: Facts
-) -> Verdict | None:
+    diagnoses: Iterable[Callable[[_Facts], _Finding | None]], facts: _Facts
+) -> _Finding | None:
     """Return what the first diagnosis that applies to the facts says: a Wrong or Note, or None."""
     verdicts = (diagnosis(facts) for diagnosis in diagnoses)
     return next((verdict for verdict in verdicts if verdict is not None), None)
 
 
 def must_pass(
-    diagnoses: Iterable[Callable[[Facts], Wrong | Note | None]], facts: Facts, expected: str = ""
+    diagnoses: Iterable[Callable[[_Facts], Wrong | Note | None]], facts: _Facts, expected: str = ""
 ) -> Note | None:
     """Return the Note of the first diagnosis that applies, or None. Raises its Wrong.
 
