@@ -38,9 +38,16 @@ def main() -> int:
 
 def _choice(port: str, simulation: str) -> Choice:
     world = call(rosgraph.get_master_uri(), "getParam", _own("world"))[1]
-    variables = [os.environ.get(name, "") for name in (VARIABLE, SIMULATION)]
-    has_usual = os.path.exists(USUAL_PORT)
-    return choose(Given(port, simulation, str(world or ""), *variables, has_usual=has_usual))
+    return choose(
+        Given(
+            port=port,
+            simulation=simulation,
+            world=str(world or ""),
+            port_variable=os.environ.get(VARIABLE, ""),
+            simulation_variable=os.environ.get(SIMULATION, ""),
+            has_usual=os.path.exists(USUAL_PORT),
+        )
+    )
 
 
 def _drive(port: str) -> int:
