@@ -7,7 +7,7 @@ from tutorial_check import Wrong, first_of
 from ..task import LB
 from .evidence import RIGHT
 from .field_diagnoses import not_a_number, only_this_joy, rule_verdict
-from .replies import Replies, Reply, Silence, other_button
+from .replies import ProbeReply, Replies, Silence, other_button
 
 ALWAYS = "publish for every Joy, with no `if` around it"
 
@@ -65,7 +65,7 @@ SILENCES = (
 )  # fmt: skip
 
 
-def drives_on(reply: Reply) -> Wrong | None:
+def drives_on(reply: ProbeReply) -> Wrong | None:
     if not reply.drives_on:
         return None
     names, other = reply.task.names, other_button(reply.task, reply.joy)
@@ -78,7 +78,7 @@ def drives_on(reply: Reply) -> Wrong | None:
     return Wrong("", seen, hint=f"{hint} no += and no `if` around the line")
 
 
-def speed_kept_after_a_button(reply: Reply) -> Wrong | None:
+def speed_kept_after_a_button(reply: ProbeReply) -> Wrong | None:
     if not reply.differs or other_button(reply.task, reply.joy) or not reply.last_button:
         return None
     seen = f"the same Joy gives {reply.name} = {reply.again:.2f} and,"
@@ -87,7 +87,7 @@ def speed_kept_after_a_button(reply: Reply) -> Wrong | None:
     return Wrong("", seen, hint=hint)
 
 
-def another_reply(reply: Reply) -> Wrong | None:
+def another_reply(reply: ProbeReply) -> Wrong | None:
     if not reply.differs:
         return None
     seen = f"{reply.name} depends on earlier Joys: the same Joy gives"

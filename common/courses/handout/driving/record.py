@@ -38,7 +38,7 @@ def drive(
     if text:
         script = workspace.sibling(PACKAGE, script, text)
     with workspace.ros_session() as ros:
-        return _Driver(workspace, ros, script).drive(wants_twist)
+        return _Conversation(workspace, ros, script).drive(wants_twist)
 
 
 def known_package(workspace: Workspace, package: str) -> KnownPackage:
@@ -54,7 +54,7 @@ def rest(ros: RosSession, *topics: str, joys: str = JOY) -> None:
     ros.peer.end_stream(joys)
 
 
-class _Driver:
+class _Conversation:
     """Drives one program, and looks at what it has seen to choose what to send next."""
 
     def __init__(self, workspace: Workspace, ros: RosSession, script: str) -> None:
@@ -135,9 +135,11 @@ class _Driver:
         probes, is_rated = self._run.probes, RATED.intersection(self._workspace.order.exercises)
         goes = probes.answers and not probes.unanswered and self._run.replies().is_right
         if goes and is_rated and not self._program.ended:
-            self._stream()
-            if not self._run.is_prompt and not self._program.ended:
-                self._stream(beside_ours=True)
+            for beside_ours in (False, True):
+                stream = _stream(self._workspace, ros, self._run, beside_ours)
+                self._run = replace(self._run, stream=stream)
+                if self._run.is_prompt or self._program.ended:
+                    break
 
     def _ask_numbered(self, joys: Sequence[Joy]) -> None:
         self._one_by_one(joys, 0.0)
@@ -239,25 +241,27 @@ class _Driver:
                 self._ask(joy, 0.0, longest_s=SAME_S)
         self._note(came=self._count() - before)
 
-    def _stream(self, beside_ours: bool = False) -> None:
-        ros, count = self._ros, int(RATE * STREAM_S)
-        if beside_ours:
-            known = ros.peer.listeners(JOY)
-            echo, answers = ros.echo(self._task.axes[RIGHT[LINEAR]])
-            ros.peer.listen(answers, "Twist")
-            ros.wait(lambda: echo.ready() and ros.peer.listeners(JOY) > known, START_S)
-        before = self._count()
-        joys = [self._task.joy(joy) for joy in sent_joys.rising_joys(count)]
-        ros.peer.stream(JOY, joys, RATE, False)
-        ros.wait(lambda: len(ros.peer.sent(JOY)) >= count, STREAM_S + 3)
-        ros.wait(lambda: self._count() - before >= count, 0.3)
-        sent, received = ros.peer.sent(JOY), self._received(before)
-        rule = rule_of(LINEAR, self._seen.samples)
-        delays = sent_joys.delays(sent, received, rule.factor if rule else None)
-        strays = sent_joys.strays([any(twist) for _, _, twist in received])
-        stream = Stream(len(sent), len(received), strays, tuple(delays))
-        if beside_ours:
-            echoed, sign = ros.peer.received(answers), self._task.signs[RIGHT[LINEAR]]
-            ours = statistics.median(sent_joys.delays(sent, echoed, sign) or [0.0])
-            stream = replace(stream, possible=len(echoed), unavoidable_s=ours)
-        self._run = replace(self._run, stream=stream)
+
+def _stream(workspace: Workspace, ros: RosSession, run: Joy2TwistRun, beside_ours: bool) -> Stream:
+    """Send Joys at RATE. beside_ours: a joy2twist of the checker's answers the same ones."""
+    task, count = workspace.task, int(RATE * STREAM_S)
+    if beside_ours:
+        known = ros.peer.listeners(JOY)
+        echo, answers = ros.echo(task.axes[RIGHT[LINEAR]])
+        ros.peer.listen(answers, "Twist")
+        ros.wait(lambda: echo.ready() and ros.peer.listeners(JOY) > known, START_S)
+    before = ros.peer.count(CMD_VEL)
+    joys = [task.joy(joy) for joy in sent_joys.rising_joys(count)]
+    ros.peer.stream(JOY, joys, RATE, False)
+    ros.wait(lambda: len(ros.peer.sent(JOY)) >= count, STREAM_S + 3)
+    ros.wait(lambda: ros.peer.count(CMD_VEL) - before >= count, 0.3)
+    sent, received = ros.peer.sent(JOY), ros.peer.received(CMD_VEL, before)
+    rule = rule_of(LINEAR, run.numbered.samples)
+    delays = sent_joys.delays(sent, received, rule.factor if rule else None)
+    strays = sent_joys.strays([any(twist) for _, _, twist in received])
+    stream = Stream(len(sent), len(received), strays, tuple(delays))
+    if not beside_ours:
+        return stream
+    echoed, sign = ros.peer.received(answers), task.signs[RIGHT[LINEAR]]
+    ours = statistics.median(sent_joys.delays(sent, echoed, sign) or [0.0])
+    return replace(stream, possible=len(echoed), unavoidable_s=ours)

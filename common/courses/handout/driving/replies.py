@@ -29,7 +29,7 @@ class Silence(NamedTuple):
     task: JoystickTask = HANDOUT
 
 
-class Reply(NamedTuple):
+class ProbeReply(NamedTuple):
     """One field of an answer, with that to the Joy before, and to the same Joy the first time."""
 
     name: str
@@ -73,11 +73,11 @@ class Replies:
         return not is_odd and self.whole.is_right
 
     @cached_property
-    def odd(self) -> Reply | None:
+    def odd(self) -> ProbeReply | None:
         """The first one that moves the robot against its Joy, or differs from an earlier one."""
         return next((reply for reply in self._replies() if reply.drives_on or reply.differs), None)
 
-    def _replies(self) -> Iterator[Reply]:
+    def _replies(self) -> Iterator[ProbeReply]:
         task, samples = self.evidence.task, self.evidence.samples
         known = {(tuple(axes), pressed(LB)): twist for axes, twist in samples}
         before, last_button = samples[-1][1], ""
@@ -86,7 +86,7 @@ class Replies:
             last_button = other_button(task, joy) or last_button
             for field, axis in RIGHT.items():
                 values = twist[field], before[field], again[field]
-                yield Reply(FIELDS[field], axis, joy, *values, last_button, task)
+                yield ProbeReply(FIELDS[field], axis, joy, *values, last_button, task)
             before = twist
 
     @property

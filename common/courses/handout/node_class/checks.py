@@ -65,7 +65,7 @@ def _endings(submission: Submission) -> Endings:
 
 
 @dataclass(frozen=True)
-class Ending:
+class DrivingEnd:
     """What came of ending the class in one way, beside its text."""
 
     submission: Submission
@@ -101,7 +101,7 @@ class Ending:
         return wrong
 
 
-def no_zero(ending: Ending) -> Wrong | None:
+def no_zero(ending: DrivingEnd) -> Wrong | None:
     if ending.end.zero_after_s is not None:
         return None
     hint = "rospy.on_shutdown(self.shutdown), and self.cmd_vel.publish(Twist()) in shutdown"
@@ -112,14 +112,14 @@ def no_zero(ending: Ending) -> Wrong | None:
     return ending.with_cause(ending.wrong("no zero comes: the robot drives on", hint, sure))
 
 
-def late_zero(ending: Ending) -> Wrong | None:
+def late_zero(ending: DrivingEnd) -> Wrong | None:
     if ending.end.in_time:
         return None
     hint = "in shutdown first the zero, then the rest"
     return ending.with_cause(ending.wrong("the zero comes more than 2 s late", hint))
 
 
-def still_running(ending: Ending) -> Wrong | None:
+def still_running(ending: DrivingEnd) -> Wrong | None:
     hint = "does shutdown come to an end? one second of rest is enough"
     is_gone = ending.end.took_s is not None
     return None if is_gone else ending.wrong("it still runs 3 s later", hint)
@@ -129,7 +129,7 @@ def still_running(ending: Ending) -> Wrong | None:
        look="rostopic echo {n.cmd_vel}; Ctrl-C in the node's terminal")  # fmt: skip
 def stops(submission: Submission) -> Note | str | None:
     made, seen = program(submission), _endings(submission)
-    cases = [Ending(submission, made, way, end) for way, end in seen.ends.items()]
+    cases = [DrivingEnd(submission, made, way, end) for way, end in seen.ends.items()]
     for ending in cases:
         must_pass((no_zero, late_zero, still_running), ending)
     if not seen.robot_rests:

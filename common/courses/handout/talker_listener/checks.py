@@ -19,7 +19,16 @@ from tutorial_check import (
 
 from ..task import BEGINNER
 from . import record
-from .diagnoses import GOES_ON, LOOP, Listened, Talked, deaf, pace, silent, twice_displayed
+from .diagnoses import (
+    GOES_ON,
+    LOOP,
+    Listened,
+    Talked,
+    pace,
+    receives_nothing,
+    silent,
+    twice_displayed,
+)
 from .record import TOPIC, Pair, Talk
 
 NO_SECOND = "a second talker publishes, or ends the first"
@@ -68,7 +77,7 @@ def listener(submission: Submission) -> Note | None:
         raise script.end(seen.listener, GOES_ON)
     listened = Listened(seen, script)
     if not all(listened.times):
-        raise deaf(listened)
+        raise receives_nothing(listened)
     return twice_displayed(listened)
 
 

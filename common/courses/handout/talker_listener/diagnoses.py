@@ -197,7 +197,7 @@ def wants_other_type(listen: Listened) -> Wrong | None:
     return Wrong(LISTENS, f"it wants {kind} on /chatter", listen.subscriber, listen.hint)
 
 
-def deaf(listen: Listened) -> Wrong:
+def receives_nothing(listen: Listened) -> Wrong:
     """Return the Wrong for a listener that does not display all texts."""
     diagnoses = (crashed_deaf, subscribed_elsewhere, not_subscribed, no_callback, wants_other_type)
     hint = "does callback(data) display data.data, with rospy.loginfo?"

@@ -29,15 +29,15 @@ MOST_KEPT = 20_000  # messages of a topic
 REFUSED = genpy.MessageException, genpy.SerializationError
 
 
-class Fault(Exception):
+class CallerError(Exception):
     """There is no such type, or values do not fit it."""
 
 
 def class_of(kind: str, of_service: bool = False) -> type[genpy.Message]:
-    """Return the class of a type, as it was generated. Raises Fault."""
+    """Return the class of a type, as it was generated. Raises CallerError."""
     cls = service_class(kind) if of_service else message_class(kind)
     if cls is None:
-        raise Fault(f"there is no type {kind}")
+        raise CallerError(f"there is no type {kind}")
     return cls
 
 
@@ -51,7 +51,7 @@ def plain(value: object) -> object:
 
 
 def message_of(kind: type[genpy.Message], values: object) -> genpy.Message:
-    """Return a message of a class with values as rostopic pub takes them. Raises Fault."""
+    """Return a message of a class with values as rostopic pub takes them. Raises CallerError."""
     message, now = kind(), rospy.Time.now()
     words = values if isinstance(values, list) else [values]
     try:
@@ -59,7 +59,9 @@ def message_of(kind: type[genpy.Message], values: object) -> genpy.Message:
         message._check_types()
     except (AttributeError, TypeError, ValueError, *REFUSED) as error:
         fields = ", ".join(message.__slots__) or "none"
-        raise Fault(f"{kind._type}: {values} does not fit: {error} (fields: {fields})") from None
+        raise CallerError(
+            f"{kind._type}: {values} does not fit: {error} (fields: {fields})"
+        ) from None
     return message
 
 
@@ -81,7 +83,7 @@ class Node:
     def fields(self, kind: str) -> list[str]:
         try:
             return _fields_of(class_of(kind))
-        except Fault:
+        except CallerError:
             cls = class_of(kind, of_service=True)
         return [
             *_fields_of(cls._request_class),
@@ -172,7 +174,7 @@ class Node:
         answer = {"id": asked["id"]}
         try:
             answer["value"] = getattr(self, asked["do"])(*asked["with"])
-        except Fault as fault:
+        except CallerError as fault:
             answer["fault"] = " ".join(str(fault).split())
         except Exception as error:
             answer["error"] = f"{type(error).__name__}: {error}"

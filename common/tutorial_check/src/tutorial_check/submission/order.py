@@ -42,7 +42,7 @@ class Question:
 
 @dataclass(frozen=True)
 class Reply:
-    """What was recorded, or why nothing was; without these a worker has begun."""
+    """What was recorded, or why nothing was; without these a worker has started."""
 
     recording: Any = None  # a dataclass; JSON where it arrives
     cut_short: Optional[CutShort] = None
