@@ -24,5 +24,5 @@ def depend(packages, *tags):
 def package(name, cmake, format_="1", tags=""):
     """Return the edits that make another package."""
     text = f"cmake_minimum_required(VERSION 3.5)\nproject({name})\n{cmake}\n"
-    xml = manifest(name, format_, tags)
+    xml = manifest(name, format_, depend("catkin", "buildtool_depend") + tags)
     return [write(f"{name}/package.xml", xml), write(f"{name}/CMakeLists.txt", text)]

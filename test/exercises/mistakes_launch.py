@@ -91,7 +91,7 @@ ROWS = [
         '<launch>\n  <param name="robot_description" command="$(find xacro)/xacro robot.xacro"/>',
         "launch_bag.launch:2", "package not found: xacro",
         "Debian lacks xacro; the simulated robot has"),
-    bag21("arbotix", OWN, '&  <node pkg="arbotix_python" type="arbotix_driver" name="arbotix"/>\n',
+    bag21("arbotix", OWN, '&  <node pkg="arbotix_python" type="arbotix_driver" name="base"/>\n',
         "launch_bag.launch:7", "Debian lacks arbotix_python; fake_turtlebot.launch"),
     bag21("a package that is not installed", OWN,
         '&  <node pkg="image_view" type="image_view" name="view"/>\n', "launch_bag.launch:7",

@@ -51,13 +51,13 @@ def write(test, outcomes, workspace, underlay):
 
 def merge():
     """Put what write() has kept into the files of the sections."""
-    new = [json.loads(file.read_text()) for file in NEW.glob("*.json")]
-    for section in {section_of(row["row"]) for row in new}:
-        rows = {
-            **rows_of(section),
-            **{r.pop("row"): r for r in new if section_of(r["row"]) == section},
-        }
-        store(section, rows)
+    new = {}
+    for file in NEW.glob("*.json"):
+        row = json.loads(file.read_text())
+        name = row.pop("row")
+        new.setdefault(section_of(name), {})[name] = row
+    for section, rows in new.items():
+        store(section, {**rows_of(section), **rows})
     shutil.rmtree(NEW, ignore_errors=True)
 
 
@@ -72,9 +72,9 @@ def judged(test, workspace, underlay, exercises, folder, **about):
     row = rows_of(section_of(test)).get(test)
     assert row, f"{test} is not stored: ./tutorial test exercises --store -k 'A and B'"
     replies = {}
-    for recorded in map(of_today, row["recordings"]):
-        question = [recorded.pop("recorder"), recorded.pop("arguments")]
-        replies.setdefault(json.dumps(question), []).append(from_json(Reply, recorded))
+    for recorded in row["recordings"]:
+        question = [recorded["recorder"], recorded["arguments"]]
+        replies.setdefault(json.dumps(question), []).append(_reply_of(recorded))
 
     def ask(question):
         turns = replies[json.dumps([question.recorder, as_json(question.arguments)])]
@@ -84,61 +84,13 @@ def judged(test, workspace, underlay, exercises, folder, **about):
     return judge(order, read_course(), ask)
 
 
-# {recorder of what is stored: what it is called now}, until all is recorded again.
-OLD, HANDOUT = "courses.handout.s4.record", "courses.handout"
-MOVED = {
-    "tutorial_check.recording.own_build:own_built": "tutorial_check.recording.build:own_built",
-    f"{OLD}:bag": f"{HANDOUT}.driving.bag:bag",
-    f"{OLD}:follow": f"{HANDOUT}.simulated_robot.record:follow",
-    f"{OLD}:stick": f"{HANDOUT}.gamepad.record:stick",
-    f"{HANDOUT}.driving.record:loaded": f"{HANDOUT}.joy2twist.record:loaded",
-    f"{HANDOUT}.driving.record:found": f"{HANDOUT}.driving.record:known_package",
-}
-# How a recording of version 1 names folders, and how one of today.
-WORDS = {
-    "{handed_in}/handed_in": "{submission}",
-    "{handed_in}/ws": "{submission}",
-    "{handed_in}": "{scratch}",
-}
-# {part of a Joy2TwistRun: its fields, as they are stored, side by side; with the name of today}
-PARTS = {
-    "connections": "connected publishers subscribers types warnings master_alive",
-    "numbered": "asked:sent samples first_samples missing unasked:extra came waits at_rest twists"
-    " has_clock repeats shown:displayed",
-    "probes": "answers unanswered",
-    "stream": "sent answered strays:stray_zeros delays possible unavoidable_s",
-    "ending": "ended_early:early output taken_s last_words",
-}
-
-
-def _in_parts(answer):
-    """Return an answer with the fields that its recording has today."""
-    run, recorder = answer.get("recording"), answer["recorder"]
-    if run and recorder == f"{HANDOUT}.driving.record:drive" and "numbered" not in run:
-        run = dict(run)
-        for part, fields in PARTS.items():
-            names = (field.partition(":")[::2] for field in fields.split())
-            run[part] = {new or old: run.pop(old) for old, new in names if old in run}
-    elif run and recorder == f"{HANDOUT}.driving.record:found":
-        run = {"is_known": run["found"]}
-    return {**answer, "recording": run} if run else answer
-
-
-def of_today(recorded):
-    """Return what is stored as it is recorded today. It goes when all is recorded again."""
-    recorder = MOVED.get(recorded["recorder"], recorded["recorder"])
-    recorded = _in_parts(recorded)
-    if recorded["version"] > 1:
-        return {**recorded, "recorder": recorder}
-    text = json.dumps(recorded)
-    for old, new in WORDS.items():
-        text = text.replace(old, new)
-    recorded = {**json.loads(text), "recorder": recorder}
-    recorded["busy"], recorded["overloaded"] = recorded.pop("strained"), recorded.pop("hopeless")
-    return recorded
+def _reply_of(recorded):
+    """Return what a worker has replied; a recording is read by its recorder."""
+    asked = ("recorder", "arguments")
+    return from_json(Reply, {name: recorded[name] for name in recorded if name not in asked})
 
 
 def code_of(recordings):
     """Return {module of recorders: hash of its code, and of what it works with}."""
-    modules = {one["recorder"].partition(":")[0] for one in recordings}
+    modules = {recording["recorder"].partition(":")[0] for recording in recordings}
     return {name: code_hash(name) for name in sorted(modules)}

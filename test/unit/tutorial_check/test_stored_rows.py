@@ -1,6 +1,5 @@
 """Every row of the exercises, judged from the recordings that are stored beside the rows."""
 
-import pytest
 import stored
 from test_mistakes import test_a_mistake_is_found  # noqa: F401
 from test_right import (  # noqa: F401
@@ -18,7 +17,6 @@ from test_task import (  # noqa: F401
 )
 
 
-@pytest.mark.night  # While recorders move: their outcomes are compared by same_outcomes.py.
 def test_recordings_are_by_the_recorders_of_today():
     rows = [
         row for file in stored.FOLDER.glob("*.jsonl.xz") for row in stored.rows_of(file).values()
