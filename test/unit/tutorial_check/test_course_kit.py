@@ -98,6 +98,12 @@ def test_services_parameters_and_types(ros):
     assert client.fields("std_srvs/Trigger") == ("---", "bool success", "string message")
 
 
+@pytest.mark.parametrize("answers", [Answer({}), [Answer({})], {"first": 1}], ids=str)
+def test_what_is_no_list_of_plain_values_is_refused(ros, answers):
+    with pytest.raises(CannotCheck, match=r"test_course_kit.py:\d+: answers= takes a list"):
+        Client(ros).seen(SimpleNamespace(ran="p"), answers=answers)
+
+
 @pytest.mark.parametrize(
     ("kind", "values", "why"),
     [

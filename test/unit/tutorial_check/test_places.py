@@ -60,6 +60,19 @@ def test_a_worker_sends_no_path_of_its_machine_and_a_submission_has_its_own(
     assert "{submission}" in submission.exchanges[0]["recording"]["text"]
 
 
+def of_a_program(workspace) -> Printed:
+    """Write down what is no data."""
+    return Printed(object())
+
+
+def test_a_recording_of_what_is_no_data_is_one_line_that_names_the_recorder(make_submission):
+    workspace = make_submission("joy2twist", "4.3")
+    workspace.runner.clock = Clock
+    cannot = reply_to(Question(f"{__name__}:of_a_program"), workspace).cannot
+    assert cannot.startswith("test_places.py: of_a_program() records what is no text")
+    assert cannot.endswith("; of a program record .ran") and "\n" not in cannot
+
+
 class Clock:
     """A quiet machine's."""
 

@@ -101,7 +101,9 @@ class Client:
         return [(at_s, node, values) for at_s, node, values in self._tell("heard", name, since)]
 
     def seen(self, program: Program, *names: str, answers: Sequence[object] = ()) -> Seen:
-        """Return what was seen until now. names: of topics and services."""
+        """Return what was seen until now. names: of topics and services; answers: plain values."""
+        if isinstance(answers, (dict, Answer)) or any(isinstance(it, Answer) for it in answers):
+            raise _fault("answers= takes a list of plain values, as [answer.values]")
         heard = {name: tuple(values for *_, values in self.heard(name)) for name in names}
         return Seen(program.ran, heard, tuple(answers), self._ros.peer.types())
 

@@ -38,7 +38,7 @@ def _device_of(node: Any, params: Any) -> str:
     """Return the device that a node is made to read, as joy_node is; or empty."""
     try:
         words = shlex.split(node.args or "")
-    except ValueError:  # as a quote without its second; see launch_nodes.words_of
+    except ValueError:  # as a quote without its second; see HandoutLaunch.words_of
         words = []
     in_args = [word[len("_dev:=") :] for word in words if word.startswith("_dev:=")]
     in_file = params.get(f"{node.namespace}{node.name}/dev")

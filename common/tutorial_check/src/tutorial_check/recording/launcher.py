@@ -32,6 +32,9 @@ def started(bare: Order) -> Iterator[tuple[Order, Worker]]:
     folder, cleaner = privileges.folder_until_end("tutorial_check_", user)
     try:
         order = prepared(bare, Path(folder))
+        course = order.folder / "course" / bare.course.name
+        copy_sources(bare.course, course)
+        order = replace(order, course=course, readable=(*order.readable, course))
         wrapper = bubblewrap.command(folder, order.readable, SUITE)
         order = replace(order, in_namespaces=bool(wrapper))
         must_start_programs(order, is_other=user is not None)
@@ -57,12 +60,10 @@ def prepared(bare: Order, folder: Path) -> Order:
     # A home folder is no workspace, though one may be in it.
     home = Path(os.path.expanduser("~")).resolve()
     readable = [path for path in readable if path.resolve() not in (home, *home.parents)]
-    course = folder / "course" / bare.course.name
-    copy_sources(bare.course, course)
     bare = sourced(bare)
     return replace(
-        bare, course=course, folder=folder, layout=layout,
-        readable=(*readable, course, *_needed(bare.underlay)),
+        bare, folder=folder, layout=layout,
+        readable=(*readable, *_needed(bare.underlay)),
     )  # fmt: skip
 
 

@@ -72,13 +72,25 @@ def reply_to(question: Question, workspace: Workspace) -> Reply:
     module, _, name = question.recorder.partition(":")
     try:
         recorder = getattr(importlib.import_module(module), name)
-        reply = Reply(recorder(workspace, *arguments_of(recorder, question.arguments)))
+        recording = recorder(workspace, *arguments_of(recorder, question.arguments))
+        _must_be_data(recording, question.recorder)
+        reply = Reply(recording)
     except CutShort as end:
         reply = Reply(cut_short=end)
     except Exception as error:
         reply = _cannot(error)
     clock = workspace.runner.clock
     return replace(reply, busy=clock.busy(), overloaded=clock.overloaded())
+
+
+def _must_be_data(recording: object, recorder: str) -> None:
+    """Raise CannotCheck for a recording that has something else in it than data."""
+    try:
+        json.dumps(as_json(recording))
+    except TypeError as error:
+        module, _, name = recorder.rpartition(".")[2].partition(":")
+        why = f"{name}() records what is no text, number or dataclass ({error})"
+        raise CannotCheck(f"{module}.py: {why}; of a program record .ran") from None
 
 
 def _cannot(error: Exception) -> Reply:
