@@ -79,15 +79,15 @@ def lost(path: str) -> str:
     """Return the line on a robot whose packets have ceased."""
     return (
         f"the Kobuki at {path} sends nothing any more: switched off, or a loose cable? "
-        f"{WAITING.capitalize()}; then it stands until the next command"
+        f"Or this computer is busy. {WAITING.capitalize()}; then it obeys the next command"
     )
 
 
 def unplugged(path: str) -> str:
     """Return the line on a port that has just gone."""
     return (
-        f"{path} is gone: was the cable unplugged? {WAITING.capitalize()}; then the robot stands "
-        "until the next command"
+        f"{path} is gone: was the cable unplugged? {WAITING.capitalize()}; then the robot obeys "
+        "the next command"
     )
 
 
@@ -102,6 +102,6 @@ def damaged(path: str, count: int) -> str:
 def online(path: str) -> str:
     """Return the line on a robot whose packets come."""
     return (
-        f"the Kobuki at {path} is online. After it was switched on, leave it still for 3 s: its "
-        "gyro starts, and the heading is off if it is moved"
+        f"the Kobuki at {path} is online. If it has just been switched on, send nothing for 3 s: "
+        "its gyro starts, and the heading is off if it moves"
     )
