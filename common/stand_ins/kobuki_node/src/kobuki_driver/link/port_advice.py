@@ -102,6 +102,6 @@ def damaged(path: str, count: int) -> str:
 def online(path: str) -> str:
     """Return the line on a robot whose packets come."""
     return (
-        f"the Kobuki at {path} is online. Just switched on? Leave it still for 3 s and send nothing: "
-        "its gyro starts, and the heading is off if it moves"
+        f"the Kobuki at {path} is online. Just switched on? Leave it still for 3 s and send "
+        "nothing: its gyro starts, and the heading is off if it moves"
     )
