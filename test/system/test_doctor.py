@@ -44,11 +44,12 @@ def test_a_string_for_velocities_and_nodes_of_a_master_that_was_restarted(
 ):
     core = roscore()
     start("roslaunch", "fake_turtlebot_sim", "fake_turtlebot.launch")
-    start("rostopic", "pub", "-r", "5", "/cmd_vel", "std_msgs/String", "forward")
+    sender = start("rostopic", "pub", "-r", "5", "/cmd_vel", "std_msgs/String", "forward")
     wait_for(lambda: len(known_nodes(master_uri)) == 4, "robot and sender")
     (line,) = doctor(start)
     assert "/cmd_vel: std_msgs/String comes from /rostopic_" in line
     assert "geometry_msgs/Twist is wanted by /fake_turtlebot" in line
+    assert "Inbound TCP/IP connection failed" not in sender.output  # by a question of the doctor's
     core.kill()
     wait_for(lambda: not known_nodes(master_uri), "end of the master")
     assert "of a master that has exited" in "".join(doctor(start))

@@ -42,10 +42,11 @@ def running() -> list[Running]:
     for process in PROC.glob("[0-9]*"):
         pid = int(process.name)
         with contextlib.suppress(OSError):  # it has ended, or is another user's
-            # rospy and roscpp open the port for questions behind the one for messages.
             sockets = [ports[link] for link in _descriptors(process) if link in ports]
             if sockets and pid != os.getpid() and _is_of_ros(process):
-                uris[pid] = sockets[::-1]
+                # The port for questions first: the one for messages warns of a question. roscpp
+                # opens it behind that one, rospy before it.
+                uris[pid] = sockets[::-1] if _is_of_roscpp(process) else sockets
     answers = at_once(lambda pid: _ask(pid, uris[pid]), uris, ASK_S)
     return [node for _, node in sorted(answers.items()) if node]
 
@@ -111,6 +112,10 @@ def _is_of_ros(process: Path) -> bool:
     log = re.compile(re.escape(rospkg.get_log_dir()) + r".*\.log(\.\d+)?( \(deleted\))?")
     if any(log.fullmatch(link) for link in _descriptors(process)):
         return True
+    return _is_of_roscpp(process)
+
+
+def _is_of_roscpp(process: Path) -> bool:
     return b"/libroscpp.so" in (process / "maps").read_bytes()
 
 
