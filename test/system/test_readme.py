@@ -48,7 +48,6 @@ LEFT_OUT = {
 }
 ELSEWHERE = {
     "Two machines": "test_two_hosts.py runs it on two hosts",
-    "Exercises of your own": "test/exercises/test_course.py runs it",
     **dict.fromkeys(("From here to ROS 2", "Both side by side", "With colcon"), "test/ros2"),
 }
 STUDENTS_SHELL = "./tutorial shell --in ~/catkin_ws"

@@ -10,7 +10,7 @@ from typing import Iterable, Sequence
 from ..task import AXES, LB, Joy
 from .evidence import RIGHT
 
-COUNT = 20  # of the numbered Joys
+COUNT = 20  # Number of numbered Joys.
 BUTTONS = 12
 REST = (0.0,) * AXES
 FAST = (0.6, 0.7, *REST[2:])

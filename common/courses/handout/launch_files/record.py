@@ -11,7 +11,7 @@ from ..launching.record import LaunchRun, Plan, RunningLaunch, drives_forwards, 
 from ..task import NEUTRAL
 
 BAG_S = 1.2  # length of the recording that takes the place of the student's, and is played again
-FAR_M = 0.3  # that the robot drives by a recording
+FAR_M = 0.3  # The least distance by a recording.
 
 
 def bag_run(

@@ -188,7 +188,7 @@ def _no_own_program(file: HandoutLaunch, node: Node) -> Wrong:
         hint = f"chmod +x {submission.whole(path, PACKAGE)}"
         return Wrong(f"{kind} may be run", "it is not executable", place, hint)
     if kind == NAME:
-        find_script(submission, PACKAGE, NAME)  # which says what is there in its place
+        find_script(submission, PACKAGE, NAME)  # It raises Wrong, and names what is there.
     hint = meant(kind, sorted(path.name for path in files), 0.7, 'type="{}"')
     hint = JOY_HINT if kind == "joy_node" else hint or "type is the name of the file, with .py"
     seen = f"Cannot locate node of type [{kind}]"

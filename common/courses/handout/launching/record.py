@@ -14,7 +14,7 @@ if TYPE_CHECKING:  # judges need no gamepad
 
 START_S = 20.0  # for all nodes of a launch on a busy machine
 UP_S = 6.0  # for what they are there for, once all of them are
-NEAR_M = 0.15  # that the robot drives by the stick
+NEAR_M = 0.15  # The least distance by the stick.
 
 
 @dataclass(frozen=True)
@@ -24,7 +24,7 @@ class Plan:
     path: str  # within src
     joys: str  # the topics of the Joys and of the velocities
     twists: str
-    nodes: Tuple[str, ...]  # that the master will know
+    nodes: Tuple[str, ...]  # Their names at the master.
     joysticks: Tuple[str, ...] = ()  # those of joy_node
     device: str = ""  # that one of them names
 
