@@ -10,6 +10,8 @@ from math import degrees, radians
 from struct import Struct
 from typing import Any, ClassVar, Iterable, Tuple, Union
 
+from kobuki_protocol.part import Part
+
 PERIOD_S = 0.02  # between two packets
 DIGIT_DEG_PER_S = 0.00875  # of the gyro L3G4200D (its data sheet, at 250 deg/s)
 READING_PERIOD_S = 0.01  # between two readings of the gyro
@@ -24,7 +26,7 @@ def int16(value: float) -> int:
 
 
 @dataclass(frozen=True)
-class Core:
+class Core(Part):
     """The basic sensors. Bits: right 1, center 2, left 4; of wheels right 1, left 2."""
 
     ID: ClassVar[int] = 1
@@ -42,22 +44,9 @@ class Core:
     battery: int = 0  # [0.1 V]
     overcurrent: int = 0  # bits: left 1, right 2
 
-    def data(self) -> bytes:
-        """Return the data of the part."""
-        return self.LAYOUT.pack(
-            self.time_stamp, self.bumper, self.wheel_drop, self.cliff,
-            self.left_encoder, self.right_encoder, self.left_pwm, self.right_pwm,
-            self.buttons, self.charger, self.battery, self.overcurrent,
-        )  # fmt: skip
-
-    @classmethod
-    def parse(cls, data: bytes) -> Core:
-        """Return the part of these data; this and its like raise struct.error."""
-        return cls(*cls.LAYOUT.unpack(data))
-
 
 @dataclass(frozen=True)
-class DockInfrared:
+class DockInfrared(Part):
     """What the three receivers see of a docking station: the bits of kobuki_msgs/DockInfraRed."""
 
     ID: ClassVar[int] = 3
@@ -66,18 +55,9 @@ class DockInfrared:
     center: int = 0
     left: int = 0
 
-    def data(self) -> bytes:
-        """Return the data of the part."""
-        return self.LAYOUT.pack(self.right, self.center, self.left)
-
-    @classmethod
-    def parse(cls, data: bytes) -> DockInfrared:
-        """Return the part of these data."""
-        return cls(*cls.LAYOUT.unpack(data))
-
 
 @dataclass(frozen=True)
-class Inertia:
+class Inertia(Part):
     """The heading that the Kobuki works out from its gyro, 0 where it was switched on."""
 
     ID: ClassVar[int] = 4
@@ -100,18 +80,9 @@ class Inertia:
         """Return the rate in rad/s."""
         return radians(0.01 * self.rate)
 
-    def data(self) -> bytes:
-        """Return the data of the part."""
-        return self.LAYOUT.pack(self.angle, self.rate)
-
-    @classmethod
-    def parse(cls, data: bytes) -> Inertia:
-        """Return the part of these data."""
-        return cls(*cls.LAYOUT.unpack(data))
-
 
 @dataclass(frozen=True)
-class Cliff:
+class Cliff(Part):
     """The voltages of the cliff sensors, 0 to 4095: the farther the floor, the less."""
 
     ID: ClassVar[int] = 5
@@ -120,33 +91,15 @@ class Cliff:
     center: int = 0
     left: int = 0
 
-    def data(self) -> bytes:
-        """Return the data of the part."""
-        return self.LAYOUT.pack(self.right, self.center, self.left)
-
-    @classmethod
-    def parse(cls, data: bytes) -> Cliff:
-        """Return the part of these data."""
-        return cls(*cls.LAYOUT.unpack(data))
-
 
 @dataclass(frozen=True)
-class Current:
+class Current(Part):
     """The currents of the two motors [10 mA]."""
 
     ID: ClassVar[int] = 6
     LAYOUT: ClassVar[Struct] = Struct("<2B")
     left: int = 0
     right: int = 0
-
-    def data(self) -> bytes:
-        """Return the data of the part."""
-        return self.LAYOUT.pack(self.left, self.right)
-
-    @classmethod
-    def parse(cls, data: bytes) -> Current:
-        """Return the part of these data."""
-        return cls(*cls.LAYOUT.unpack(data))
 
 
 @dataclass(frozen=True)

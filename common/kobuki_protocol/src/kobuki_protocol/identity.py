@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from struct import Struct
 from typing import ClassVar
 
+from kobuki_protocol.part import Version
+
 DRIVEN_MAJOR = 1  # another major version of the firmware has another protocol
 # How the first firmware wrote its version, in two bytes (firmware.hpp): patch, minor, major.
 OLD_STYLE = {
@@ -15,42 +17,17 @@ RECOMMENDED = (1, 1, 4)  # or newer, by its driver (firmware.cpp)
 
 
 @dataclass(frozen=True)
-class HardwareVersion:
+class HardwareVersion(Version):
     """The version of the board."""
 
     ID: ClassVar[int] = 10
-    LAYOUT: ClassVar[Struct] = Struct("<3Bx")
-    patch: int
-    minor: int
-    major: int
-
-    def __str__(self) -> str:
-        """Return it as it is written."""
-        return f"{self.major}.{self.minor}.{self.patch}"
-
-    def data(self) -> bytes:
-        """Return the data of the part."""
-        return self.LAYOUT.pack(self.patch, self.minor, self.major)
-
-    @classmethod
-    def parse(cls, data: bytes) -> HardwareVersion:
-        """Return the part of these data; this and its like raise struct.error."""
-        return cls(*cls.LAYOUT.unpack(data))
 
 
 @dataclass(frozen=True)
-class FirmwareVersion:
+class FirmwareVersion(Version):
     """The version of the program in the Kobuki."""
 
     ID: ClassVar[int] = 11
-    LAYOUT: ClassVar[Struct] = Struct("<3Bx")
-    patch: int
-    minor: int
-    major: int
-
-    def __str__(self) -> str:
-        """Return it as it is written."""
-        return f"{self.major}.{self.minor}.{self.patch}"
 
     @property
     def is_driven(self) -> bool:
@@ -61,10 +38,6 @@ class FirmwareVersion:
     def is_recommended(self) -> bool:
         """Return whether it is one of those that the driver was made for."""
         return self.is_driven and (self.major, self.minor, self.patch) >= RECOMMENDED
-
-    def data(self) -> bytes:
-        """Return the data of the part."""
-        return self.LAYOUT.pack(self.patch, self.minor, self.major)
 
     @classmethod
     def parse(cls, data: bytes) -> FirmwareVersion:

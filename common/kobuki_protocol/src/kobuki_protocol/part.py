@@ -1,0 +1,38 @@
+"""A part of a packet whose fields are, in their order, the values of its layout."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from struct import Struct
+from typing import ClassVar, TypeVar
+
+_Part = TypeVar("_Part", bound="Part")
+
+
+class Part:
+    """The base of such parts, which are dataclasses."""
+
+    LAYOUT: ClassVar[Struct]
+
+    def data(self) -> bytes:
+        """Return the data of the part."""
+        return self.LAYOUT.pack(*vars(self).values())
+
+    @classmethod
+    def parse(cls: type[_Part], data: bytes) -> _Part:
+        """Return the part of these data. Raises struct.error."""
+        return cls(*cls.LAYOUT.unpack(data))
+
+
+@dataclass(frozen=True)
+class Version(Part):
+    """A part with a version."""
+
+    LAYOUT: ClassVar[Struct] = Struct("<3Bx")
+    patch: int
+    minor: int
+    major: int
+
+    def __str__(self) -> str:
+        """Return the version as it is written."""
+        return f"{self.major}.{self.minor}.{self.patch}"
