@@ -34,7 +34,7 @@ TABLES = [  # README, module, dataclass; what stands before each name
 def main() -> int:
     """Compare or write each table; return the exit code."""
     sys.path[:0] = [str(REPOSITORY / folder) for folder in SOURCES]
-    table = importlib.import_module("node_kit.parameters").table
+    table = importlib.import_module("node_kit.parameters.declaration").table
     old = []
     for name, module, kind, where in TABLES:
         new = table(getattr(importlib.import_module(module), kind), where)

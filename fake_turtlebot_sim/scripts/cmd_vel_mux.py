@@ -1,9 +1,9 @@
 #!/usr/bin/python3
-"""Let one of several sources of velocities drive: see fake_turtlebot_sim/mux/node.py."""
+"""Let one of several sources of velocities drive: see fake_turtlebot_sim/ros/cmd_vel_mux_node.py."""
 
 import sys
 
-import node_kit.quiet  # noqa: F401  Ctrl-C ends it quietly while ROS loads
-from fake_turtlebot_sim.mux.node import main
+import node_kit.io.quiet  # noqa: F401  Ctrl-C ends it quietly while ROS loads
+from fake_turtlebot_sim.ros.cmd_vel_mux_node import main
 
 sys.exit(main())

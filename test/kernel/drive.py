@@ -9,8 +9,8 @@ import rospy
 from sensor_msgs.msg import Joy
 
 from gamepad.gamepads import F710_D, F710_X
+from gamepad.io.pads import UinputPad
 from gamepad.virtual.controls import Controls, positions
-from gamepad.virtual.pads import UinputPad
 from tutorial_testing.nodes import init_node
 from tutorial_testing.processes import Program
 from tutorial_testing.robot import PERIOD_S, Robot

@@ -6,8 +6,8 @@ In both of its modes, for which Chromium has layouts of its own; it knows gamepa
 from drive import FORWARD, HELD, METRES_PER_S, check_stop
 
 from gamepad.gamepads import F710
+from gamepad.io.pads import UinputPad
 from gamepad.virtual.controls import Controls, positions
-from gamepad.virtual.pads import UinputPad
 from tutorial_testing.cockpit.chromium import Chromium
 from tutorial_testing.cockpit.hands import Hands
 from tutorial_testing.cockpit.world import World

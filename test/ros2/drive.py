@@ -9,7 +9,7 @@ from contextlib import contextmanager
 import rospy
 from sensor_msgs.msg import Joy
 
-from node_kit.rospy_patches.connections import sender_of
+from node_kit.ros.rospy_patches.connections import sender_of
 from tutorial_testing.nodes import init_node
 from tutorial_testing.processes import REPOSITORY, Program, command_line, descendants, free_port
 from tutorial_testing.waiting import wait_for
@@ -17,7 +17,7 @@ from tutorial_testing.waiting import wait_for
 CLASS = REPOSITORY / "common/ros2_tutorials/ros2_tutorials/new_joy2twist.py"
 RATE = 50.0  # [Hz]
 BRIDGE = "/ros2_bridge"
-SIDES = {"ROS 1": "ros2_bridge.ros1_side", "ROS 2": "ros2_side.py"}
+SIDES = {"ROS 1": "ros2_bridge.ros.ros1_side", "ROS 2": "ros2_bridge.ros.ros2_side"}
 ZERO = (0.0, 0.0)  # velocity [m/s, rad/s]
 REST_S = 0.62  # by then a robot without a driver stands, but for a tolerance()
 

@@ -9,10 +9,10 @@ import rclpy
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from std_msgs.msg import String
 
-sys.path.insert(0, sys.argv[1])  # the bridge's folder
-from connection import Frame
-from ros2_side import Ros2Side, fitting
-from routes import Route
+sys.path.insert(0, sys.argv[1])  # the folder of ros2_bridge
+from ros2_bridge.io.connection import Frame
+from ros2_bridge.ros.ros2_side import Ros2Side, fitting
+from ros2_bridge.routes import Route
 
 KIND = "std_msgs/msg/String"
 KEPT, PLAIN = (

@@ -16,12 +16,12 @@ from sensor_msgs.msg import Image
 from std_msgs.msg import String
 
 from node_kit import ros2_python
-from node_kit.raw_messages import RawPublisher, senders, subscribe
-from node_kit.rospy_patches.connections import header_of, sender_of
+from node_kit.ros.graph.raw_messages import RawPublisher, senders, subscribe
+from node_kit.ros.rospy_patches.connections import header_of, sender_of
 from tutorial_testing.robot import Robot
 from tutorial_testing.waiting import DEADLINE_S, wait_for
 
-SOURCES = REPOSITORY / "common/ros2_bridge/src/ros2_bridge"
+SOURCES = REPOSITORY / "common/ros2_bridge/src"
 PROGRAMS = CLASS.parent
 PEER, DRIVER, QUALITIES = map(Path(__file__).with_name, ("peer.py", "driver.py", "qualities.py"))
 PAGE = REPOSITORY / "common/doc/ROS2.md"

@@ -12,7 +12,7 @@ from tutorial_testing.student import Student
 from tutorial_testing.two_hosts.network import Host
 from tutorial_testing.two_hosts.scene import Scene
 from tutorial_testing.waiting import DEADLINE_S
-from tutorial_tools.command.lock import WAITS
+from tutorial_tools.io.command.lock import WAITS
 
 
 @pytest.fixture

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 import rospkg
 
-from node_kit.ros_api import call
+from node_kit.ros.graph.ros_api import call
 from tutorial_testing import flood
 from tutorial_testing.cockpit.world import World
 from tutorial_testing.nodes import node_path

@@ -9,7 +9,7 @@ import time
 import pytest
 import rospkg
 
-from node_kit.ros_api import accepts
+from node_kit.ros.graph.ros_api import accepts
 from tutorial_testing.cockpit.world import World
 from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import suspended

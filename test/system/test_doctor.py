@@ -4,7 +4,7 @@ import contextlib
 
 import pytest
 
-from node_kit.ros_api import known_nodes
+from node_kit.ros.graph.ros_api import known_nodes
 from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for

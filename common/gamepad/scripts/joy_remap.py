@@ -1,9 +1,9 @@
 #!/usr/bin/python3
-"""Makes one gamepad look like another: see the class JoyRemap in gamepad/remap/node.py."""
+"""Makes one gamepad look like another: see the class JoyRemap in gamepad/ros/joy_remap_node.py."""
 
 import sys
 
-import node_kit.quiet  # noqa: F401  Ctrl-C ends it quietly while ROS loads
-from gamepad.remap.node import main
+import node_kit.io.quiet  # noqa: F401  Ctrl-C ends it quietly while ROS loads
+from gamepad.ros.joy_remap_node import main
 
 sys.exit(main())

@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""What to check when nothing moves: see tutorial_tools/doctor/program.py."""
+"""What to check when nothing moves: see tutorial_tools/ros/doctor/doctor.py."""
 
-import node_kit.quiet  # noqa: F401  Ctrl-C ends it quietly while ROS loads
-from tutorial_tools.doctor.environment import leave_ros2
+import node_kit.io.quiet  # noqa: F401  Ctrl-C ends it quietly while ROS loads
+from tutorial_tools.io.environment import leave_ros2
 
 leave_ros2()  # before the first import of a message
 
-from tutorial_tools.doctor.program import main
+from tutorial_tools.ros.doctor.doctor import main
 
 main()

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Draw the running nodes and topics: see tutorial_tools/graph.py."""
+"""Draw the running nodes and topics: see tutorial_tools/ros/draw_graph.py."""
 
-import node_kit.quiet  # noqa: F401  Ctrl-C ends it quietly while ROS loads
-from tutorial_tools.graph import main
+import node_kit.io.quiet  # noqa: F401  Ctrl-C ends it quietly while ROS loads
+from tutorial_tools.ros.draw_graph import main
 
 main()

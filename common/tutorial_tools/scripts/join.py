@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Join a classroom: see tutorial_tools/join.py."""
+"""Join a classroom: see tutorial_tools/ros/join.py."""
 
-import node_kit.quiet  # noqa: F401  Ctrl-C ends it quietly while ROS loads
-from tutorial_tools.join import main
+import node_kit.io.quiet  # noqa: F401  Ctrl-C ends it quietly while ROS loads
+from tutorial_tools.ros.join import main
 
 main()

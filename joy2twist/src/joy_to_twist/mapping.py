@@ -10,7 +10,7 @@ import math
 from typing import Sequence
 
 from joy_to_twist.parameters import COMPONENTS, Parameters
-from node_kit.arming import Velocity
+from node_kit.rules.arming import Velocity
 
 # A stick gives -1 to 1, other devices may give some hundreds. More is noise, not a hand.
 LARGEST_AXIS_VALUE = 1e6

@@ -11,7 +11,7 @@ import itertools
 from dataclasses import dataclass
 from typing import Any, Callable, Mapping
 
-from node_kit.parameters import (
+from node_kit.parameters.declaration import (
     Check,
     checked,
     is_number,

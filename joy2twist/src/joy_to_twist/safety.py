@@ -5,7 +5,7 @@ to send at once, or None to send nothing.
 
 A loss is: silence on joy, a joystick node that leaves, another sender, a suspension of this node,
 and a joystick that does not change while the robot moves. Where arm_on_neutral is on, nothing moves
-after a loss before everything was seen released by the sender that drives then (node_kit.arming).
+after a loss before everything was seen released by the sender that drives then (node_kit.rules.arming).
 Where it is off, only: no velocity later than joy_timeout after the last message, unless a stop was
 sent between them.
 """
@@ -18,8 +18,8 @@ from typing import Callable
 from joy_to_twist.mapping import approach
 from joy_to_twist.parameters import Parameters
 from joy_to_twist.states import WARNS_BEFORE_S, Notice, State
-from node_kit.arming import ZERO, Arming, Velocity
-from node_kit.throttle import ThrottleEach
+from node_kit.rules.arming import ZERO, Arming, Velocity
+from node_kit.rules.throttle import ThrottleEach
 
 IN_TURN_S = 1.0  # two joystick nodes that send within this time of each other send in turn
 WARNING_PERIOD_S = 5.0  # between such warnings

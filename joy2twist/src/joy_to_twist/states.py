@@ -5,7 +5,7 @@ from __future__ import annotations
 from enum import Enum
 
 from joy_to_twist.parameters import Parameters
-from node_kit import arming
+from node_kit.rules import arming
 
 WARNS_BEFORE_S = 0.5  # before the stop, when a joystick does not change
 NO_CHANGE = f"the joystick does not change: the robot stops in {WARNS_BEFORE_S:g} s"

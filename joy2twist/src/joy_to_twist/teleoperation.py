@@ -10,8 +10,8 @@ from joy_to_twist.mapping import BadJoyError, Mapping
 from joy_to_twist.parameters import Parameters
 from joy_to_twist.safety import Safety
 from joy_to_twist.states import State, sentence
-from node_kit.arming import Resumption, Velocity
-from node_kit.throttle import Throttle
+from node_kit.rules.arming import Resumption, Velocity
+from node_kit.rules.throttle import Throttle
 
 UNHEARD_S = 2.0  # a robot that starts together with this node takes a moment to listen
 WARNING_PERIOD_S = 5.0  # often enough to be seen, not so often that it hides the rest

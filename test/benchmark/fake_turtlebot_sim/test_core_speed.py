@@ -1,6 +1,6 @@
 """A replay without ROS: how many times faster than real time."""
 
-from fake_turtlebot_sim.replay.bag_replay import replay
+from fake_turtlebot_sim.io.bag_replay import replay
 from fake_turtlebot_sim.simulator.parameters import Parameters
 
 LEAST = 100

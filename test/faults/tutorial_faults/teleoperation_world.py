@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from joy_to_twist.parameters import load
 from joy_to_twist.teleoperation import Teleoperation
-from node_kit.arming import SETTLING_S, ZERO
+from node_kit.rules.arming import SETTLING_S, ZERO
 from tutorial_faults.worlds import ROUNDING, SUSPENDED, TICK, World, beyond, moves
 
 LEFT = "left"  # an event: no node publishes joystick messages

@@ -13,7 +13,7 @@ from kobuki_protocol.base_control import base_control
 from kobuki_protocol.commands import GetController, Outputs, Request
 from kobuki_protocol.feedback import Core
 from kobuki_protocol.identity import Controller, FirmwareVersion
-from node_kit.ros_api import call
+from node_kit.ros.graph.ros_api import call
 from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program, environment, free_port, suspended
 from tutorial_testing.rostests import RosTest

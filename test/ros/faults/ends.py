@@ -9,7 +9,7 @@ import termios
 import rosgraph
 from geometry_msgs.msg import Twist, Vector3
 
-from node_kit.ros_api import call
+from node_kit.ros.graph.ros_api import call
 from tutorial_testing.hands import DRIVE, RELEASED
 from tutorial_testing.nodes import pid_of
 from tutorial_testing.processes import suspended

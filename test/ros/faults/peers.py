@@ -10,7 +10,7 @@ from nav_msgs.msg import Odometry
 from rosgraph.network import encode_ros_handshake_header, read_ros_handshake_header
 from sensor_msgs.msg import Joy
 
-from node_kit.ros_api import call
+from node_kit.ros.graph.ros_api import call
 from tutorial_faults.live.table import HELD, LB, RawJoy
 from tutorial_testing.nodes import node_path, serialised
 from tutorial_testing.rig import BASE, DRIVER, MUX

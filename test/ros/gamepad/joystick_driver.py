@@ -13,9 +13,9 @@ from sensor_msgs.msg import Joy
 
 from gamepad.driver.driver import SHORTEST_SILENCE_S
 from gamepad.gamepads import F710_D, F710_X
+from gamepad.io.pads import StreamPad
 from gamepad.js_event import FULL
 from gamepad.virtual.controls import Controls, positions
-from gamepad.virtual.pads import StreamPad
 from joy_to_twist.states import State
 from tutorial_testing.keys import LAUNCH, DiagnosedRobot
 from tutorial_testing.nodes import node_path

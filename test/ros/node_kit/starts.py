@@ -6,7 +6,7 @@ import rosgraph
 import rospy
 from rospy import AnyMsg
 
-from node_kit.ros_api import known_nodes
+from node_kit.ros.graph.ros_api import known_nodes
 from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.rostests import RosTest

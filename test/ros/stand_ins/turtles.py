@@ -11,7 +11,7 @@ from std_srvs.srv import Empty
 from turtlesim import srv
 from turtlesim.msg import Color, Pose
 
-from node_kit import ros_api
+from node_kit.ros.graph import ros_api
 from tutorial_testing.keys import Tmux
 from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program

@@ -8,8 +8,8 @@ import rospy
 from sensor_msgs.msg import Joy
 
 from gamepad.gamepads import F710_D
+from gamepad.io.pads import StreamPad
 from gamepad.virtual.controls import Controls, positions
-from gamepad.virtual.pads import StreamPad
 
 DRIVE, TURN, TURBO, STICK, RELEASED = "drive", "turn", "turbo", "stick", "released"
 SHOWN = {  # turn and forward of the left stick, buttons that are held

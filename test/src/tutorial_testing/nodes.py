@@ -7,8 +7,8 @@ import rosgraph
 import roslib.packages
 import rospy
 
-from node_kit.ros_api import call
-from node_kit.rospy_patches.connections import connect_once
+from node_kit.ros.graph.ros_api import call
+from node_kit.ros.rospy_patches.connections import connect_once
 from tutorial_testing.waiting import wait_for
 
 

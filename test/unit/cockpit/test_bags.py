@@ -12,9 +12,9 @@ from sensor_msgs.msg import Joy
 
 from cockpit_server.clients import RefusedError
 from cockpit_server.driving.player import Player
-from cockpit_server.sources import bags, recording
-from cockpit_server.sources.recording import corners, read
-from gamepad.bags import BagError
+from cockpit_server.ros.sources import bags, recording
+from cockpit_server.ros.sources.recording import corners, read
+from gamepad.ros.bags import BagError
 from tutorial_testing.session_room import page as new_page
 
 

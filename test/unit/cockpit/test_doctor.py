@@ -2,7 +2,7 @@
 
 import time
 
-from cockpit_server.sources import doctor
+from cockpit_server.ros.sources import doctor
 from tutorial_testing.session_room import look, page
 from tutorial_testing.waiting import wait_for
 

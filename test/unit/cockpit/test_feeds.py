@@ -1,6 +1,6 @@
 """Subscriptions to what is looked at."""
 
-from cockpit_server import feeds
+from cockpit_server.ros import feeds
 
 
 def test_refused_topic_does_not_hold_up_the_others_and_many_changes_are_one(monkeypatch):

@@ -10,9 +10,9 @@ from roslib.message import get_message_class
 
 from cockpit_server.clients import LOOKS_ONLY, RefusedError
 from cockpit_server.graph import Graph
-from cockpit_server.sources import forms
-from cockpit_server.sources.publishing import Publishing
-from node_kit.services import ServiceError
+from cockpit_server.ros.sources import forms
+from cockpit_server.ros.sources.publishing import Publishing
+from node_kit.ros.graph.services import ServiceError
 from tutorial_testing.session_room import Free, page
 
 

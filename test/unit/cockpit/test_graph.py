@@ -4,10 +4,10 @@ import threading
 
 import pytest
 
-from cockpit_server import graph_watch
 from cockpit_server.clients import RefusedError
 from cockpit_server.graph import JOY, ODOMETRY, Graph, without
-from node_kit.ros_api import Answer
+from cockpit_server.ros import graph_watch
+from node_kit.ros.graph.ros_api import Answer
 
 GRAPH = Graph(
     publishers={"/odom": {"/sim"}, "/robot_1/odom": {"/room"}, "/robot_2/odom": {"/room"}},

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 
 from cockpit_server.clients import RefusedError
 from cockpit_server.graph import Graph
-from cockpit_server.sources import forms, plots, topics
-from cockpit_server.sources.publishing import Publishing
+from cockpit_server.ros.sources import forms, plots, topics
+from cockpit_server.ros.sources.publishing import Publishing
 from tutorial_testing.session_room import Free, Room, Topics, look, page
 
 MODULES = st.sampled_from(["cockpit", "unittest.__main__", "antigravity", "this", "idlelib.idle"])

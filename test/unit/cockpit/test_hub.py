@@ -5,10 +5,10 @@ from types import SimpleNamespace
 
 import pytest
 
-from cockpit_server import hub as hub_module
 from cockpit_server.access import DRIVER, VIEWER
 from cockpit_server.clients import Source
-from cockpit_server.hub import Hub
+from cockpit_server.io import hub as hub_module
+from cockpit_server.io.hub import Hub
 from cockpit_server.limits import MOST_PAGES
 from tutorial_testing.session_room import page
 

@@ -7,9 +7,9 @@ import pytest
 import rospy
 from sensor_msgs.msg import Joy
 
-from cockpit_server.driving import joysticks
-from cockpit_server.driving.joysticks import LONGEST_JOY, Joysticks, shown
 from cockpit_server.graph import JOY, Graph
+from cockpit_server.ros import joysticks
+from cockpit_server.ros.joysticks import LONGEST_JOY, Joysticks, shown
 from tutorial_testing.session_room import DRIVE, Topics, look, page, serialised
 
 GRAPH = Graph(subscribers={"/ada/joy": {"/joy2twist"}}, types={"/ada/joy": JOY})

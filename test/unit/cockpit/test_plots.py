@@ -8,9 +8,9 @@ import rospy
 from sensor_msgs.msg import Joy
 from std_msgs.msg import Float64, Header
 
+from cockpit_server.fields import numbers_of, parts_of, split, value_at
 from cockpit_server.graph import Graph
-from cockpit_server.sources import plots
-from cockpit_server.sources.fields import numbers_of, parts_of, split, value_at
+from cockpit_server.ros.sources import plots
 from tutorial_testing.session_room import Topics, look, page
 
 NOW = 1000.0

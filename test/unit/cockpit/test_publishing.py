@@ -9,8 +9,8 @@ import rospy
 
 from cockpit_server.clients import RefusedError
 from cockpit_server.graph import JOY, Graph
-from cockpit_server.sources import publishing
-from cockpit_server.sources.publishing import VELOCITY, Outlet, Publishing
+from cockpit_server.ros.sources import publishing
+from cockpit_server.ros.sources.publishing import VELOCITY, Outlet, Publishing
 from tutorial_testing.session_room import ANNA, BOB, Free, look, page
 
 TEXT = "std_msgs/String"

@@ -9,7 +9,7 @@ from nav_msgs.msg import Odometry
 
 from cockpit_server.graph import JOY, ODOMETRY, Graph, topic_of
 from cockpit_server.motion import Motion, covered
-from cockpit_server.sources.robots import Robots, shown
+from cockpit_server.ros.sources.robots import Robots, shown
 from tutorial_testing.session_room import Topics, look, page
 
 
@@ -116,7 +116,7 @@ def with_core():
     ],
 )
 def test_the_chosen_robot_shows_battery_charger_buttons_and_wheel_drops(monkeypatch, core, words):
-    monkeypatch.setattr("cockpit_server.sources.robots.time.monotonic", lambda: 100.0)
+    monkeypatch.setattr("cockpit_server.ros.sources.robots.time.monotonic", lambda: 100.0)
     seen = with_core()
     look(seen.robots, seen.page, now=100.0)
     assert CORE.replace("ada", "bob") not in seen.handlers  # nobody looks at it
@@ -130,7 +130,7 @@ def test_the_chosen_robot_shows_battery_charger_buttons_and_wheel_drops(monkeypa
 
 
 def test_malformed_sensors_show_nothing(monkeypatch):
-    monkeypatch.setattr("cockpit_server.sources.robots.time.monotonic", lambda: 100.0)
+    monkeypatch.setattr("cockpit_server.ros.sources.robots.time.monotonic", lambda: 100.0)
     seen = with_core()
     look(seen.robots, seen.page, now=100.0)
     seen.hear(CORE, b"no sensors")

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-import cockpit_server.node  # noqa: F401  which imports every source
+import cockpit_server.ros.cockpit_node  # noqa: F401  which imports every source
 from cockpit_server.clients import Source
 from cockpit_server.schema import Schema, check_lengths
 from tutorial_testing.socket_page import GOOD

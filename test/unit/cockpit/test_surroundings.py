@@ -13,7 +13,7 @@ from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
 from cockpit_server.graph import ODOMETRY, Graph
-from cockpit_server.sources import surroundings
+from cockpit_server.ros.sources import surroundings
 from tutorial_testing.session_room import Topics, look, page, serialised
 
 TYPES = {

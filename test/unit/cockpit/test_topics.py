@@ -6,7 +6,7 @@ import pytest
 from std_msgs.msg import String
 
 from cockpit_server.graph import Graph
-from cockpit_server.sources import topics
+from cockpit_server.ros.sources import topics
 from tutorial_testing.session_room import Topics, look, page, serialised
 
 

@@ -7,13 +7,15 @@ import urllib.request
 
 import pytest
 
-from cockpit_server import waiting
+from cockpit_server.io import waiting_page
 
 
 def test_a_browser_that_comes_before_the_master_is_told_so_and_one_that_is_silent_holds_up_none():
     with socket.create_server(("127.0.0.1", 0)) as listener:
         address = listener.getsockname()
-        serving = threading.Thread(target=waiting.answer_for, args=(listener, 2.0), daemon=True)
+        serving = threading.Thread(
+            target=waiting_page.answer_for, args=(listener, 2.0), daemon=True
+        )
         with socket.create_connection(address):
             serving.start()
             with pytest.raises(urllib.error.HTTPError) as raised:

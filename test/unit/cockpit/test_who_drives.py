@@ -9,10 +9,10 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from cockpit_server.access import DRIVER, VIEWER
 from cockpit_server.clients import LOOKS_ONLY, RefusedError
 from cockpit_server.driving.player import Player
-from cockpit_server.driving.teleop import DEADMAN, SILENT, Teleop
+from cockpit_server.driving.reasons import NO_ROBOT, TURTLES, About, Report, sentence
 from cockpit_server.driving.who_drives import CONNECT_S, Driving
-from cockpit_server.driving.words import NO_ROBOT, TURTLES, About, Report, sentence
 from cockpit_server.graph import JOY, POSE, Graph
+from cockpit_server.ros.teleop import DEADMAN, SILENT, Teleop
 from tutorial_testing.session_room import ANNA, BOB, DRIVE, REST, Topics, look, page
 
 ADA = {"robot": "ada", "mode": "D"}

@@ -3,8 +3,8 @@
 import pytest
 
 from cockpit_server.clients import LOOKS_ONLY
-from cockpit_server.driving import words
-from cockpit_server.driving.words import About, Report, sentence
+from cockpit_server.driving import reasons
+from cockpit_server.driving.reasons import About, Report, sentence
 from tutorial_testing.session_room import ANNA, BOB
 
 MOVING, ARMED, FREE = Report("driving"), Report("armed", "", "4"), Report("armed", "", "none")
@@ -36,18 +36,18 @@ WHO = {
 @pytest.mark.parametrize("case", WHO)
 def test_who_drives(case):
     about, said = WHO[case]
-    assert words.who(about, "ada", ANNA) == said
-    assert words.who(about, "", ANNA) == said.replace("ada", "the robot")
-    assert (words.driver(about) == "") == said.startswith(("Nobody", "No joystick"))
+    assert reasons.who(about, "ada", ANNA) == said
+    assert reasons.who(about, "", ANNA) == said.replace("ada", "the robot")
+    assert (reasons.driver(about) == "") == said.startswith(("Nobody", "No joystick"))
 
 
 def test_a_rival_is_paused_where_it_can_be_and_else_ended():
     """The end of rosbag ends the launch file that started it, and with it the page."""
     services = {"/rosbag/pause_playback"}
-    assert "(tab Topics, Show: services, /rosbag/pause_playback, data: true)" in words.rival(
+    assert "(tab Topics, Show: services, /rosbag/pause_playback, data: true)" in reasons.rival(
         "/rosbag", services
     )
-    assert "(Ctrl-C in its terminal, or rosnode kill /joy_node)" in words.rival(
+    assert "(Ctrl-C in its terminal, or rosnode kill /joy_node)" in reasons.rival(
         "/joy_node", services
     )
 
@@ -81,9 +81,9 @@ READY = {  # -> why it stands and what to do now; how it is driven, without "Esc
 @pytest.mark.parametrize("case", READY)
 def test_the_page_says_why_the_robot_stands_and_what_to_do(case):
     about, said, how = READY[case]
-    assert words.ready(about, "ada", ANNA, "") == said
-    assert words.how_to(about, ANNA, may_drive=True) == f"{how} Esc: stop." * bool(how)
-    assert words.how_to(about, ANNA, may_drive=False) == ""
+    assert reasons.ready(about, "ada", ANNA, "") == said
+    assert reasons.how_to(about, ANNA, may_drive=True) == f"{how} Esc: stop." * bool(how)
+    assert reasons.how_to(about, ANNA, may_drive=False) == ""
     if about.driver is None:
-        viewed = words.ready(about, "ada", ANNA, LOOKS_ONLY)
+        viewed = reasons.ready(about, "ada", ANNA, LOOKS_ONLY)
         assert viewed == f"{said} {sentence(LOOKS_ONLY)}".strip()

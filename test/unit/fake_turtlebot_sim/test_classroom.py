@@ -4,7 +4,7 @@ import pytest
 
 pytest.importorskip("visualization_msgs", reason="no ROS for this Python: ./tutorial setup")
 
-from fake_turtlebot_sim.classroom.node import markers
+from fake_turtlebot_sim.ros.classroom_bodies_node import markers
 
 
 def test_a_body_and_the_name_above_it():

@@ -12,11 +12,11 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from sensor_msgs.msg import Joy
 
-from cockpit_server.sources import recording
-from fake_turtlebot_sim.replay import command as replay_command
-from gamepad.bags import check_recording
+from cockpit_server.ros.sources import recording
+from fake_turtlebot_sim.io import replay_bag as replay_command
+from gamepad.ros.bags import check_recording
 from tutorial_testing.hostile import end_of
-from tutorial_tools import bag as rqt_bag
+from tutorial_tools.ros import rqt_bag
 
 START = Time(1_400_000_000)
 PRESET = Path(__file__).parents[3] / "joy2twist" / "config" / "f710_d.yaml"

@@ -5,7 +5,7 @@ from contextlib import contextmanager
 
 import pytest
 
-from fake_turtlebot_sim.serial_kobuki.io.serial_line import SerialLine
+from fake_turtlebot_sim.io.serial_kobuki.serial_line import SerialLine
 
 BYTES = bytes(range(256))
 

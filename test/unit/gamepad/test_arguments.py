@@ -9,7 +9,7 @@ from sensor_msgs.msg import Joy
 from std_msgs.msg import String
 
 from gamepad.arguments import check
-from gamepad.bags import check_recording
+from gamepad.ros.bags import check_recording
 
 JOY_BAG = Path(__file__).parents[3] / "common" / "gamepad" / "bag" / "joy.bag"
 TRUE_OR_FALSE = "must be true or false"

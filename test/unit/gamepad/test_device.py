@@ -9,9 +9,9 @@ from types import SimpleNamespace
 import pytest
 
 from gamepad.driver.container import INITIAL, in_container
-from gamepad.driver.device import Finder
 from gamepad.driver.device_choice import DeviceError, choose_by_name, explain
 from gamepad.driver.parameters import load
+from gamepad.io.device import Finder
 
 JS0 = "/dev/input/js0"
 NAMES = {JS0: "Pad F710", "/dev/input/js1": "Pad F310", "/dev/input/js2": "Pad"}

@@ -6,7 +6,7 @@ import pytest
 import yaml
 
 from gamepad.remap.formulas import formula
-from gamepad.remap.node import load
+from gamepad.ros.joy_remap_node import load
 from tutorial_testing.processes import REPOSITORY
 
 CONFIG = REPOSITORY / "common/stand_ins/joy/config"

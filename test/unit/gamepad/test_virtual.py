@@ -8,14 +8,14 @@ from evdev import ecodes
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gamepad.driver.device import Finder
 from gamepad.driver.device_choice import DeviceError
 from gamepad.driver.state import GamepadState
 from gamepad.gamepads import F710, F710_D, F710_X, mode_hint
+from gamepad.io.device import Finder
+from gamepad.io.pads import SIGN_OF_LIFE_S, PadError, StreamPad
 from gamepad.js_event import SIGN_OF_LIFE_MS, Decoder
 from gamepad.liveness import Trembling
 from gamepad.virtual.controls import Controls, positions
-from gamepad.virtual.pads import SIGN_OF_LIFE_S, PadError, StreamPad
 
 REST = positions(F710_D, Controls())
 PUSHED = positions(F710_D, Controls(left_stick=(0.0, 1.0), held=frozenset(["LB"])))

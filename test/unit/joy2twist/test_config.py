@@ -7,7 +7,7 @@ import yaml
 
 from joy_to_twist.parameters import load
 from joy_to_twist.teleoperation import Teleoperation
-from node_kit.arming import ZERO
+from node_kit.rules.arming import ZERO
 
 CONFIG = Path(__file__).parents[3] / "joy2twist" / "config"
 PRESETS = {path.stem: yaml.safe_load(path.read_text()) for path in sorted(CONFIG.glob("*.yaml"))}

@@ -7,7 +7,7 @@ import re
 import pytest
 from rosgraph.roslogging import RosStreamHandler
 
-from joy_to_twist.console import Console
+from joy_to_twist.ros.console import Console
 
 
 @pytest.mark.parametrize("form", [None, "[${node}] ${severity}: ${message}"])

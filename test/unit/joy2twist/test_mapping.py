@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from joy_to_twist.mapping import BadJoyError, Mapping, approach, limit_speed
 from joy_to_twist.parameters import load
-from node_kit.arming import ZERO
+from node_kit.rules.arming import ZERO
 
 AXES = (0.3, 0.4, 0.5, 0.6, 0.7, 0.8)
 PAD = {"enable_button": 0, "enable_turbo_button": 1}

@@ -10,7 +10,7 @@ import pytest
 from joy_to_twist.parameters import load
 from joy_to_twist.safety import Safety
 from joy_to_twist.states import Notice, State
-from node_kit.arming import ZERO
+from node_kit.rules.arming import ZERO
 from tutorial_testing.over_time import over_time
 
 S = State

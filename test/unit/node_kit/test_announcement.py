@@ -10,8 +10,8 @@ from xmlrpc.server import SimpleXMLRPCServer
 
 import pytest
 
-from node_kit import announcement
-from node_kit.announcement import announce
+from node_kit.ros.lifecycle import announcement
+from node_kit.ros.lifecycle.announcement import announce
 
 SERVICES = ("spawn", "turtle1/set_pen")
 
@@ -99,6 +99,6 @@ def test_without_a_master_the_start_goes_on_to_the_line_that_says_so(master, mon
 
 
 def test_nothing_slow_is_loaded_before():
-    modules = "import sys, node_kit.announcement; print(*sys.modules)"
+    modules = "import sys, node_kit.ros.lifecycle.announcement; print(*sys.modules)"
     loaded = subprocess.check_output([sys.executable, "-c", modules], text=True)
     assert not {"rospy", "numpy", "yaml", "genpy", "catkin"} & set(loaded.split())

@@ -7,8 +7,8 @@ import pytest
 from rospy.exceptions import TransportException
 from sensor_msgs.msg import Joy
 
-from node_kit.rospy_patches import connections
-from node_kit.throttle import Throttle, ThrottleEach
+from node_kit.ros.rospy_patches import connections
+from node_kit.rules.throttle import Throttle, ThrottleEach
 
 WRONG_LENGTH = b"\x03\0\0\0abc"  # three bytes are no Joy
 

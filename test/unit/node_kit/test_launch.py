@@ -13,7 +13,7 @@ from node_kit.launch import read_launch, will_start
 
 pytest.importorskip("rospy", reason="no ROS for this Python: ./tutorial setup")
 
-from node_kit import start
+from node_kit.ros.lifecycle import start
 
 KIT = Path(__file__).resolve().parents[3] / "common" / "node_kit"
 PYTHON = "/usr/bin/python3"

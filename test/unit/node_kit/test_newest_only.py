@@ -5,8 +5,8 @@ import socket
 
 import pytest
 
-from node_kit.rospy_patches import newest_only
-from node_kit.rospy_patches.newest_only import NewestOnly
+from node_kit.ros.rospy_patches import newest_only
+from node_kit.ros.rospy_patches.newest_only import NewestOnly
 
 SIZE = 52  # [bytes] a Twist on the wire
 DEADLINE_S = 20.0

@@ -6,8 +6,14 @@ from typing import Dict
 
 import pytest
 
-from node_kit import parameters
-from node_kit.parameters import number, parameter, switch, text, whole_number
+from node_kit.parameters import declaration
+from node_kit.parameters.declaration import (
+    number,
+    parameter,
+    switch,
+    text,
+    whole_number,
+)
 
 
 @dataclass(frozen=True)
@@ -33,7 +39,7 @@ class Entry:
 
 def message_of(given, kind=Parameters, **more):
     with pytest.raises(ValueError) as caught:
-        parameters.checked(kind, given, **more)
+        declaration.checked(kind, given, **more)
     return str(caught.value)
 
 
@@ -52,7 +58,7 @@ def message_of(given, kind=Parameters, **more):
 )  # fmt: skip
 def test_what_is_allowed(name, good, bad, allowed):
     for value in good:
-        kept = parameters.checked(Parameters, {name: value})[name]
+        kept = declaration.checked(Parameters, {name: value})[name]
         assert kept == value
         assert isinstance(kept, type(getattr(Parameters(), name)))
     for value in bad:
@@ -60,9 +66,9 @@ def test_what_is_allowed(name, good, bad, allowed):
 
 
 def test_a_number_is_finite_and_fits_in_a_float():
-    assert [parameters.is_number(value) for value in (1.7e308, -1, 0, 10**308)] == [True] * 4
+    assert [declaration.is_number(value) for value in (1.7e308, -1, 0, 10**308)] == [True] * 4
     bad = [nan, inf, -inf, 10**309, -(10**309), True, "1", None]
-    assert [parameters.is_number(value) for value in bad] == [False] * len(bad)
+    assert [declaration.is_number(value) for value in bad] == [False] * len(bad)
 
 
 TABLE = """\
@@ -79,15 +85,15 @@ TABLE = """\
 
 
 def test_the_table_in_a_readme():
-    assert parameters.table(Parameters) == TABLE
-    assert parameters.table(Entry, where="").endswith("\n| `topic` |  | a text |  |\n")
+    assert declaration.table(Parameters) == TABLE
+    assert declaration.table(Entry, where="").endswith("\n| `topic` |  | a text |  |\n")
 
 
 def test_each_set_of_defaults_has_a_map_of_its_own():
-    values = parameters.checked(Parameters, {})
+    values = declaration.checked(Parameters, {})
     assert Parameters(**values) == Parameters()
     values["robots"]["ada"] = 1.0
-    assert parameters.checked(Parameters, {})["robots"] == {}
+    assert declaration.checked(Parameters, {})["robots"] == {}
 
 
 def test_a_missing_one_and_where_it_is():
@@ -95,5 +101,5 @@ def test_a_missing_one_and_where_it_is():
     assert line == "entry 2: topic: missing; as in topic: a"
     line = "entry 2: topci: 1: no such parameter; did you mean topic?"
     assert message_of({"topci": 1}, Entry, where="entry 2: ") == line
-    assert parameters.unknown("topci", 1, ["topic"], where="~entry 2: ") == f"~{line}"
-    assert parameters.checked(Entry, {"topic": "/odom"}) == {"topic": "/odom"}
+    assert declaration.unknown("topci", 1, ["topic"], where="~entry 2: ") == f"~{line}"
+    assert declaration.checked(Entry, {"topic": "/odom"}) == {"topic": "/odom"}

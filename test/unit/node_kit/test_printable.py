@@ -2,9 +2,9 @@
 
 import pytest
 
-from node_kit.arguments import Parser
+from node_kit.parameters.arguments import Parser
 from node_kit.printable import LONGEST, printable, quotable
-from node_kit.start import run
+from node_kit.ros.lifecycle.start import run
 
 
 @pytest.mark.parametrize(
@@ -29,8 +29,8 @@ def test_no_line_on_a_mistake_has_an_escape_sequence(capsys, monkeypatch):
     def load(_parameters):
         raise ValueError("~world: \x1b[2Jroom: no such file")
 
-    monkeypatch.setattr("node_kit.start._check_master", lambda: None)
-    monkeypatch.setattr("node_kit.start._parameters", lambda _name: ({}, set()))
+    monkeypatch.setattr("node_kit.ros.lifecycle.start._check_master", lambda: None)
+    monkeypatch.setattr("node_kit.ros.lifecycle.start._parameters", lambda _name: ({}, set()))
     assert run("node", load, lambda _parameters: None) == 1
     with pytest.raises(SystemExit):
         Parser(prog="program").error("\x1b[31mred")

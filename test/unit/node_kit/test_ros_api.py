@@ -6,8 +6,8 @@ from xmlrpc.server import SimpleXMLRPCServer
 
 import pytest
 
-from node_kit import ros_api
-from node_kit.ros_api import holder
+from node_kit.ros.graph import ros_api
+from node_kit.ros.graph.ros_api import holder
 
 
 @pytest.fixture

@@ -9,9 +9,9 @@ import pytest
 from rosgraph.network import read_ros_handshake_header, write_ros_handshake_header
 from std_srvs.srv import SetBool, SetBoolRequest, SetBoolResponse
 
-from node_kit import services
-from node_kit.ros_api import Answer
-from node_kit.services import ServiceError, call_service, kind_of
+from node_kit.ros.graph import services
+from node_kit.ros.graph.ros_api import Answer
+from node_kit.ros.graph.services import ServiceError, call_service, kind_of
 
 
 @pytest.fixture

@@ -2,7 +2,7 @@
 
 import pytest
 
-from node_kit.start import remedy
+from node_kit.ros.lifecycle.start import remedy
 
 
 @pytest.mark.parametrize(

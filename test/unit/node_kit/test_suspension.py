@@ -4,9 +4,9 @@ import signal
 
 import pytest
 
-from node_kit import suspension
-from node_kit.arming import SETTLING_S, Resumption
-from node_kit.suspension import Suspensions
+from node_kit.io import suspension
+from node_kit.io.suspension import Suspensions
+from node_kit.rules.arming import SETTLING_S, Resumption
 
 
 def test_what_a_receiver_obeys_after_suspensions():

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ros2_bridge.connection import Frame, Sender, frames, is_late
+from ros2_bridge.io.connection import Frame, Sender, frames, is_late
 from tutorial_testing.waiting import DEADLINE_S
 
 NAMES = st.text(st.characters(blacklist_characters="\0", blacklist_categories=["Cs"]), min_size=1)

@@ -9,9 +9,9 @@ from types import SimpleNamespace
 import pytest
 import rospy
 
-from node_kit.raw_messages import Raw
-from ros2_bridge import ros1_side
-from ros2_bridge.connection import Frame, frames
+from node_kit.ros.graph.raw_messages import Raw
+from ros2_bridge.io.connection import Frame, frames
+from ros2_bridge.ros import ros1_side
 from ros2_bridge.routes import Route
 from tutorial_testing.waiting import DEADLINE_S, wait_for
 

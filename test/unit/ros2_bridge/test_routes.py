@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from ros2_bridge.ros1_side import LIST, load
+from ros2_bridge.ros.ros1_side import LIST, load
 from ros2_bridge.routes import ECHO_S, Echoes, read_routes
 
 OURS = Path(__file__).resolve().parents[3] / "common/ros2_bridge/config/bridge.yaml"

@@ -6,7 +6,7 @@ from unittest import mock
 import pytest
 import rospy
 
-from simulated_turtles.node import background
+from simulated_turtles.ros.turtlesim_node import background
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ import rospkg
 import rospy
 
 from simulated_turtles.field import START, Field
-from simulated_turtles.node import PERIOD_S
+from simulated_turtles.ros.turtlesim_node import PERIOD_S
 
 SCRIPT = f"{rospkg.RosPack().get_path('turtlesim')}/scripts/draw_square"
 

@@ -6,7 +6,7 @@ from unittest import mock
 import pytest
 import rospy
 
-from simulated_turtles import node
+from simulated_turtles.ros import turtlesim_node
 
 
 @pytest.mark.parametrize(("display", "lines"), [("", 0), (":no", 1)])
@@ -14,5 +14,5 @@ from simulated_turtles import node
 def test_no_screen_no_window(monkeypatch, display, lines, hidden):
     monkeypatch.setenv("DISPLAY", display)
     with mock.patch.dict(sys.modules, hidden), mock.patch.object(rospy, "logwarn") as warned:
-        assert node.open_window() == (None, None)
+        assert turtlesim_node.open_window() == (None, None)
     assert warned.call_count == lines

@@ -18,7 +18,7 @@ def test_a_change_of_what_runs_programs_or_reads_them_makes_recordings_old(recor
     checker = ("processes.runner", "processes.cpu_clock", "submission.python_facts")
     imported_later = ("recording.peer", "recording.gamepad")  # within functions
     needed = {f"tutorial_check.{name}" for name in (*checker, *imported_later)}
-    needed |= {recorder, "courses.handout.task", "gamepad.virtual.pads"}
+    needed |= {recorder, "courses.handout.task", "gamepad.io.pads"}
     assert needed <= closure(recorder)
 
 

@@ -5,7 +5,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-from tutorial_tools.bag import curves, main, svg
+from tutorial_tools.ros.rqt_bag import curves, main, svg
 
 WHOLE = (Path(__file__).resolve().parents[3] / "common/gamepad/bag/joy.bag").read_bytes()
 RECORDED = [  # time [s], axes, buttons

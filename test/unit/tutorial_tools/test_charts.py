@@ -6,8 +6,8 @@ import tarfile
 
 import pytest
 
-from cockpit_server import web
-from tutorial_tools.command import charts
+from cockpit_server.io import web_server
+from tutorial_tools.io.command import charts
 
 
 @pytest.fixture
@@ -34,8 +34,8 @@ def test_what_the_archive_lacks_is_fetched_and_served(registry, tmp_path, monkey
     }
     assert "the archive lacks" in capsys.readouterr().err
     monkeypatch.setenv("TUTORIAL_RESULTS", str(workspace))
-    monkeypatch.setattr(web, "OF_DEBIAN", tmp_path / "none")
-    assert web.folder_of_charts() == folder
+    monkeypatch.setattr(web_server, "OF_DEBIAN", tmp_path / "none")
+    assert web_server.folder_of_charts() == folder
     registry.unlink()
     charts.fetch_charts(workspace, again=True)
     assert not capsys.readouterr().err

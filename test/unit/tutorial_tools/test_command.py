@@ -6,12 +6,12 @@ from pathlib import Path
 
 import pytest
 
-from tutorial_tools.command import build
-from tutorial_tools.command.environment import environment_of_help
-from tutorial_tools.command.words import OWN_PARSER, candidates, plan, read
-from tutorial_tools.system import apt
-from tutorial_tools.system.packages import packages
-from tutorial_tools.windows import MODEL
+from tutorial_tools.io.command import build
+from tutorial_tools.io.command.environment import environment_of_help
+from tutorial_tools.io.command.subcommands import OWN_PARSER, candidates, plan, read
+from tutorial_tools.io.system import apt
+from tutorial_tools.io.system.packages import packages
+from tutorial_tools.rqt_windows import MODEL
 
 SECTIONS = {"demo": ["demo", "more"], "test": ["demo", "more", "test"], "doctor": ["doctor"]}
 SECTIONS["browser"] = [*SECTIONS["test"], "browser"]

@@ -7,10 +7,10 @@ import pytest
 import rosbag
 from std_msgs.msg import String
 
-from tutorial_tools.bag import BagError
 from tutorial_tools.demo.launch import DriveReport
 from tutorial_tools.demo.program import check_bag, in_the_way, refusal
 from tutorial_tools.launch_arguments import launch_arguments
+from tutorial_tools.ros.rqt_bag import BagError
 
 JOY2TWIST = Path(__file__).resolve().parents[3] / "joy2twist"
 LAUNCH_FILE = str(JOY2TWIST / "launch" / "launch_bag.launch")

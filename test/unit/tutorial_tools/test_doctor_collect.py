@@ -9,12 +9,12 @@ from geometry_msgs.msg import TransformStamped
 from sensor_msgs.msg import JointState
 from tf2_msgs.msg import TFMessage
 
-from node_kit.ros_api import Answer
+from node_kit.ros.graph.ros_api import Answer
 from tutorial_testing.nodes import serialised
-from tutorial_tools.doctor import collect
 from tutorial_tools.doctor.facts import Joystick, Mux, Offset, Transform
 from tutorial_tools.doctor.transforms import of_messages
-from tutorial_tools.hidden import hidden_stand_ins
+from tutorial_tools.hidden_stand_ins import hidden_stand_ins
+from tutorial_tools.ros.doctor import collect
 
 ARRIVED_S = 1_700_000_000.0
 

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from node_kit.ros_api import Answer
-from tutorial_tools.doctor import ends, judgement, links, transforms, way
+from node_kit.ros.graph.ros_api import Answer
+from tutorial_tools.doctor import connections, ends, judgement, links, transforms
 from tutorial_tools.doctor.facts import Facts, Joystick, Mux, MuxInput, Node, Offset, Transform
 from tutorial_tools.doctor.judgement import judge
 
@@ -218,7 +218,7 @@ def test_no_way_leads_through_a_dead_node():
 
 def test_the_readme_lists_what_is_looked_at():
     package = Path(judgement.__file__).resolve().parents[3]
-    modules = (judgement, way, transforms, links, ends)
+    modules = (judgement, connections, transforms, links, ends)
     source = "".join(Path(module.__file__).read_text() for module in modules)
     looked_at = set(re.findall(r'\b(?:ok|wrong|unknown)\("(\w+)"', source))
     section = (package / "README.md").read_text().split("## When nothing moves")[1].split("##")[0]

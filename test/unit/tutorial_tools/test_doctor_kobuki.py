@@ -10,9 +10,9 @@ from kobuki_protocol import robot_packets
 from kobuki_protocol.battery import Battery
 from kobuki_protocol.feedback import Core, Feedback
 from kobuki_protocol.identity import FirmwareVersion
-from tutorial_tools.doctor.collect import base
 from tutorial_tools.doctor.facts import Facts
 from tutorial_tools.doctor.judgement import judge
+from tutorial_tools.ros.doctor.collect import base
 
 WELL = {
     "latency_ms": 1, "packets": 50, "count": 4000,

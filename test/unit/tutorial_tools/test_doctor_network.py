@@ -8,8 +8,8 @@ import time
 
 import pytest
 
-from node_kit.ros_api import Answer
-from tutorial_tools.doctor import network
+from node_kit.ros.graph.ros_api import Answer
+from tutorial_tools.ros.doctor import network
 
 
 @pytest.fixture(autouse=True)

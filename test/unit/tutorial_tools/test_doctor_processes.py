@@ -4,10 +4,10 @@ import os
 
 import pytest
 
-from node_kit.ros_api import Answer
-from tutorial_tools.doctor import processes
+from node_kit.ros.graph.ros_api import Answer
 from tutorial_tools.doctor.facts import Stray
-from tutorial_tools.doctor.processes import Running
+from tutorial_tools.ros.doctor import processes
+from tutorial_tools.ros.doctor.processes import Running
 
 NODES = {  # by port: the answers
     5001: {"getPublications": [["/chatter", "std_msgs/String"]], "getName": "/talker",

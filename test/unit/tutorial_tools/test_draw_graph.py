@@ -5,8 +5,8 @@ import shutil
 
 import pytest
 
-from tutorial_tools import graph
-from tutorial_tools.graph import dot_text
+from tutorial_tools.ros import draw_graph
+from tutorial_tools.ros.draw_graph import dot_text
 
 TALK = (
     [["/rosout", ["/talker", "/listener"]], ["/rosout_agg", ["/rosout"]],
@@ -46,11 +46,11 @@ def test_each_machine_has_a_frame_and_a_topic_between_machines_has_none():
 @pytest.fixture
 def drawn(monkeypatch, tmp_path, capsys):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(graph, "ask_master", lambda: (TALK, {}))
+    monkeypatch.setattr(draw_graph, "ask_master", lambda: (TALK, {}))
 
     def draw(*arguments):
         try:
-            graph.main(list(arguments))
+            draw_graph.main(list(arguments))
         except SystemExit as end:
             return str(end)
         return capsys.readouterr().out.rstrip()
@@ -69,7 +69,7 @@ def test_what_cannot_be_drawn_is_one_line_and_writes_nothing(drawn, tmp_path, mo
     assert drawn("no/a.dot") == "draw_graph: cannot write no/a.dot: No such file or directory"
     monkeypatch.setenv("PATH", "/nowhere")
     assert "dot is missing: sudo apt install graphviz" in drawn("a.png")
-    monkeypatch.setattr(graph, "ask_master", lambda: (([], [], []), {}))
+    monkeypatch.setattr(draw_graph, "ask_master", lambda: (([], [], []), {}))
     assert "nothing runs on http" in drawn("a.png")
     monkeypatch.undo()
     monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:9")  # "discard": no master listens

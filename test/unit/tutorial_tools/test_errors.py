@@ -1,6 +1,6 @@
 """Which lines of a build say what is wrong."""
 
-from tutorial_tools.command.errors import first_errors
+from tutorial_tools.command.build_errors import first_errors
 
 # As Debian's programs print it.
 CMAKE = """\

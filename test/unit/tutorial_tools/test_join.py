@@ -2,9 +2,9 @@
 
 import pytest
 
-from node_kit.ros_api import Answer
-from tutorial_tools import join
-from tutorial_tools.join import JoinError, check_host, check_master, check_robot
+from node_kit.ros.graph.ros_api import Answer
+from tutorial_tools.ros import join
+from tutorial_tools.ros.join import JoinError, check_host, check_master, check_robot
 
 URI, OWN = "http://10.0.0.1:11311", "10.0.0.2"
 

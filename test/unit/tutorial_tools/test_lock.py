@@ -4,7 +4,7 @@ import fcntl
 import threading
 
 from tutorial_testing.waiting import wait_for
-from tutorial_tools.command import lock
+from tutorial_tools.io.command import lock
 
 
 def waits(said):

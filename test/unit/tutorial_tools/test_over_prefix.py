@@ -5,8 +5,8 @@ import subprocess
 
 import pytest
 
-from tutorial_tools.command import build
-from tutorial_tools.command.environment import environment_of
+from tutorial_tools.io.command import build
+from tutorial_tools.io.command.environment import environment_of
 
 NOETIC = "/opt/ros/noetic"
 # As catkin's: --extend adds a workspace to those that are sourced already.

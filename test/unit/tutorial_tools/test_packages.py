@@ -10,9 +10,9 @@ from xml.etree import ElementTree
 import pytest
 
 from tutorial_testing.noetic import META
-from tutorial_tools.command.build import SHARE, lock_of
 from tutorial_tools.command.requirements import names_of
-from tutorial_tools.system import packages as system_packages
+from tutorial_tools.io.command.build import SHARE, lock_of
+from tutorial_tools.io.system import packages as system_packages
 
 REPOSITORY = Path(__file__).resolve().parents[3]
 NOETICS = {*META, *" ".join(META.values()).split(), "diagnostic_updater", "tf_conversions"}

@@ -1,6 +1,6 @@
 """Where the windows of rqt are on the cockpit's page."""
 
-from tutorial_tools.windows import place
+from tutorial_tools.rqt_windows import place
 
 PLACES = {
     "rqt": "", "rqt_console": "log", "rqt_plot": "plot", "rqt_topic /x": "topics/x",

@@ -11,7 +11,7 @@ from typing import Any, Callable, Mapping, Sequence
 
 from cockpit_server.limits import LONGEST_MESSAGE
 from gamepad.gamepads import F710
-from node_kit import parameters
+from node_kit.parameters import declaration
 
 LONGEST_TEXT = 200
 MOST_FIELDS = 20
@@ -22,10 +22,10 @@ MOST_BUTTONS = max(len(pad.buttons) for pad in F710.values())
 WATCH = "watch"
 
 Check = Callable[[Any], Any]
-switch, number = parameters.switch, parameters.number
-whole = parameters.whole_number(0, LARGEST, "a whole number from 0")
-pressed = parameters.whole_number(0, 1, "0 or 1")
-text = parameters.text(
+switch, number = declaration.switch, declaration.number
+whole = declaration.whole_number(0, LARGEST, "a whole number from 0")
+pressed = declaration.whole_number(0, 1, "0 or 1")
+text = declaration.text(
     f"a text of at most {LONGEST_TEXT} characters",
     lambda v: len(v) <= LONGEST_TEXT and v.isprintable(),
 )
@@ -39,7 +39,7 @@ def full_name(value: Any) -> Any:
 
 
 def one_of(*values: str) -> Check:
-    return parameters.text(", ".join(values), values.__contains__)
+    return declaration.text(", ".join(values), values.__contains__)
 
 
 def or_null(check: Check) -> Check:
@@ -47,7 +47,7 @@ def or_null(check: Check) -> Check:
 
 
 def list_of(check: Check, most: int) -> Check:
-    return parameters.Check(
+    return declaration.Check(
         f"a list of at most {most}",
         lambda v: isinstance(v, list) and len(v) <= most,
         lambda v: tuple([check(one) for one in v]),

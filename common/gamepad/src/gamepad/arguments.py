@@ -15,7 +15,7 @@ import sys
 from pathlib import Path
 from typing import Callable
 
-from node_kit.parameters import Check
+from node_kit.parameters.declaration import Check
 
 
 def recording(value: str) -> None:
@@ -24,7 +24,7 @@ def recording(value: str) -> None:
         return
     if not value.startswith("/"):
         raise ValueError("must be a whole path, as $PWD is not set")
-    from gamepad.bags import BagError, check_topic  # noqa: PLC0415  rosbag takes a while
+    from gamepad.ros.bags import BagError, check_topic  # noqa: PLC0415  rosbag takes a while
 
     try:
         check_topic(value)
@@ -105,7 +105,7 @@ def main() -> None:
         for name, value in given.items():
             check(name, value)
         if "none" not in (given.get("bag", "none"), given.get("joy_config", "none")):
-            from gamepad.bags import check_recording  # noqa: PLC0415  rosbag takes a while
+            from gamepad.ros.bags import check_recording  # noqa: PLC0415  rosbag takes a while
 
             check_recording(given["bag"], given["joy_config"])
     except ValueError as error:

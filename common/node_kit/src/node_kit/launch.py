@@ -30,7 +30,7 @@ import threading
 from collections.abc import Iterable
 from pathlib import Path
 
-from node_kit.ros_api import holder, known_nodes
+from node_kit.ros.graph.ros_api import holder, known_nodes
 
 DEFAULT_MASTER = "http://localhost:11311"
 # With these roslaunch only prints what is in the file.

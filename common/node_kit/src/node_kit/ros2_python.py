@@ -23,12 +23,17 @@ def installed() -> str:
     return str(found[-1].parents[2] / "setup.bash") if found else ""
 
 
-def command(words: list[str], python: str = "") -> list[str]:
-    """Return the command line of Python with these words. python: that of the wheels, if known."""
+def command(words: list[str], python: str = "", path: str = "") -> list[str]:
+    """Return the command line of Python with these words.
+
+    python: that of the wheels, if known. path: a folder to import from.
+    """
     environment = [word for name in HIDDEN for word in ("-u", name)]
     environment += [
         f"{name}={value}" for name, value in DEFAULTS.items() if not os.environ.get(name)
     ]
+    if path:
+        environment.append(f"PYTHONPATH={path}")
     setup = installed()
     if setup:
         inner = f". {shlex.quote(setup)}; exec python3 {shlex.join(words)}"

@@ -11,7 +11,7 @@ from enum import Enum
 from math import inf, isfinite
 from typing import Any, Iterable, Iterator, NamedTuple
 
-from node_kit.arming import SETTLING_S, SILENCE_S, Velocity
+from node_kit.rules.arming import SETTLING_S, SILENCE_S, Velocity
 
 IDLE = "idle"  # what is active when no input is
 # What a network kept arrives at once. No key repeats as fast (X11: 25 to 30 Hz); a program that

@@ -10,7 +10,7 @@ from dataclasses import MISSING, dataclass
 from typing import Any, Mapping
 
 from fake_turtlebot_sim.mux.arbitration import IDLE
-from node_kit.parameters import checked, number, parameter, text, whole_number
+from node_kit.parameters.declaration import checked, number, parameter, text, whole_number
 
 EXAMPLE = "as in subscribers: [{name: teleop, topic: input/teleop, timeout: 1.0, priority: 7}]"
 _TOPIC = text(

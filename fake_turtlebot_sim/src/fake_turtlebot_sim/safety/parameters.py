@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Mapping
 
-from node_kit.parameters import checked, number, parameter
+from node_kit.parameters.declaration import checked, number, parameter
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from fake_turtlebot_sim.simulator.parameters import parse_parameters as parse_si
 from fake_turtlebot_sim.simulator.parameters import simulated
 from fake_turtlebot_sim.simulator.world import World
 from kobuki_protocol.identity import FirmwareVersion
-from node_kit.parameters import checked, declared, number, parameter, text, whole_number
+from node_kit.parameters.declaration import checked, declared, number, parameter, text, whole_number
 
 NODE_NAME = "serial_kobuki"
 CHARGERS = {"none": 0, "dock": DOCK_CHARGING, "adapter": 22}  # charger in the core packet

@@ -10,7 +10,7 @@ from typing import Any, Mapping
 from fake_turtlebot_sim.simulator.differential_drive import Pose
 from fake_turtlebot_sim.simulator.world import FARTHEST_PLACE_M, World
 from fake_turtlebot_sim.simulator.world_files import find_world, read_world
-from node_kit.parameters import (
+from node_kit.parameters.declaration import (
     checked,
     declared,
     is_number,

@@ -12,7 +12,7 @@ import yaml
 
 from fake_turtlebot_sim.simulator.grid_map import FARTHEST_M, Grid, WorldError, check_file, read_map
 from fake_turtlebot_sim.simulator.world import World
-from node_kit.parameters import is_number
+from node_kit.parameters.declaration import is_number
 
 LARGEST_WORLD = 2_000_000  # bytes
 MOST = {"walls": 40_000, "posts": 2_000, "cliffs": 1_000}  # corners, or posts

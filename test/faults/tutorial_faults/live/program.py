@@ -13,7 +13,7 @@ import tempfile
 import time
 from typing import NamedTuple
 
-from node_kit.arguments import Parser, above_zero
+from node_kit.parameters.arguments import Parser, above_zero
 from tutorial_faults.live.judge import VELOCITIES, Trial
 from tutorial_faults.live.table import FAULTS
 from tutorial_faults.live.world import SerialWorld, World

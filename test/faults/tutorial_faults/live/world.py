@@ -7,8 +7,8 @@ import time
 import rospy
 from geometry_msgs.msg import Twist
 
-from node_kit.ros_api import call
-from node_kit.rospy_patches.connections import sender_of
+from node_kit.ros.graph.ros_api import call
+from node_kit.ros.rospy_patches.connections import sender_of
 from tutorial_faults.live import judge
 from tutorial_faults.live.table import BASE, FAULTS, TELEOP, VIGILANCE_S
 from tutorial_testing import rig

@@ -6,13 +6,13 @@ from typing import Any, Callable, ClassVar, Mapping, Sequence
 
 from cockpit_server import schema
 from cockpit_server.clients import LOOKS_ONLY, Client, RefusedError, Source
-from cockpit_server.driving import words
+from cockpit_server.driving import reasons
 from cockpit_server.driving.driver_session import DriverSession, Input
-from cockpit_server.driving.joysticks import Joysticks
 from cockpit_server.driving.player import Player
-from cockpit_server.driving.teleop import Teleop
-from cockpit_server.driving.words import About
-from cockpit_server.graph_watch import GraphWatch
+from cockpit_server.driving.reasons import About
+from cockpit_server.ros.graph_watch import GraphWatch
+from cockpit_server.ros.joysticks import Joysticks
+from cockpit_server.ros.teleop import Teleop
 
 CONNECT_S = 2.0  # after which a node that is registered is not waited for any longer
 RIVAL_S = 1.0  # another joystick that was heard within that has the first say
@@ -97,14 +97,14 @@ class Driving(Source):
         graph = self._graphs.graph
         robots = graph.robots()
         if not robots:
-            return words.TURTLES if graph.turtlesims() else words.NO_ROBOT
+            return reasons.TURTLES if graph.turtlesims() else reasons.NO_ROBOT
         if robot not in robots:
             return f"there is no robot {robot!r}"
         if not client.drives:
             return LOOKS_ONLY
         rival = self._joysticks.rival(robot, now - RIVAL_S)
         if rival and not self.is_driver(client):
-            return words.rival(rival, graph.services)
+            return reasons.rival(rival, graph.services)
         return self.session.refusal(client.number)
 
     def on_stop(self, client: Client, _now: float) -> None:
@@ -159,7 +159,7 @@ class Driving(Source):
             raise RefusedError("another page drives this robot: only that page may reset it")
         about = self._abouts.get(robot, About())
         if about.is_driven_by_node:
-            node = words.driver(about)
+            node = reasons.driver(about)
             raise RefusedError(f"{node} drives this robot: stop it before you reset the robot")
 
     def tick(self, now: float) -> None:
@@ -182,7 +182,7 @@ class Driving(Source):
             return
         rival = self._joysticks.rival(self.session.robot, self._sat_at)
         if rival and not self.session.topic:
-            self.session.free(words.rival(rival, self._graphs.graph.services))
+            self.session.free(reasons.rival(rival, self._graphs.graph.services))
             return
         self._beats += 1
         self.session.beat(self._beats, now)
@@ -195,8 +195,8 @@ class Driving(Source):
         if number in self._pages:
             keeps = number == self.session.driver
             may_go_on = keeps and self.session.is_by_hand
-            todo = words.again(self._abouts.get(self.session.robot, About())) if may_go_on else ""
-            text = f"{words.lost_text(why, keeps)} {todo}".strip()
+            todo = reasons.again(self._abouts.get(self.session.robot, About())) if may_go_on else ""
+            text = f"{reasons.lost_text(why, keeps)} {todo}".strip()
             self._pages[number].send("lost", text=text, keeps=may_go_on)
 
     def collect(self, clients: Sequence[Client], now: float) -> None:
@@ -207,7 +207,7 @@ class Driving(Source):
         for robot, about in self._abouts.items():
             if about.is_driven_by_node:
                 self.session.moves_on(robot)
-        self._robots = {robot: words.in_a_table(about) for robot, about in self._abouts.items()}
+        self._robots = {robot: reasons.in_a_table(about) for robot, about in self._abouts.items()}
 
     def _about(self, robot: str, now: float) -> About:
         session = self.session
@@ -240,10 +240,10 @@ class Driving(Source):
         refusal = self.refusal(client, robot, now)
         said = {
             "who": self._who(about, robot, client),
-            "ready": words.ready(about, robot, client.number, refusal),
-            "how": words.how_to(about, client.number, not refusal),
-            "refusal": words.sentence(refusal),
-            "no_reset": words.sentence(about.no_reset),
+            "ready": reasons.ready(about, robot, client.number, refusal),
+            "how": reasons.how_to(about, client.number, not refusal),
+            "refusal": reasons.sentence(refusal),
+            "no_reset": reasons.sentence(about.no_reset),
             "robots": self._robots,
         }
         if client.take_if_new("drives", said):
@@ -251,8 +251,8 @@ class Driving(Source):
 
     def _who(self, about: About, robot: str, client: Client) -> str:
         """Return what drives the robot in sight, and whose form drives, which may be any robot."""
-        who, driver = words.who(about, robot, client.number), self.session.driver
+        who, driver = reasons.who(about, robot, client.number), self.session.driver
         if driver is None or not self.session.topic or about.driver is not None:
             return who
-        form = words.by_form(self._pages[driver].name, self.is_driver(client), self.session.topic)
+        form = reasons.by_form(self._pages[driver].name, self.is_driver(client), self.session.topic)
         return f"{form} {who}" if about.is_driven_by_node else form

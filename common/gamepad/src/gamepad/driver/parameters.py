@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Mapping
 
-from node_kit.parameters import checked, number, parameter, switch, text
+from node_kit.parameters.declaration import checked, number, parameter, switch, text
 
 _PATH = text("a whole path, such as /dev/input/js0", lambda value: value.startswith("/"))
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Tuple
 
 from gamepad.gamepads import Gamepad
-from node_kit.parameters import Check, is_number, parameter, switch
+from node_kit.parameters.declaration import Check, is_number, parameter, switch
 
 # A stick moves the D-pad's axes, which know only -1, 0 and 1, from this deflection on.
 DIGITAL_THRESHOLD = 0.5

@@ -16,7 +16,7 @@ from typing import Any
 
 from gamepad.gamepads import F710
 from gamepad.virtual.controls import Controls
-from node_kit.parameters import Check, checked, checked_value, is_number, parameter
+from node_kit.parameters.declaration import Check, checked, checked_value, is_number, parameter
 
 EXAMPLE = "such as moves: [{for: 1.0, held: [LB]}]"
 _DURATION = Check(

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Mapping
 
 from kobuki_protocol.battery import Limits
-from node_kit.parameters import checked, number, parameter, switch, text
+from node_kit.parameters.declaration import checked, number, parameter, switch, text
 
 _NAME = text(
     "a name without blanks and leading slash", lambda value: re.fullmatch(r"[^/\s]\S*", value)

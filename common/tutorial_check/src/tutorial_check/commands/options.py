@@ -6,7 +6,7 @@ import argparse
 import os
 from typing import Any, Callable, Iterable, Sequence
 
-from node_kit.arguments import Parser
+from node_kit.parameters.arguments import Parser
 from tutorial_check.course.definition import HANDOUT, read_course
 from tutorial_check.processes.errors import CannotCheck
 from tutorial_check.report.formats import FORMATS

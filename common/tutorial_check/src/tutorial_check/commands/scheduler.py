@@ -3,7 +3,7 @@
 import subprocess
 import sys
 
-from node_kit.arguments import Parser
+from node_kit.parameters.arguments import Parser
 from tutorial_check.cluster.dask_cluster import become_scheduler
 from tutorial_check.processes.errors import CannotCheck
 

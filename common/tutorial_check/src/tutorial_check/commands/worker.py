@@ -3,7 +3,7 @@
 import os
 import sys
 
-from node_kit.arguments import Parser
+from node_kit.parameters.arguments import Parser
 from tutorial_check.cluster.dask_cluster import become_worker
 from tutorial_check.processes.errors import CannotCheck
 

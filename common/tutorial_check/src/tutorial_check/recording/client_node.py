@@ -22,7 +22,7 @@ import yaml
 from std_msgs.msg import Header
 
 from node_kit.message_types import message_class, service_class
-from node_kit.rospy_patches.connections import connect_once
+from node_kit.ros.rospy_patches.connections import connect_once
 
 NAME = "tutorial_check_client"
 MOST_KEPT = 20_000  # messages of a topic

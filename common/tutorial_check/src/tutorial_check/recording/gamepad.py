@@ -9,7 +9,7 @@ import time
 from typing import Callable, Tuple
 
 from gamepad.gamepads import F710
-from gamepad.virtual.pads import StreamPad
+from gamepad.io.pads import StreamPad
 
 MODE = F710["D"]  # as its switch stands
 Position = Tuple[Tuple[float, ...], Tuple[int, ...]]  # (axes, buttons)

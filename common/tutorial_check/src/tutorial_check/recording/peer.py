@@ -18,7 +18,7 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Joy, LaserScan
 from std_msgs.msg import String
 
-from node_kit.rospy_patches.connections import connect_once
+from node_kit.ros.rospy_patches.connections import connect_once
 from tutorial_check.recording.data import Heard, HeardText, Topics
 
 NAME = "tutorial_check"

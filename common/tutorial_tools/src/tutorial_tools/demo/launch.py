@@ -16,7 +16,7 @@ import rospy
 from nav_msgs.msg import Odometry
 from rospy import AnyMsg
 
-from node_kit.rospy_patches.connections import connect_once, sender_of
+from node_kit.ros.rospy_patches.connections import connect_once, sender_of
 
 TOPICS = ("/joy", "/cmd_vel", "/odom")
 START_TIMEOUT_S = 60.0  # until the first odometry, on a slow and busy machine

@@ -17,12 +17,12 @@ from collections.abc import Iterable
 import rosgraph
 import rospkg
 
-from gamepad.bags import BagError, opened
-from node_kit.ros_api import Answer, accepts, call, holder
-from tutorial_tools.cockpit_page import address
-from tutorial_tools.command.words import fail, parser_of
+from gamepad.ros.bags import BagError, opened
+from node_kit.ros.graph.ros_api import Answer, accepts, call, holder
 from tutorial_tools.demo.launch import ENDING, TOPICS, DemoError, Launch
+from tutorial_tools.io.command.subcommands import fail, parser_of
 from tutorial_tools.launch_arguments import launch_arguments
+from tutorial_tools.ros.cockpit_page import address
 
 # What launch_bag.launch starts. Not by loading that file here: it looks itself for what runs.
 NODES = ("/fake_turtlebot", "/myjoystick2twist", "/robot_state_publisher", "/rosbag")

@@ -6,7 +6,8 @@ import errno
 from collections.abc import Iterator
 
 from gamepad.driver.device_choice import explain
-from node_kit.ros_api import Answer
+from node_kit.ros.graph.ros_api import Answer
+from tutorial_tools.doctor.connections import muxes, needs_driver, rivals, states, topics
 from tutorial_tools.doctor.ends import ends, is_empty
 from tutorial_tools.doctor.facts import (
     DEAD,
@@ -22,7 +23,6 @@ from tutorial_tools.doctor.facts import (
 from tutorial_tools.doctor.kobuki import kobukis
 from tutorial_tools.doctor.links import types, unconnected
 from tutorial_tools.doctor.transforms import transforms
-from tutorial_tools.doctor.way import muxes, needs_driver, rivals, states, topics
 
 # Clocks may differ by this much [s]: a tenth of a second of old transforms, or of a joystick
 # message that is refused for its age, goes unnoticed.

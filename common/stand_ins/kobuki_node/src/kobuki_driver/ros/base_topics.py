@@ -21,7 +21,7 @@ from kobuki_protocol.feedback import READING_PERIOD_S, Feedback
 from kobuki_protocol.framing import packet
 from kobuki_protocol.odometry import OdometryState
 from kobuki_protocol.odometry_messages import YAW_VARIANCE_OF_WHEELS, OdometryMessages
-from node_kit.rospy_patches.prompt_publisher import PromptPublisher
+from node_kit.ros.rospy_patches.prompt_publisher import PromptPublisher
 
 EVENTS = {
     "button": msg.ButtonEvent,

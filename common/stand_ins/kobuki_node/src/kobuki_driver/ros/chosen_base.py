@@ -12,9 +12,9 @@ import rosgraph
 from fake_turtlebot_sim.simulator.parameters import Parameters
 from kobuki_driver.choice import SIMULATION, USUAL_PORT, VARIABLE, Choice, Given, choose
 from kobuki_driver.parameters import DriverParameters
-from node_kit.announcement import full_name
-from node_kit.parameters import declared
-from node_kit.ros_api import call
+from node_kit.parameters.declaration import declared
+from node_kit.ros.graph.ros_api import call
+from node_kit.ros.lifecycle.announcement import full_name
 
 NODE_NAME = "mobile_base"
 
@@ -59,7 +59,7 @@ def _drive(port: str) -> int:
 
 
 def _simulate() -> int:
-    from fake_turtlebot_sim.simulator.node import main as simulate  # noqa: PLC0415 (one of two)
+    from fake_turtlebot_sim.ros.fake_turtlebot_node import main as simulate  # noqa: PLC0415 (one of two)
 
     _forget(set(declared(DriverParameters)) - set(declared(Parameters)))
     return simulate()

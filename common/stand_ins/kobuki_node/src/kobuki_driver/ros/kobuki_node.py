@@ -19,11 +19,11 @@ from kobuki_driver.ros.base_topics import BaseTopics, DiagnosticTopic
 from kobuki_driver.ros.robot_line import RobotLine
 from kobuki_protocol import command_messages
 from kobuki_protocol.battery import Battery
-from node_kit.log import Log
-from node_kit.rospy_patches.connections import report_bad_messages
-from node_kit.rospy_patches.fresh_only import FreshOnly
-from node_kit.start import run
-from node_kit.throttle import ThrottleEach
+from node_kit.ros.lifecycle.start import run
+from node_kit.ros.log import Log
+from node_kit.ros.rospy_patches.connections import report_bad_messages
+from node_kit.ros.rospy_patches.fresh_only import FreshOnly
+from node_kit.rules.throttle import ThrottleEach
 
 NODE_NAME = "kobuki_node"
 LOOK_AGAIN_S = 1.0  # for a port that could not be opened

@@ -1,0 +1,105 @@
+"""The node: rospy's threads on one side, tornado's loop in the main thread on the other."""
+
+from __future__ import annotations
+
+import asyncio
+import socket
+import sys
+import threading
+from typing import Callable
+
+import rospy
+from tornado.ioloop import PeriodicCallback
+
+from cockpit_server.access import Access
+from cockpit_server.clients import Client
+from cockpit_server.driving.who_drives import Driving
+from cockpit_server.io.hub import TICK_S, Hub
+from cockpit_server.io.web_server import server
+from cockpit_server.ros.feeds import Feeds
+from cockpit_server.ros.graph_watch import GraphWatch
+from cockpit_server.ros.joysticks import Joysticks
+from cockpit_server.ros.sources.bags import Bags
+from cockpit_server.ros.sources.doctor import Doctor
+from cockpit_server.ros.sources.forms import Forms
+from cockpit_server.ros.sources.logs import Logs
+from cockpit_server.ros.sources.plots import Plots
+from cockpit_server.ros.sources.publishing import Publishing
+from cockpit_server.ros.sources.recorder import Recorder
+from cockpit_server.ros.sources.robots import Robots
+from cockpit_server.ros.sources.surroundings import Surroundings
+from cockpit_server.ros.sources.topics import Topics
+from cockpit_server.ros.sources.turtles import Turtles
+from cockpit_server.ros.teleop import Teleop
+from node_kit.ros.log import Log
+
+# How long the end may wait for the last message, and then for its delivery [s].
+LONGEST_END_S, DELIVERY_S = 0.3, 0.1
+# How long a thread of rospy may keep the others from running [s]: an input must not wait for it.
+SWITCH_S = 0.0005
+
+
+class Cockpit:
+    """Shows the robots of a master to browsers, and lets one of them drive.
+
+    Subscribes: what pages look at: odom (nav_msgs/Odometry), joy (sensor_msgs/Joy), scan
+        (sensor_msgs/LaserScan), base_pose_ground_truth (nav_msgs/Odometry) and
+        mobile_base/events/bumper, sensors/core, commands/led1, led2, sound (kobuki_msgs), any
+        topic;
+        /map (nav_msgs/OccupancyGrid), /tf_static (tf2_msgs/TFMessage),
+        /diagnostics (diagnostic_msgs/DiagnosticArray), /rosout (rosgraph_msgs/Log)
+    Publishes: joy (sensor_msgs/Joy) of a robot that is driven; what a driver writes into a form
+    Calls: services that end in /reset; what a driver writes into a form
+    """
+
+    def __init__(self, sockets: list[socket.socket], access: Access) -> None:
+        self._sockets = sockets
+        name = rospy.get_name()
+        graphs = self._graphs = GraphWatch(name)
+        log = Log()
+        feeds = Feeds(log.warn)
+        pages: dict[int, Client] = {}
+        robots, teleop = Robots(feeds, graphs), Teleop(feeds)
+        joysticks = Joysticks(feeds, graphs, name)
+        driving = self._driving = Driving(pages, graphs, joysticks, teleop, robots.moves)
+        sources = (
+            robots, joysticks, driving, graphs, Topics(feeds, graphs), Plots(feeds, graphs),
+            Forms(driving, self._soon, graphs), Publishing(driving, graphs), Logs(feeds), Doctor(),
+            Bags(driving, self._soon), Recorder(), Surroundings(feeds, graphs), Turtles(graphs),
+        )  # fmt: skip
+        self._hub = Hub(pages, driving, sources, log.warn)
+        self._server = server(self._hub, access)
+        self.has_lost_master = False
+        self._has_ended = threading.Event()
+
+    def run(self) -> None:
+        sys.setswitchinterval(SWITCH_S)
+        asyncio.run(self._serve())
+
+    async def _serve(self) -> None:
+        self._loop, self._ended = asyncio.get_running_loop(), asyncio.Event()
+        self._graphs.start(self._lose_master)
+        self._server.add_sockets(self._sockets)
+        ticks = PeriodicCallback(self._hub.tick, 1000 * TICK_S)
+        ticks.start()
+        rospy.on_shutdown(self._end)
+        await self._ended.wait()
+        ticks.stop()
+
+    def _lose_master(self) -> None:
+        self.has_lost_master = True
+        rospy.signal_shutdown("the master has gone")
+
+    def _soon(self, action: Callable[[], object]) -> None:
+        self._loop.call_soon_threadsafe(action)
+
+    def _end(self) -> None:
+        """Leave the robot at rest; rospy's other threads wait for this."""
+        self._soon(self._rest)
+        if self._has_ended.wait(LONGEST_END_S):
+            threading.Event().wait(DELIVERY_S)
+        self._soon(self._ended.set)
+
+    def _rest(self) -> None:
+        self._driving.session.end()
+        self._has_ended.set()

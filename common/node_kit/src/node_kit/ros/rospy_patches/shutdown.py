@@ -1,0 +1,53 @@
+"""Lets a node stay when a master takes it for another, in place of rospy's shutdown on request."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import rosgraph
+import rospy
+from rospy.impl.masterslave import ROSHandler
+
+from node_kit.ros.graph.ros_api import Answer, call
+
+# The reason that rosmaster's registrations.py sends to a node that is replaced, with its name.
+REPLACED = re.compile(r"\[(\S*)\] Reason: new node registered with same name")
+_end = ROSHandler.shutdown  # rospy's own
+
+
+def end_only_if_replaced() -> None:
+    """Stay when a master takes this node for another; call before rospy.init_node().
+
+    A node that died stays registered. When its name is used again, the master asks the node that
+    has its port by then to shut down, even if that has another name or another master.
+    """
+    ROSHandler.shutdown = _end_if_meant
+
+
+def _end_if_meant(self: Any, *arguments: Any) -> Any:
+    """In place of ROSHandler's; arguments: the caller's name and its reason."""
+    replaced = REPLACED.search(str(arguments[-1:]))
+    if replaced and (replaced[1] != rospy.get_name() or _has_its_name()):
+        rospy.logwarn(
+            f"A master says that another node is {replaced[1]} now, and means one that died and "
+            "whose port this node has: it goes on."
+        )
+        return 1, "not ended", 0
+    return _end(self, *arguments)
+
+
+def _has_its_name() -> bool:
+    """Return whether the own master knows this node; it forgets the topics of one replaced."""
+    master, name = rosgraph.get_master_uri(), rospy.get_name()
+    if call(master, "lookupNode", name) != (Answer.WELL, rospy.get_node_uri()):
+        return False
+    answer, state = call(master, "getSystemState")
+    if answer is not Answer.WELL:
+        return False
+    topics = rospy.topics.get_topic_manager()
+    ours = (topics.get_publications(), topics.get_subscriptions())
+    return all(
+        {topic for topic, _ in own} <= {topic for topic, nodes in known if name in nodes}
+        for own, known in zip(ours, state)
+    )

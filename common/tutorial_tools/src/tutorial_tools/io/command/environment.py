@@ -1,0 +1,84 @@
+"""The environment of what ./tutorial starts."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+from tutorial_tools.io.command.build import PREFIX, REPOSITORY, is_over_prefix, made_over
+
+OTHERS = ("CMAKE_PREFIX_PATH", "ROS_PACKAGE_PATH")  # of another workspace, from ~/.bashrc
+LOCAL = ("", "localhost", "127.0.0.1")
+
+
+def environment_of(workspace: Path, word: str, student: str) -> dict[str, str]:
+    """Return the environment of the command of a word. student: "" for the suite's own."""
+    given = _given()
+    lower, etc = workspace / "lower" / "devel", str(REPOSITORY / "common/node_kit/etc/ros")
+    own = {"TUTORIAL_UNDERLAY": f"{lower}/setup.bash"}
+    if word in ("check", "worker", "scheduler"):
+        libraries = f"{lower}/lib/python3/dist-packages"
+        return {**given, **own, "PYTHONPATH": libraries, "ROS_ETC_DIR": etc}
+    setup, beside = workspace / "devel" / "setup.bash", ""
+    if student:  # the underlay's, if the student has built nothing over it
+        made_of, own_setup = made_over(Path(student)), Path(student, "devel", "setup.bash")
+        setup = own_setup if str(lower) in made_of else lower / "setup.bash"
+        if setup != own_setup and is_over_prefix(made_of):
+            beside = str(own_setup)
+    made = _sourced(setup, beside, given)
+    # ROS lets anybody in the network drive: all stays on this machine until the user names an
+    # address. Not by ROS_HOSTNAME, which would outdo the ROS_IP that a user sets afterwards.
+    master = re.sub("^.*?://", "", made.get("ROS_MASTER_URI", ""))
+    named = made.get("ROS_IP") or made.get("ROS_HOSTNAME")
+    if not named and re.split("[:/]", master)[0] in LOCAL:
+        made["ROS_IP"] = "127.0.0.1"
+    from_pypi = map(str, workspace.glob("python/lib/python3*/site-packages"))
+    path = f"{workspace}/bin:/usr/bin"  # ROS belongs to the system's Python, whichever is first
+    own.update(
+        PATH=f"{path}:{made['PATH']}",
+        PYTHONPATH=":".join([made.get("PYTHONPATH", ""), *from_pypi]),
+        ROS_ETC_DIR=etc,  # where roscore and roslaunch look for roscore.xml
+        ROS_ROOT=made.get("ROS_ROOT", etc),  # roswtf wants a folder named ros, which Debian lacks
+        TUTORIAL_IN=student,
+        TUTORIAL_RESULTS=str(workspace),
+        TUTORIAL_ROS2=f"{workspace}/ros2/bin/python",  # if ./tutorial ros2 has set it up
+    )
+    if word == "doctor":
+        own["TUTORIAL_TERMINAL_PATH"] = given["PATH"]
+    if word == "shell":  # for shellrc, after the user's .bashrc
+        own.update(
+            TUTORIAL_SETUP=str(setup), TUTORIAL_BESIDE=beside, TUTORIAL_ETC=etc, TUTORIAL_PATH=path
+        )
+        own["TUTORIAL_PYTHONPATH"] = own["PYTHONPATH"]
+    return {**made, **own}
+
+
+def environment_of_help() -> dict[str, str]:
+    """Return the environment of a program that prints its help: nothing may be built yet."""
+    libraries = [str(source) for source in REPOSITORY.glob("common/*/src")]
+    if PREFIX:
+        libraries.append(f"{PREFIX}/lib/python3/dist-packages")
+    return {**_given(), "PYTHONPATH": ":".join(libraries)}
+
+
+def _given() -> dict[str, str]:
+    # Not os.environ, to which Python adds LC_CTYPE where no locale is set.
+    return _parse(Path("/proc/self/environ").read_bytes())
+
+
+def _sourced(setup: Path, beside: str, given: dict[str, str]) -> dict[str, str]:
+    """Return the environment of a setup.bash. beside: one that adds its workspace; "" for none."""
+    kept = {name: value for name, value in given.items() if name not in OTHERS}
+    script = 'beside=$1; set --; . "$0" >&2; [ -z "$beside" ] || . "$beside" --extend >&2'
+    command = ["bash", "-ec", f"{script}; exec /usr/bin/env -0", str(setup), beside]
+    done = subprocess.run(command, env=kept, check=False, stdout=subprocess.PIPE)
+    if done.returncode:
+        sys.exit(done.returncode)
+    return _parse(done.stdout)
+
+
+def _parse(block: bytes) -> dict[str, str]:
+    return dict(re.findall("([^=\0]+)=([^\0]*)\0", os.fsdecode(block)))

@@ -1,0 +1,43 @@
+"""serial_kobuki: a Kobuki on a pseudo terminal, for the driver of a real one.
+
+It is a device, so it needs no master; while there is one, its node shows where the robot truly is.
+"""
+
+from __future__ import annotations
+
+import signal
+import sys
+
+from fake_turtlebot_sim.io.serial_kobuki.beside import Beside
+from fake_turtlebot_sim.io.serial_kobuki.device import Device
+from fake_turtlebot_sim.serial_kobuki.parameters import NODE_NAME, parse_parameters
+from node_kit.ros.lifecycle.start import StartError, private_parameters
+from node_kit.ros.log import Log
+
+
+def show(lines: list[str]) -> None:
+    """Print lines for the user."""
+    for line in lines:
+        print(f"{NODE_NAME}: {line}", flush=True)
+
+
+def main() -> int:
+    """Run until it is asked to end; return the exit code."""
+    log = Log()
+    try:
+        parameters = parse_parameters(private_parameters(NODE_NAME))
+        device = Device(parameters, Beside(sys.argv[1:]), lambda line: log.put(show, line))
+    except (StartError, ValueError) as error:
+        print(f"{NODE_NAME}: {error}", file=sys.stderr)
+        return 1
+
+    def end(*_: object) -> None:
+        device.is_ending = True
+
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, end)
+    try:
+        device.spin()
+    finally:
+        device.close()
+    return 0

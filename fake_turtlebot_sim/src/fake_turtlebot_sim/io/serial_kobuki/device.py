@@ -1,0 +1,176 @@
+"""The device: the firmware, the line and the process beside it, in real time."""
+
+from __future__ import annotations
+
+import select
+import time
+from functools import partial
+from typing import Callable
+
+from fake_turtlebot_sim.io.serial_kobuki.beside import Beside
+from fake_turtlebot_sim.io.serial_kobuki.serial_line import SerialLine
+from fake_turtlebot_sim.serial_kobuki.damage import Damage
+from fake_turtlebot_sim.serial_kobuki.firmware import DOCK_CHARGING, Firmware
+from fake_turtlebot_sim.serial_kobuki.parameters import Parameters
+from fake_turtlebot_sim.simulator.clock import PhaseLock
+from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
+
+HINT = "to drive it: roslaunch turtlebot_bringup minimal.launch serialport:="
+PERIOD_NS = 20_000_000
+SUSPENDED_NS = 500_000_000  # as late as that is no busy machine
+UNPLUGGED_S = 2.0  # by ~unplug_after
+
+
+class Clock:
+    """The time since the start [ns], and whether this process was suspended, which no robot is."""
+
+    def __init__(self) -> None:
+        self._begin_ns = self._looked_ns = time.monotonic_ns()
+
+    def now_ns(self) -> int:
+        """Return the time."""
+        return time.monotonic_ns() - self._begin_ns
+
+    def was_suspended(self) -> bool:
+        """Return whether so much time has passed since the last call; to be called all the time."""
+        before, self._looked_ns = self._looked_ns, time.monotonic_ns()
+        return self._looked_ns - before > SUSPENDED_NS
+
+
+class Device:
+    """A Kobuki on a serial line."""
+
+    def __init__(
+        self, parameters: Parameters, beside: Beside | None, report: Callable[[str], None]
+    ) -> None:
+        """Plug it in. beside: what shows it to a master. Raises ValueError, one line."""
+        p = self._parameters = parameters
+        self._report, self._beside = report, beside
+        robot = self._robot = SimulatedRobot(p.simulation(), p.start_pose())
+        self._firmware = Firmware(robot, p.equipment())
+        self._damage = Damage(p.drop, p.corrupt, p.stall, p.seed)
+        self._reported: set[str] = set()  # lines that come once
+        self._plan: list[tuple[float, Callable[[], None]]] = []  # [s] and what happens then
+        if p.reboot_after:
+            self._plan.append((p.reboot_after, self._reboot))
+        if p.unplug_after:
+            self._plan.append((p.unplug_after, partial(self._plug_in, False)))
+            self._plan.append((p.unplug_after + UNPLUGGED_S, partial(self._plug_in, True)))
+        self._wishes: dict[str, Callable[..., None]] = {
+            "press": self._firmware.press,
+            "reset": self._robot.reset,
+            "reboot": self._reboot,
+            "switch_on": self._switch_on,
+            "plug_in": self._plug_in,
+            "charge": self._charge,
+            "send_garbage": self._damage.switch_noise,
+        }
+        self._line: SerialLine | None = None
+        self._clock = Clock()
+        self._plug_in(True)
+        self.is_ending = False
+
+    def spin(self) -> None:
+        """Be a robot until is_ending."""
+        schedule = PhaseLock(PERIOD_NS, self._clock.now_ns())
+        while not self.is_ending:
+            now_ns = self._clock.now_ns()
+            if now_ns >= schedule.deadline_ns:
+                self._cycle(now_ns)
+                schedule.complete(now_ns)
+            self._wait((schedule.deadline_ns - self._clock.now_ns()) * 1e-9)
+
+    def close(self) -> None:
+        """Unplug it for good."""
+        if self._line:
+            self._line.unplug()
+        if self._beside:
+            self._beside.close()
+
+    def _cycle(self, now_ns: int) -> None:
+        """Move to the present, send a packet, and show where the robot is."""
+        now_s = now_ns * 1e-9
+        for at_s, happen in self._plan:
+            if at_s <= now_s:
+                self._try(happen)
+        self._plan = [(at_s, happen) for at_s, happen in self._plan if at_s > now_s]
+        self._read()
+        stamp_ns = time.time_ns()
+        if self._robot.advance(now_ns):
+            timeout_s = self._parameters.base_control_timeout
+            self._report(f"no base control for {timeout_s:g} s: the wheels stop")
+        packet = self._firmware.feedback(now_ns)
+        if self._line:
+            self._line.write(self._damage.delay(self._damage.spoil(packet), now_s))
+        self._look_at_robot()
+        if self._beside:
+            truth = self._robot.true_state()
+            self._beside.show({"stamp_ns": stamp_ns, "truth": truth[:5]})
+
+    def _look_at_robot(self) -> None:
+        if any(self._robot.sensed().wheels):
+            x, y, _ = self._robot.true_pose
+            what = f"fell over an edge at ({x:.2f}, {y:.2f}): lift it with the service reset"
+            self._report_once(what)
+
+    def _report_once(self, line: str) -> None:
+        if line not in self._reported:
+            self._reported.add(line)
+            self._report(line)
+
+    def _wait(self, longest_s: float) -> None:
+        """Wait for a command or a wish, but not longer [s]; obey it."""
+        sources = [self._line.descriptor] if self._line and self._line.is_open else []
+        sources += [self._beside.descriptor] if self._beside else []
+        ready, _, _ = select.select(sources, [], [], max(0.0, longest_s))
+        if self._line and self._line.descriptor in ready:
+            self._read()
+        if self._beside and self._beside.descriptor in ready:
+            self._obey(self._beside)
+
+    def _read(self) -> None:
+        """Obey what the driver has sent."""
+        if not self._line:
+            return
+        if self._clock.was_suspended():
+            self._line.drain()
+        data = self._damage.spoil(self._line.read())
+        for line in self._firmware.receive(data, self._clock.now_ns()):
+            self._report(line)
+        if self._firmware.damaged:
+            self._report_once("damaged commands come; they are ignored")
+
+    def _obey(self, beside: Beside) -> None:
+        for name, *values in beside.wishes():
+            self._robot.advance(self._clock.now_ns())
+            self._try(self._wishes[name], *values)
+        if beside.has_ended:
+            self.is_ending = self.is_ending or beside.was_asked_to_end
+            self._beside = None
+
+    def _try(self, happen: Callable[..., None], *values: object) -> None:
+        """Do what is asked for, if that is possible."""
+        try:
+            happen(*values)
+        except ValueError as error:
+            self._report(str(error))
+
+    def _reboot(self) -> None:
+        self._report("switched off and on")
+        self._firmware.switch(True, self._clock.now_ns())
+
+    def _switch_on(self, is_on: bool) -> None:
+        self._report(f"switched {'on' if is_on else 'off'}")
+        self._firmware.switch(is_on, self._clock.now_ns())
+
+    def _charge(self, is_charging: bool) -> None:
+        self._firmware.charger = DOCK_CHARGING if is_charging else 0
+
+    def _plug_in(self, is_in: bool) -> None:
+        if is_in and not self._line:
+            self._line = SerialLine(self._parameters.link)
+            self._report(f"plugged in at {self._line.path}; {HINT}{self._line.port}")
+        elif self._line and not is_in:
+            self._line.unplug()
+            self._line = None
+            self._report("the cable is out")

@@ -1,1 +1,0 @@
-"""From a bag of commands to a bag of odometry."""

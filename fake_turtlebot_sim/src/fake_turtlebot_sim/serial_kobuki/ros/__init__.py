@@ -1,1 +1,0 @@
-"""What a master sees of the Kobuki on a pseudo terminal."""
