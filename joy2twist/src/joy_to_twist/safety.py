@@ -5,9 +5,9 @@ to send at once, or None to send nothing.
 
 A loss is: silence on joy, a joystick node that leaves, another sender, a suspension of this node,
 and a joystick that does not change while the robot moves. Where arm_on_neutral is on, nothing moves
-after a loss before everything was seen released by the sender that drives then (node_kit.rules.arming).
-Where it is off, only: no velocity later than joy_timeout after the last message, unless a stop was
-sent between them.
+after a loss until the sender that drives then has shown that everything is released
+(node_kit.rules.arming). Where it is off, only: no velocity later than joy_timeout after the last
+message, unless a stop was sent between them.
 """
 
 from __future__ import annotations

@@ -7,7 +7,7 @@ import pytest
 from cockpit_server.clients import RefusedError
 from cockpit_server.graph import JOY, ODOMETRY, Graph, without
 from cockpit_server.ros import graph_watch
-from node_kit.ros.graph.ros_api import Answer
+from node_kit.rules.answer import Answer
 
 GRAPH = Graph(
     publishers={"/odom": {"/sim"}, "/robot_1/odom": {"/room"}, "/robot_2/odom": {"/room"}},

@@ -6,7 +6,7 @@ import pytest
 
 from cockpit_server.graph import POSE, Graph
 from cockpit_server.ros.sources import turtles
-from node_kit.ros.graph.ros_api import Answer
+from node_kit.rules.answer import Answer
 from tutorial_testing.session_room import look, page
 
 GRAPH = Graph(publishers={"/turtle1/pose": {"/sim"}}, types={"/turtle1/pose": POSE})

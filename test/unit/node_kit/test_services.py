@@ -10,8 +10,8 @@ from rosgraph.network import read_ros_handshake_header, write_ros_handshake_head
 from std_srvs.srv import SetBool, SetBoolRequest, SetBoolResponse
 
 from node_kit.ros.graph import services
-from node_kit.ros.graph.ros_api import Answer
 from node_kit.ros.graph.services import ServiceError, call_service, kind_of
+from node_kit.rules.answer import Answer
 
 
 @pytest.fixture

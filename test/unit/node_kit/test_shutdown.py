@@ -5,8 +5,8 @@ from types import SimpleNamespace
 import pytest
 import rospy
 
-from node_kit.ros.graph.ros_api import Answer
 from node_kit.ros.rospy_patches import shutdown
+from node_kit.rules.answer import Answer
 
 REASON = "[{}] Reason: new node registered with same name"
 OWN, ANOTHER = "http://here:1", "http://here:2"

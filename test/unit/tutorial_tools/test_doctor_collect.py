@@ -9,12 +9,12 @@ from geometry_msgs.msg import TransformStamped
 from sensor_msgs.msg import JointState
 from tf2_msgs.msg import TFMessage
 
-from node_kit.ros.graph.ros_api import Answer
+from node_kit.rules.answer import Answer
 from tutorial_testing.nodes import serialised
 from tutorial_tools.doctor.facts import Joystick, Mux, Offset, Transform
-from tutorial_tools.doctor.transforms import of_messages
 from tutorial_tools.hidden_stand_ins import hidden_stand_ins
 from tutorial_tools.ros.doctor import collect
+from tutorial_tools.ros.doctor.messages import nearest, offset, statuses, transforms_in
 
 ARRIVED_S = 1_700_000_000.0
 
@@ -32,11 +32,11 @@ def stamped(late_s):
 
 
 def test_the_fastest_message_shows_the_offset_of_a_clock():
-    seconds, topic = collect.offset("/joint_states", [stamped(late) for late in (0.3, 0.01, 0.2)])
+    seconds, topic = offset("/joint_states", [stamped(late) for late in (0.3, 0.01, 0.2)])
     assert (seconds, topic) == (pytest.approx(-0.01, abs=1e-6), "/joint_states")
-    assert collect.offset("/a", [(ARRIVED_S, b"short")]) is None
+    assert offset("/a", [(ARRIVED_S, b"short")]) is None
     near, old = Offset(-0.01, "/odom"), Offset(-1e8, "/joy")  # the latter of a recording
-    assert collect.nearest([old, None, near]) == near
+    assert nearest([old, None, near]) == near
 
 
 def test_a_fifo_is_not_opened_in_vain(tmp_path, monkeypatch):
@@ -47,7 +47,7 @@ def test_a_fifo_is_not_opened_in_vain(tmp_path, monkeypatch):
 
 
 def test_what_is_malformed_is_left_out(monkeypatch):
-    assert collect.statuses([wire(DiagnosticArray()), (ARRIVED_S, b"nonsense")]) == []
+    assert statuses([wire(DiagnosticArray()), (ARRIVED_S, b"nonsense")]) == []
     monkeypatch.setattr(collect, "parameter", lambda *_: [7])  # of a mux of another kind
     assert collect.mux("", "/mux", [(ARRIVED_S, b"\x09")]) == Mux(None, [])
 
@@ -66,9 +66,9 @@ def test_of_each_frame_the_fastest_message_counts():
         sent.append(wire(TFMessage([one])))
     sent.append((ARRIVED_S, b"nonsense"))
     base, wheel = ("/n", "odom", "base"), ("/n", "odom", "wheel")
-    moving = of_messages({("/n", "/tf"): sent, ("/n", "/odom"): sent})
+    moving = transforms_in({("/n", "/tf"): sent, ("/n", "/odom"): sent})
     assert moving == [Transform(*base, 1.0), Transform(*wheel, 7.0)]
-    assert of_messages({("/n", "/tf_static"): sent}) == [Transform(*base), Transform(*wheel)]
+    assert transforms_in({("/n", "/tf_static"): sent}) == [Transform(*base), Transform(*wheel)]
 
 
 SUITE = Path(__file__).resolve().parents[3]

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from node_kit.ros.graph.ros_api import Answer
+from node_kit.rules.answer import Answer
 from tutorial_tools.doctor.facts import Facts, Mux, MuxInput, Node, Stray
 from tutorial_tools.doctor.judgement import judge
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from node_kit.ros.graph.ros_api import Answer
+from node_kit.rules.answer import Answer
 from tutorial_tools.doctor import connections, ends, judgement, links, transforms
 from tutorial_tools.doctor.facts import Facts, Joystick, Mux, MuxInput, Node, Offset, Transform
 from tutorial_tools.doctor.judgement import judge

@@ -12,7 +12,7 @@ from kobuki_protocol.feedback import Core, Feedback
 from kobuki_protocol.identity import FirmwareVersion
 from tutorial_tools.doctor.facts import Facts
 from tutorial_tools.doctor.judgement import judge
-from tutorial_tools.ros.doctor.collect import base
+from tutorial_tools.ros.doctor.messages import base
 
 WELL = {
     "latency_ms": 1, "packets": 50, "count": 4000,

@@ -8,7 +8,7 @@ import time
 
 import pytest
 
-from node_kit.ros.graph.ros_api import Answer
+from node_kit.rules.answer import Answer
 from tutorial_tools.ros.doctor import network
 
 

@@ -4,7 +4,7 @@ import os
 
 import pytest
 
-from node_kit.ros.graph.ros_api import Answer
+from node_kit.rules.answer import Answer
 from tutorial_tools.doctor.facts import Stray
 from tutorial_tools.ros.doctor import processes
 from tutorial_tools.ros.doctor.processes import Running

@@ -2,7 +2,7 @@
 
 import pytest
 
-from node_kit.ros.graph.ros_api import Answer
+from node_kit.rules.answer import Answer
 from tutorial_tools.ros import join
 from tutorial_tools.ros.join import JoinError, check_host, check_master, check_robot
 

@@ -28,9 +28,10 @@ from fake_turtlebot_sim.serial_kobuki.parameters import (
 )
 from fake_turtlebot_sim.simulator.simulated_robot import RobotState
 from kobuki_protocol.odometry_messages import fill_odometry
-from node_kit.ros.graph.ros_api import Answer, call
+from node_kit.ros.graph.ros_api import call
 from node_kit.ros.lifecycle.start import run
 from node_kit.ros.rospy_patches.prompt_publisher import PromptPublisher
+from node_kit.rules.answer import Answer
 
 ARGUMENTS = sys.argv[1:]
 LOOK_S = 1.0  # how often the master is looked for

@@ -19,8 +19,9 @@ import rospy
 from cockpit_server.access import Access, gateways
 from cockpit_server.io.waiting_page import answer_for
 from node_kit.parameters.arguments import Parser
-from node_kit.ros.graph.ros_api import Answer, call, way_out
+from node_kit.ros.graph.ros_api import call, way_out
 from node_kit.ros.lifecycle.start import run
+from node_kit.rules.answer import Answer
 from tutorial_tools.ros.cockpit_page import PARAMETER, address
 
 NODE_NAME = "cockpit"

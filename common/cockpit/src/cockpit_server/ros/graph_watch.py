@@ -12,7 +12,8 @@ import rosgraph
 from cockpit_server.clients import Client, Source, encoded
 from cockpit_server.graph import Graph, topic_of, without
 from cockpit_server.schema import switch
-from node_kit.ros.graph.ros_api import Answer, call
+from node_kit.ros.graph.ros_api import call
+from node_kit.rules.answer import Answer
 
 PERIOD_S = 1.0
 MASTER_S = 0.2  # How often to check that it is there; until then a form drives on.

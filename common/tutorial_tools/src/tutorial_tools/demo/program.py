@@ -18,7 +18,8 @@ import rosgraph
 import rospkg
 
 from gamepad.ros.bags import BagError, opened
-from node_kit.ros.graph.ros_api import Answer, accepts, call, holder
+from node_kit.ros.graph.ros_api import accepts, call, holder
+from node_kit.rules.answer import Answer
 from tutorial_tools.demo.launch import ENDING, TOPICS, DemoError, Launch
 from tutorial_tools.io.command.subcommands import fail, parser_of
 from tutorial_tools.launch_arguments import launch_arguments

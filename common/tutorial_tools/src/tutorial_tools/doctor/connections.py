@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from node_kit.ros.graph.ros_api import Answer
+from node_kit.rules.answer import Answer
 from node_kit.rules.arming import DRIVING
 from tutorial_tools.doctor.ends import is_empty, is_tool, pairs, plays_a_bag
 from tutorial_tools.doctor.facts import JOY, TWIST, Facts, Finding, Mux, ok, some, unknown, wrong

@@ -9,7 +9,7 @@ from functools import partial
 from typing import NamedTuple
 
 from kobuki_driver.link.sample import Sample
-from node_kit.ros.graph.ros_api import Answer
+from node_kit.rules.answer import Answer
 
 MOST_NAMES = 5  # in a line; a classroom has thirty robots
 

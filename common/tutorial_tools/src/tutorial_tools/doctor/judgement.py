@@ -6,7 +6,7 @@ import errno
 from collections.abc import Iterator
 
 from gamepad.driver.device_choice import explain
-from node_kit.ros.graph.ros_api import Answer
+from node_kit.rules.answer import Answer
 from tutorial_tools.doctor.connections import muxes, needs_driver, rivals, states, topics
 from tutorial_tools.doctor.ends import ends, is_empty
 from tutorial_tools.doctor.facts import (

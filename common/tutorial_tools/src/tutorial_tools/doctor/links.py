@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from node_kit.ros.graph.ros_api import Answer
+from node_kit.rules.answer import Answer
 from tutorial_tools.doctor.facts import Facts, Finding, some, wrong
 
 ANY = ("*", "")  # The type of `rostopic echo`, and an unknown one.

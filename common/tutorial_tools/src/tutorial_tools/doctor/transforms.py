@@ -1,32 +1,13 @@
-"""Judge the transforms on /tf and /tf_static (pure, but for the bytes)."""
+"""Judge the transforms on /tf and /tf_static."""
 
 from __future__ import annotations
 
-import contextlib
 from collections.abc import Iterator
 
-from genpy import DeserializationError
-from tf2_msgs.msg import TFMessage
-
-from tutorial_tools.doctor.facts import Facts, Finding, Transform, ok, some, unknown, wrong
+from tutorial_tools.doctor.facts import Facts, Finding, ok, some, unknown, wrong
 
 TOPICS = ("/tf", "/tf_static")
 OLD_S = 1.0  # what is looked up "now" waits no longer
-
-
-def of_messages(came: dict[tuple[str, str], list[tuple[float, bytes]]]) -> list[Transform]:
-    """Return the fastest transform to each frame; came: {(node, topic): [(arrival, bytes)]}."""
-    found: dict[tuple[str, str], Transform] = {}
-    every = [(*key, *one) for key, several in came.items() if key[1] in TOPICS for one in several]
-    for node, topic, at_s, data in every:
-        with contextlib.suppress(DeserializationError):
-            for each in TFMessage().deserialize(data).transforms:
-                # Those of /tf_static hold at any time.
-                late_s = 0.0 if topic == "/tf_static" else at_s - each.header.stamp.to_sec()
-                parent, child = each.header.frame_id.strip("/"), each.child_frame_id.strip("/")
-                new = Transform(node, parent, child, late_s)
-                found[node, child] = min(found.get((node, child), new), new, key=lambda t: t.late_s)
-    return list(found.values())
 
 
 def transforms(facts: Facts) -> Iterator[Finding]:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from node_kit.ros.graph.ros_api import Answer, accepts, call
+from node_kit.ros.graph.ros_api import accepts, call
+from node_kit.rules.answer import Answer
 
 PARAMETER = "/cockpit_address"  # http://HOST:PORT/, as long as the cockpit of a master runs
 

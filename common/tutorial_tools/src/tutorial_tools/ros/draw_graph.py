@@ -14,7 +14,8 @@ from urllib.parse import urlsplit
 
 import rosgraph
 
-from node_kit.ros.graph.ros_api import Answer, call
+from node_kit.ros.graph.ros_api import call
+from node_kit.rules.answer import Answer
 
 ENDINGS = (".png", ".svg", ".pdf", ".dot")
 # Every node is connected to /rosout, which would hide the rest.

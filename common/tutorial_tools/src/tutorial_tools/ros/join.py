@@ -10,7 +10,8 @@ from typing import Any
 import rospkg
 
 from gamepad.arguments import check
-from node_kit.ros.graph.ros_api import Answer, way_out
+from node_kit.ros.graph.ros_api import way_out
+from node_kit.rules.answer import Answer
 from tutorial_tools.doctor.facts import some
 from tutorial_tools.io.command.subcommands import fail, parser_of
 from tutorial_tools.launch_arguments import launch_arguments

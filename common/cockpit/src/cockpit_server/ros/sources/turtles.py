@@ -10,7 +10,8 @@ import rosgraph
 from cockpit_server.clients import Client, Source
 from cockpit_server.ros.graph_watch import GraphWatch
 from cockpit_server.schema import switch
-from node_kit.ros.graph.ros_api import Answer, call
+from node_kit.ros.graph.ros_api import call
+from node_kit.rules.answer import Answer
 
 PERIOD_S, TIMEOUT_S = 0.1, 0.5  # between two questions to a node; for its answer
 LONGEST_PICTURE = 1_000_000  # characters of base64

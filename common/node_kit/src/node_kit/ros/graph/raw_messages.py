@@ -9,7 +9,8 @@ import rosgraph
 import rospy
 
 from node_kit.message_types import message_class
-from node_kit.ros.graph.ros_api import Answer, call
+from node_kit.ros.graph.ros_api import call
+from node_kit.rules.answer import Answer
 
 
 @dataclass(frozen=True)

@@ -9,24 +9,14 @@ import os
 import socket
 import threading
 import xmlrpc.client
-from enum import Enum
 from typing import Any
 from urllib.parse import urlsplit
+
+from node_kit.rules.answer import Answer
 
 TIMEOUT_S = 2.0  # for each question; on one network an answer takes milliseconds
 MASTER_S = 10.0  # a master without processor time still knows who has a name
 PATIENCE_S = 3.0  # a node that hangs or waits for a busy processor still holds its name
-
-
-class Answer(Enum):
-    """What comes back from a master or a node."""
-
-    WELL = "answers"
-    MALFORMED = "is not of the form http://HOST:PORT"
-    UNKNOWN_NAME = "has a name that cannot be looked up here"
-    REFUSED = "is not there, nothing listens on its port"
-    SILENT = "does not answer"
-    STRANGE = "is something else, and not of ROS"
 
 
 # The answer that an exception stands for: the first that fits.

@@ -19,7 +19,8 @@ from rosgraph.network import (
 )
 
 from node_kit.message_types import service_class
-from node_kit.ros.graph.ros_api import Answer, call
+from node_kit.ros.graph.ros_api import call
+from node_kit.rules.answer import Answer
 
 PROBE_S = 5.0  # How long to wait for the type of a service.
 LONGEST_ANSWER = 50_000_000  # bytes

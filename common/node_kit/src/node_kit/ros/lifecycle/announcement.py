@@ -18,7 +18,8 @@ import rosgraph
 from rosgraph import network
 from rosgraph.names import get_ros_namespace, load_mappings, ns_join, resolve_name
 
-from node_kit.ros.graph.ros_api import Answer, call
+from node_kit.ros.graph.ros_api import call
+from node_kit.rules.answer import Answer
 
 MOST_WAITING = 128  # callers
 

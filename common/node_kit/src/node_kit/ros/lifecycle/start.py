@@ -13,7 +13,7 @@ from rospy.client import load_command_line_node_params
 
 from node_kit.parameters.declaration import checked_value, switch
 from node_kit.printable import printable
-from node_kit.ros.graph.ros_api import Answer, call, holder
+from node_kit.ros.graph.ros_api import call, holder
 from node_kit.ros.lifecycle.announcement import Announcement, full_name
 from node_kit.ros.lifecycle.ending import (
     end_in_time,
@@ -23,6 +23,7 @@ from node_kit.ros.lifecycle.ending import (
 )
 from node_kit.ros.rospy_patches.connections import be_careful
 from node_kit.ros.rospy_patches.shutdown import end_only_if_replaced
+from node_kit.rules.answer import Answer
 
 TAKE_OVER = "take_over"  # private parameter of every node that keeps its name
 

@@ -1,21 +1,18 @@
-"""Hands rospy the calls to an Announcement, those from before it could answer included."""
+"""Hand rospy the calls to an announced service that came before it could answer."""
 
 from __future__ import annotations
 
+import socket
 import threading
 
 from rospy.impl import tcpros_base
 
-from node_kit.ros.lifecycle.announcement import Announcement
 
-
-def answer_early_callers(announcement: Announcement | None) -> None:
+def answer_early_callers(listener: socket.socket) -> None:
     """Answer the calls to the announced address; use it once the services are open."""
-    if announcement:
-        announcement.keep()
-        threading.Thread(target=_answer, args=(announcement,), daemon=True).start()
+    threading.Thread(target=_answer, args=(listener,), daemon=True).start()
 
 
-def _answer(announcement: Announcement) -> None:
+def _answer(listener: socket.socket) -> None:
     while True:  # until the process exits
-        tcpros_base._tcpros_server._tcp_server_callback(*announcement.listener.accept())
+        tcpros_base._tcpros_server._tcp_server_callback(*listener.accept())

@@ -9,7 +9,8 @@ import rosgraph
 import rospy
 from rospy.impl.masterslave import ROSHandler
 
-from node_kit.ros.graph.ros_api import Answer, call
+from node_kit.ros.graph.ros_api import call
+from node_kit.rules.answer import Answer
 
 # The reason that rosmaster's registrations.py sends to a node that is replaced, with its name.
 REPLACED = re.compile(r"\[(\S*)\] Reason: new node registered with same name")

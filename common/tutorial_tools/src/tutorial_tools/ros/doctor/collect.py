@@ -7,16 +7,14 @@ import glob
 import io
 import os
 import stat
-import struct
 import time
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, List, Tuple
+from typing import Any
 
 import rosgraph
 import rospkg
-from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
-from genpy import DeserializationError
+from diagnostic_msgs.msg import DiagnosticStatus
 from kobuki_msgs.msg import SensorState
 from std_msgs.msg import String
 
@@ -26,14 +24,24 @@ from kobuki_driver.choice import USUAL_PORT
 from kobuki_driver.link.sample import Sample
 from node_kit.manifests import broken_manifests
 from node_kit.message_types import message_class
-from node_kit.ros.graph.ros_api import TIMEOUT_S, Answer, way_out
-from tutorial_tools.doctor import transforms
-from tutorial_tools.doctor.facts import JOY, Facts, Joystick, Mux, MuxInput, Node, Offset
+from node_kit.ros.graph.ros_api import TIMEOUT_S, way_out
+from node_kit.rules.answer import Answer
+from tutorial_tools.doctor.facts import JOY, Facts, Joystick, Mux, MuxInput, Node
 from tutorial_tools.doctor.links import cuts
+from tutorial_tools.doctor.transforms import TOPICS as TRANSFORM_TOPICS
 from tutorial_tools.hidden_stand_ins import hidden_stand_ins
 from tutorial_tools.io.command.build import REPOSITORY, SHARE
 from tutorial_tools.io.environment import environment
 from tutorial_tools.ros.doctor import network, processes
+from tutorial_tools.ros.doctor.messages import (
+    Messages,
+    base,
+    decode,
+    nearest,
+    offset,
+    statuses,
+    transforms_in,
+)  # fmt: skip
 from tutorial_tools.ros.doctor.network import addresses, call, is_here
 
 # Frequent messages that begin with a Header: sequence number, stamp as two uint32 (s, ns).
@@ -46,7 +54,6 @@ STAMPED_MESSAGES = 20  # per topic; the fastest one counts
 BRIDGE = "/ros2_bridge"  # the node of ros2_bridge
 CONNECT_S = 2.0  # Nodes that have just started take this long to connect.
 LISTEN_S = 2.5  # /diagnostics comes once a second
-Messages = List[Tuple[float, bytes]]  # (arrival [s], bytes)
 
 
 def collect() -> Facts:
@@ -214,7 +221,7 @@ def heard(uri: str, facts: Facts) -> dict[str, Any]:
     jobs += [(name, "/diagnostics", 1) for name in speakers]
     for topic in (*active, "/clock"):
         jobs += [(name, topic, 1) for name in facts.publishers.get(topic, [])[:1]]
-    for topic in transforms.TOPICS:
+    for topic in TRANSFORM_TOPICS:
         jobs += [(name, topic, STAMPED_MESSAGES) for name in facts.senders(topic)]
     came = network.at_once(
         lambda job: network.listen(well[job[0]].uri, job[1], LISTEN_S, job[2]),
@@ -231,7 +238,7 @@ def heard(uri: str, facts: Facts) -> dict[str, Any]:
             host: nearest([offset(topic, of.get((name, topic), [])) for name, topic, _ in several])
             for host, several in far.items()
         },
-        "transforms": transforms.of_messages(of),
+        "transforms": transforms_in(of),
         "muxes": {name: mux(uri, name, on.get(f"{name}/active", [])) for name in names},
         "states": {
             name: (status.level == DiagnosticStatus.OK, status.message)
@@ -253,18 +260,6 @@ def heard(uri: str, facts: Facts) -> dict[str, Any]:
     }
 
 
-def offset(topic: str, messages: Messages) -> Offset | None:
-    """Return how much stamps are ahead of their arrival, by the message that was fastest."""
-    stamps = [(at_s, struct.unpack_from("<II", data, 4)) for at_s, data in messages if data[11:]]
-    ahead = [seconds + nanoseconds * 1e-9 - at_s for at_s, (seconds, nanoseconds) in stamps]
-    return Offset(max(ahead), topic) if ahead else None
-
-
-def nearest(offsets: list[Offset | None]) -> Offset | None:
-    """Return the Offset that is nearest to none: a recording beside it has old stamps."""
-    return min(filter(None, offsets), key=lambda each: abs(each.seconds), default=None)
-
-
 def mux(uri: str, name: str, messages: Messages) -> Mux:
     """Return a Mux, by its latched topic and, where they are on the server, its parameters."""
     said = [decode(String, data) for _, data in messages]
@@ -274,27 +269,3 @@ def mux(uri: str, name: str, messages: Messages) -> Mux:
             topic = f"{name}/{entry['topic']}"
             inputs.append(MuxInput(entry["name"], topic, entry["priority"]))
     return Mux(said[0].data if said and said[0] else None, inputs)
-
-
-def base(name: str, said: list[DiagnosticStatus]) -> tuple[str, tuple[bool, str]] | None:
-    """Return whether packets come to the driver of a real Kobuki, and its battery."""
-    about = {s.name.split(": ")[-1]: s for s in said if s.hardware_id == "Kobuki"}
-    if not {"Watchdog", "Battery"} <= set(about):
-        return None
-    values = {pair.key: pair.value for pair in about["Battery"].values}
-    battery = about["Battery"].message.lower(), f"{values.get('Voltage (V)')} V"
-    state = values.get("Charging State", "").lower()
-    return name, (about["Watchdog"].level == DiagnosticStatus.OK, ", ".join((*battery, state)))
-
-
-def statuses(messages: Messages) -> list[DiagnosticStatus]:
-    """Return what a node reports on /diagnostics."""
-    arrays = [decode(DiagnosticArray, data) for _, data in messages]
-    return [status for array in arrays if array for status in array.status]
-
-
-def decode(kind: Any, data: bytes) -> Any:
-    """Return the message, or None if it is malformed."""
-    with contextlib.suppress(DeserializationError):
-        return kind().deserialize(data)
-    return None

@@ -17,7 +17,7 @@ from urllib.parse import urlsplit
 
 import rospkg
 
-from node_kit.ros.graph.ros_api import Answer
+from node_kit.rules.answer import Answer
 from tutorial_tools.doctor.facts import Stray
 from tutorial_tools.ros.doctor.network import addresses, at_once, call, header, is_here
 
