@@ -14,7 +14,7 @@ from tutorial_testing.waiting import LONGEST_S
 
 PATH = REPOSITORY / "common/doc/TROUBLE.md"
 PAGE = PATH.read_text()
-SENTENCES = PAGE.split("## By the sentence")[1].split("## By what you see")[0]
+SENTENCES = PAGE.split("## By message")[1].split("## By what you see")[0]
 CELLS = re.findall(r"^\| (`.*?) \| (.*) \|$", SENTENCES, re.M)
 # What the scripts share: a package in the workspace of their folder, a master, the doctor.
 COMMON = r"""
