@@ -17,6 +17,9 @@ from node_kit.parameters.declaration import is_number
 LARGEST_WORLD = 2_000_000  # bytes
 MOST = {"walls": 40_000, "posts": 2_000, "cliffs": 1_000}  # corners, or posts
 DEEPEST = 20  # levels of lists in lists
+LIBRARY = Path(__file__).resolve().parents[1]
+# The package's folder of worlds: where it is built, and where it is installed.
+FOLDERS = (LIBRARY.parents[1] / "worlds", LIBRARY.parents[3] / "share" / LIBRARY.name / "worlds")
 # libyaml is ten times as fast as PyYAML alone.
 LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
@@ -34,10 +37,7 @@ def find_world(name: str) -> Path:
 
 def shipped_worlds() -> dict[str, Path]:
     """Return the worlds of this package by name."""
-    import rospkg  # noqa: PLC0415  the only ROS here
-
-    folder = Path(rospkg.RosPack().get_path("fake_turtlebot_sim")) / "worlds"
-    return {path.stem: path for path in folder.glob("*.yaml")}
+    return {path.stem: path for folder in FOLDERS for path in folder.glob("*.yaml")}
 
 
 def read_world(path: Path) -> World:
