@@ -14,20 +14,23 @@ SOURCES = [
     "common/node_kit/src", "common/gamepad/src", "common/kobuki_protocol/src",
     "common/stand_ins/kobuki_node/src", "fake_turtlebot_sim/src", "joy2twist/src",
 ]  # fmt: skip
-TABLES = [  # README, module, dataclass; what stands before each name
-    ("joy2twist/README.md", "joy_to_twist.parameters", "Parameters", "~"),
-    ("fake_turtlebot_sim/README.md", "fake_turtlebot_sim.simulator.parameters", "Parameters", "~"),
-    ("fake_turtlebot_sim/README.md", "fake_turtlebot_sim.mux.parameters", "MuxParameters", "~"),
-    ("fake_turtlebot_sim/README.md", "fake_turtlebot_sim.mux.parameters", "Input", ""),
-    ("fake_turtlebot_sim/README.md", "fake_turtlebot_sim.safety.parameters", "Parameters", "~"),
+TABLES = [  # README, dataclass; what stands before each name
+    ("joy2twist/README.md", "joy_to_twist.parameters.Parameters", "~"),
     (
-        "common/doc/SERIAL_KOBUKI.md",
-        "fake_turtlebot_sim.serial_kobuki.parameters",
-        "Parameters",
+        "fake_turtlebot_sim/README.md",
+        "fake_turtlebot_sim.simulator.parameters.SimulatorParameters",
         "~",
     ),
-    ("common/stand_ins/kobuki_node/README.md", "kobuki_driver.parameters", "DriverParameters", "~"),
-    ("common/gamepad/README.md", "gamepad.driver.parameters", "DriverParameters", "~"),
+    ("fake_turtlebot_sim/README.md", "fake_turtlebot_sim.mux.parameters.MuxParameters", "~"),
+    ("fake_turtlebot_sim/README.md", "fake_turtlebot_sim.mux.parameters.Input", ""),
+    ("fake_turtlebot_sim/README.md", "fake_turtlebot_sim.safety.parameters.SafetyParameters", "~"),
+    (
+        "common/doc/SERIAL_KOBUKI.md",
+        "fake_turtlebot_sim.serial_kobuki.parameters.SerialKobukiParameters",
+        "~",
+    ),
+    ("common/stand_ins/kobuki_node/README.md", "kobuki_driver.parameters.KobukiParameters", "~"),
+    ("common/gamepad/README.md", "gamepad.driver.parameters.DriverParameters", "~"),
 ]
 
 
@@ -36,7 +39,8 @@ def main() -> int:
     sys.path[:0] = [str(REPOSITORY / folder) for folder in SOURCES]
     table = importlib.import_module("node_kit.parameters.declaration").table
     old = []
-    for name, module, kind, where in TABLES:
+    for name, path, where in TABLES:
+        module, _, kind = path.rpartition(".")
         new = table(getattr(importlib.import_module(module), kind), where)
         first = re.escape(new.splitlines()[2].split(" | ")[0])
         readme = REPOSITORY / name

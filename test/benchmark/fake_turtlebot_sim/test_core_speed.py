@@ -1,14 +1,14 @@
 """A replay without ROS: how many times faster than real time."""
 
 from fake_turtlebot_sim.io.bag_replay import replay
-from fake_turtlebot_sim.simulator.parameters import Parameters
+from fake_turtlebot_sim.simulator.parameters import SimulatorParameters
 
 LEAST = 100
 
 
 def test_replay_of_an_hour(benchmark, figure, tmp_path):
     commands = [(k * 50_000_000, (0.5, 0.3 * (-1) ** (k // 60))) for k in range(3600 * 20)]
-    run = lambda: replay(commands, tmp_path / "hour.bag", Parameters())  # noqa: E731
+    run = lambda: replay(commands, tmp_path / "hour.bag", SimulatorParameters())  # noqa: E731
     benchmark.pedantic(run, rounds=1)
     speed = 3600 / benchmark.stats.stats.min
     what = "replay of an hour, output bag written"

@@ -3,7 +3,7 @@
 import pytest
 
 from fake_turtlebot_sim.serial_kobuki.firmware import BOOT_NS, Equipment, Firmware
-from fake_turtlebot_sim.simulator.parameters import Parameters
+from fake_turtlebot_sim.simulator.parameters import SimulatorParameters
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
 from fake_turtlebot_sim.simulator.world import World
 from kobuki_protocol import feedback, robot_packets
@@ -22,7 +22,9 @@ SOUND = bytes.fromhex("aa 55 03 04 01 06 00")
 
 
 def kobuki(equipment=Equipment(), **given):  # noqa: B008
-    return Firmware(SimulatedRobot(Parameters(**{"cmd_vel_timeout": 0.6, **given})), equipment)
+    return Firmware(
+        SimulatedRobot(SimulatorParameters(**{"cmd_vel_timeout": 0.6, **given})), equipment
+    )
 
 
 def sent(firmware, now_ns):

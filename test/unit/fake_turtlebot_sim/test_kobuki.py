@@ -6,7 +6,7 @@ from math import pi
 import pytest
 
 from fake_turtlebot_sim.simulator import kobuki
-from fake_turtlebot_sim.simulator.parameters import Parameters
+from fake_turtlebot_sim.simulator.parameters import SimulatorParameters
 from fake_turtlebot_sim.simulator.sensors import Sensed
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot, Verdict
 from kobuki_protocol import messages, robot_packets
@@ -17,7 +17,7 @@ TICKS_PER_M = 11724.4  # 11.7244 ticks/mm
 
 
 def robot(cmd_vel_timeout=60.0):
-    return SimulatedRobot(Parameters(cmd_vel_timeout=cmd_vel_timeout))
+    return SimulatedRobot(SimulatorParameters(cmd_vel_timeout=cmd_vel_timeout))
 
 
 def packet(one, now_ns=0, pressed=(False, False, False)):
@@ -115,7 +115,7 @@ def test_without_power_a_robot_stands_and_with_it_waits_for_a_new_command():
 
 def test_the_page_has_the_stop_of_this_robot_and_that_of_a_kobuki():
     """kobuki_node stops 0.62 to 0.70 s after the last command, measured on a serial line."""
-    one = robot(Parameters().cmd_vel_timeout)
+    one = robot(SimulatorParameters().cmd_vel_timeout)
     one.command((0.7, 0.0), 0)
     one.advance(2 * SECOND)
     page = " ".join((REPOSITORY / "fake_turtlebot_sim/README.md").read_text().split())

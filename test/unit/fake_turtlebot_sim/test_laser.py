@@ -7,7 +7,7 @@ import pytest
 
 from fake_turtlebot_sim.simulator.differential_drive import composed
 from fake_turtlebot_sim.simulator.laser import Laser, Scanner
-from fake_turtlebot_sim.simulator.parameters import Parameters
+from fake_turtlebot_sim.simulator.parameters import SimulatorParameters
 from fake_turtlebot_sim.simulator.world import World
 
 
@@ -30,7 +30,9 @@ def crossings(pose, angles, walls, discs):
 def test_twenty_thousand_random_beams(view):
     random, count, far = np.random.default_rng(29), 500, 4.0
     angles = np.linspace(-view / 2, view / 2, count, endpoint=view < math.tau)
-    given = Parameters(scan_angle=view, scan_beams=count, scan_range_min=0.0, scan_range_max=far)
+    given = SimulatorParameters(
+        scan_angle=view, scan_beams=count, scan_range_min=0.0, scan_range_max=far
+    )
     for _ in range(10):
         walls = random.uniform(-9, 9, (random.integers(1, 40), 4))
         posts = np.column_stack((random.uniform(-9, 9, (6, 2)), random.uniform(0.05, 0.5, 6)))

@@ -5,7 +5,7 @@ import pytest
 
 from fake_turtlebot_sim.simulator.differential_drive import arc, wheel_rates
 from fake_turtlebot_sim.simulator.odometry_errors import OdometryErrors
-from fake_turtlebot_sim.simulator.parameters import Parameters
+from fake_turtlebot_sim.simulator.parameters import SimulatorParameters
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
 
 SECOND = 10**9  # [ns]
@@ -13,7 +13,7 @@ SECOND = 10**9  # [ns]
 
 @pytest.mark.parametrize(("ratio", "track"), [(1.0, 1.0), (1.01, 1.0), (1.0, 1.03), (0.98, 0.97)])
 def test_unequal_wheels_bend_the_true_path_and_the_estimate_knows_nothing(ratio, track):
-    robot = SimulatedRobot(Parameters(wheel_radius_ratio=ratio, track_ratio=track))
+    robot = SimulatedRobot(SimulatorParameters(wheel_radius_ratio=ratio, track_ratio=track))
     robot.command((0.5, 0.8), 0)
     robot.advance(SECOND // 2)
     half_track, left_size = 0.230 / 2, 2 / (1 + ratio)  # [m], [1]
@@ -51,7 +51,7 @@ def test_a_step_errs_as_its_wheels_and_the_covariance_as_small_errors_move_its_e
 def test_the_covariance_is_that_of_the_errors_whatever_the_rate(rate_hz):
     errors, told = [], []
     for seed in range(300):
-        robot = SimulatedRobot(Parameters(wheel_noise=0.01, seed=seed))
+        robot = SimulatedRobot(SimulatorParameters(wheel_noise=0.01, seed=seed))
         for k in range(6 * rate_hz):
             robot.command((0.5, 1.0 if k < 3 * rate_hz else -1.0), k * SECOND // rate_hz)  # an S
         robot.advance(6 * SECOND)

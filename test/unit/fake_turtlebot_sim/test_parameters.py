@@ -9,11 +9,11 @@ import pytest
 import yaml
 
 import fake_turtlebot_sim
-from fake_turtlebot_sim.safety.parameters import Parameters as SafetyParameters
-from fake_turtlebot_sim.simulator.parameters import Parameters, parse_parameters
+from fake_turtlebot_sim.safety.parameters import SafetyParameters
+from fake_turtlebot_sim.simulator.parameters import SimulatorParameters, parse_parameters
 
 PACKAGE = Path(fake_turtlebot_sim.__file__).parents[2]
-ALL = (*fields(Parameters), *fields(SafetyParameters))
+ALL = (*fields(SimulatorParameters), *fields(SafetyParameters))
 CHECKS = {one.name: one.metadata["check"] for one in ALL}
 BOUNDS = re.findall(
     r"^\| `~(\w+)` \| .*? \| a (whole )?number from (\S+) to (\S+)(.*? or 0)?",
@@ -23,8 +23,11 @@ BOUNDS = re.findall(
 
 def test_nothing_given_is_a_turtlebot_2():
     parameters = parse_parameters({})
-    assert parameters == Parameters()
-    assert (parameters.period_ns(), Parameters(rate=6.0).period_ns()) == (20_000_000, 166_666_667)
+    assert parameters == SimulatorParameters()
+    assert (parameters.period_ns(), SimulatorParameters(rate=6.0).period_ns()) == (
+        20_000_000,
+        166_666_667,
+    )
     assert parameters.start_poses() == {"": (0.0, 0.0, 0.0)}
 
 
@@ -69,9 +72,9 @@ def test_bounds_are_those_of_the_readme(name, whole, least, most, off):
 
 def test_robots_that_meet_at_full_speed_are_near_long_before():
     """Twice the way of a robot until its timeout, and 10 periods, as when the machine is busy."""
-    assert Parameters().meeting_reach() == pytest.approx(1.0 + 2 * 0.7 * (0.6 + 10 * 0.02))
-    assert Parameters(cmd_vel_timeout=0.0).meeting_reach() == inf
-    assert Parameters(max_linear_speed=0.0).meeting_reach() == inf
+    assert SimulatorParameters().meeting_reach() == pytest.approx(1.0 + 2 * 0.7 * (0.6 + 10 * 0.02))
+    assert SimulatorParameters(cmd_vel_timeout=0.0).meeting_reach() == inf
+    assert SimulatorParameters(max_linear_speed=0.0).meeting_reach() == inf
 
 
 def test_robots_by_name_and_by_number():
@@ -91,7 +94,7 @@ def test_robots_by_name_and_by_number():
 
 def test_the_yaml_file_holds_parameters_with_their_defaults():
     given = yaml.safe_load((PACKAGE / "config" / "fake_turtlebot.yaml").read_text())
-    assert parse_parameters(given) == Parameters()
+    assert parse_parameters(given) == SimulatorParameters()
 
 
 def test_rbx1s_robot_drives_on_without_limit_as_the_original():

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from fake_turtlebot_sim.simulator.contact import gap
 from fake_turtlebot_sim.simulator.differential_drive import composed
 from fake_turtlebot_sim.simulator.laser import Laser
-from fake_turtlebot_sim.simulator.parameters import Parameters, parse_parameters
+from fake_turtlebot_sim.simulator.parameters import SimulatorParameters, parse_parameters
 from fake_turtlebot_sim.simulator.ros_messages import between_frames
 from fake_turtlebot_sim.simulator.sensors import bumpers
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot, meet
@@ -41,7 +41,7 @@ def driven(robot, velocity, seconds, begin=0.0):
 
 
 def test_at_a_wall_the_wheels_stall_and_odometry_says_so():
-    robot = driven(SimulatedRobot(Parameters(world=WALL)), (0.5, 0.0), 4)
+    robot = driven(SimulatedRobot(SimulatorParameters(world=WALL)), (0.5, 0.0), 4)
     state = robot.state()
     assert (state.x, state.v, state.left_rate) == (pytest.approx(1 - R, abs=EXACT), 0.0, 0.0)
     robot.advance(4 * 10**9)  # the same instant again
@@ -50,9 +50,11 @@ def test_at_a_wall_the_wheels_stall_and_odometry_says_so():
     assert state.left_angle == pytest.approx((1 - R) / 0.035)  # wheel radius: 35 mm
     assert driven(robot, (-0.5, 0.0), 0.5, 4).state().x == pytest.approx(1 - R - 0.25, abs=EXACT)
     assert robot.contact is None and not any(map(any, robot.sensed()))
-    on_a_plane = SimulatedRobot(Parameters())
+    on_a_plane = SimulatedRobot(SimulatorParameters())
     assert not any(map(any, on_a_plane.sensed())) and not on_a_plane.odometry_differs
-    robot = SimulatedRobot(Parameters(world=WALL, max_angular_acceleration=1.0), (1 - R, 0.0, 0.0))
+    robot = SimulatedRobot(
+        SimulatorParameters(world=WALL, max_angular_acceleration=1.0), (1 - R, 0.0, 0.0)
+    )
     robot.command((0.5, 0.5), 0)
     robot.advance(500_000_000)
     assert robot.state()[:3] == pytest.approx((1 - R, 0.0, 0.125)) == robot.true_pose
@@ -65,7 +67,7 @@ def test_at_a_wall_the_wheels_stall_and_odometry_says_so():
 def test_one_long_step_ends_at_the_wall_as_many_short_ones(speed, ramp, then):
     limits = {"max_linear_acceleration": ramp, "max_linear_speed": 0}  # 0: none
     world = World((((10.0, -5.0), (10.0, 5.0)),))
-    robot = SimulatedRobot(Parameters(world=world, cmd_vel_timeout=60.0, **limits))
+    robot = SimulatedRobot(SimulatorParameters(world=world, cmd_vel_timeout=60.0, **limits))
     driven(robot, (speed, 0.0), 1)
     robot.command((then, 0.0), 10**9)
     robot.advance(50 * 10**9)
@@ -74,7 +76,7 @@ def test_one_long_step_ends_at_the_wall_as_many_short_ones(speed, ramp, then):
 
 
 def test_a_robot_with_errors_touches_with_its_true_body():
-    parameters = Parameters(world=WALL, wheel_radius_ratio=1.02, wheel_noise=0.01)
+    parameters = SimulatorParameters(world=WALL, wheel_radius_ratio=1.02, wheel_noise=0.01)
     for robot in drive(SimulatedRobot(parameters), (0.5, 0.0), 4):
         assert robot.true_pose[0] <= 1 - R + EXACT
     assert robot.true_pose[0] == pytest.approx(1 - R, abs=EXACT)
@@ -96,7 +98,7 @@ def test_the_bumpers_have_the_sectors_of_the_kobuki(degrees, pressed):
 
 @pytest.mark.parametrize("limits", [{}, {"max_linear_acceleration": 0.3}])
 def test_both_wheels_drop_exactly_at_the_edge(limits):
-    robot = driven(SimulatedRobot(Parameters(world=EDGE, **limits)), (0.7, 0.0), 5)
+    robot = driven(SimulatedRobot(SimulatorParameters(world=EDGE, **limits)), (0.7, 0.0), 5)
     assert robot.sensed().wheels == (True, True)
     assert robot.true_pose[0] == pytest.approx(1.0, abs=EXACT)
     assert robot.state()[3:5] == (0.0, 0.0)  # it stays there
@@ -106,7 +108,7 @@ def test_both_wheels_drop_exactly_at_the_edge(limits):
 def test_on_an_arc_the_outer_wheel_drops_first():
     """The right wheel drives a circle of 0.615 m around (0, 0.5)."""
     edge = World(cliffs=(((0.5, -3.0), (3.0, -3.0), (3.0, 3.0), (0.5, 3.0)),))
-    robot = driven(SimulatedRobot(Parameters(world=edge)), (0.25, 0.5), 4)
+    robot = driven(SimulatedRobot(SimulatorParameters(world=edge)), (0.25, 0.5), 4)
     assert robot.sensed().wheels == (False, True)
     assert robot.true_pose[2] == pytest.approx(asin(0.5 / 0.615), abs=EXACT)
     robot.place((0.0, 0.0, 0.0))
@@ -116,7 +118,7 @@ def test_on_an_arc_the_outer_wheel_drops_first():
 def test_the_cliff_sensors_are_ahead_of_the_wheels():
     """The sensor in the middle sees the edge 0.156 m before the wheels get there."""
     seen = {}
-    for robot in drive(SimulatedRobot(Parameters(world=EDGE)), (0.1, 0.0), 12):
+    for robot in drive(SimulatedRobot(SimulatorParameters(world=EDGE)), (0.1, 0.0), 12):
         for name, is_over in zip(("left", "center", "right"), robot.sensed().cliffs):
             if is_over:
                 seen.setdefault(name, robot.true_pose[0])
@@ -127,7 +129,7 @@ def test_the_cliff_sensors_are_ahead_of_the_wheels():
 
 
 def test_robots_stop_each_other():
-    parameters = Parameters(world=World())
+    parameters = SimulatorParameters(world=World())
     one = SimulatedRobot(parameters, (0.0, 0.0, 0.0))
     other = SimulatedRobot(parameters, (2.0, 0.1, pi))
     far = SimulatedRobot(parameters, (9.0, 0.0, 0.0))
@@ -144,7 +146,7 @@ def test_robots_stop_each_other():
 
 
 def test_a_reset_of_the_odometry_leaves_the_robot_where_it_is():
-    robot = SimulatedRobot(Parameters(world=World((SQUARE,))), (0.5, 0.5, 1.0))
+    robot = SimulatedRobot(SimulatorParameters(world=World((SQUARE,))), (0.5, 0.5, 1.0))
     at = driven(robot, (0.2, 0.3), 2).true_pose
     robot.reset_odometry()
     assert (robot.true_pose, robot.state()[:3]) == (at, (0.0, 0.0, 0.0))
@@ -156,7 +158,7 @@ def test_a_reset_of_the_odometry_leaves_the_robot_where_it_is():
 
 
 def test_it_is_not_put_into_a_wall_or_over_an_edge():
-    robot = SimulatedRobot(Parameters(world=World((SQUARE,), cliffs=EDGE.cliffs)))
+    robot = SimulatedRobot(SimulatorParameters(world=World((SQUARE,), cliffs=EDGE.cliffs)))
     for pose in ((1.9, 0.0, 0.0), (0.0, -1.9, 0.0), (0.9, 0.0, 0.0), (1.5, 0.0, 0.0)):
         with pytest.raises(ValueError, match=r"inside of a wall|over an edge"):
             robot.place(pose)
@@ -181,12 +183,14 @@ def test_ranges_begin_at_the_camera_and_end_as_rep_117_or_a_depth_camera_has_it(
 
 
 def test_noise_is_drawn_from_the_seed_and_the_name():
-    parameters = Parameters(world=World((SQUARE,)), scan_noise=0.02, scan_beams=1000)
+    parameters = SimulatorParameters(world=World((SQUARE,)), scan_noise=0.02, scan_beams=1000)
     scans = [
         Laser(parameters, parameters.world, name).measure((0.0, 0.0, 0.0), NOBODY)
         for name in ("ada", "ada", "bob")
     ]
-    exact = Laser(Parameters(scan_beams=1000), parameters.world).measure((0.0, 0.0, 0.0), NOBODY)
+    exact = Laser(SimulatorParameters(scan_beams=1000), parameters.world).measure(
+        (0.0, 0.0, 0.0), NOBODY
+    )
     assert scans[0] == scans[1] != scans[2]
     assert np.std(np.subtract(scans[0], exact)) == pytest.approx(0.02, rel=0.15)
 

@@ -9,7 +9,7 @@ from geometry_msgs.msg import PoseWithCovarianceStamped
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fake_turtlebot_sim.simulator.parameters import Parameters
+from fake_turtlebot_sim.simulator.parameters import SimulatorParameters
 from fake_turtlebot_sim.simulator.ros_messages import RobotMessages, pose_on_plane
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
 
@@ -36,7 +36,9 @@ def told(parameters, prefix="", pose=(1 / 3, 2 / 3, 0.5)):
 
 
 def test_one_stamp_the_right_frames_the_executed_twist_and_the_wheels():
-    messages, _ = told(Parameters(left_wheel_joint="left", right_wheel_joint="right"), "ada/")
+    messages, _ = told(
+        SimulatorParameters(left_wheel_joint="left", right_wheel_joint="right"), "ada/"
+    )
     odometry, transform, joints = messages.odometry, messages.transform, messages.joints
     assert odometry.header.stamp == transform.header.stamp == joints.header.stamp == STAMP
     assert odometry.header.frame_id == transform.header.frame_id == "ada/odom"
@@ -55,12 +57,12 @@ def test_one_stamp_the_right_frames_the_executed_twist_and_the_wheels():
 
 @pytest.mark.parametrize(("kobuki", "effort"), [(True, [0.0, 0.0]), (False, [])])
 def test_the_joints_of_a_kobuki_have_an_effort_and_those_of_rbx1_have_none(kobuki, effort):
-    messages, _ = told(Parameters(kobuki=kobuki))
+    messages, _ = told(SimulatorParameters(kobuki=kobuki))
     assert messages.joints.effort == effort
 
 
 def test_with_noise_the_covariance_takes_their_place_and_the_truth_is_told():
-    messages, robot = told(Parameters(wheel_noise=0.01))
+    messages, robot = told(SimulatorParameters(wheel_noise=0.01))
     pose = np.reshape(messages.odometry.pose.covariance, (6, 6))
     assert np.linalg.matrix_rank(pose, tol=0) == 6  # at rest, too
     robot.advance(500_000_000)

@@ -6,7 +6,7 @@ from math import hypot, remainder, tau
 import pytest
 
 from fake_turtlebot_sim.safety.reaction import Reaction
-from fake_turtlebot_sim.simulator.parameters import Parameters
+from fake_turtlebot_sim.simulator.parameters import SimulatorParameters
 from fake_turtlebot_sim.simulator.sensors import Sensed
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
 from fake_turtlebot_sim.simulator.world_files import read_world, shipped_worlds
@@ -22,7 +22,7 @@ class Drive:
     """A robot, its safety controller, and a mux that lets the controller win for 0.2 s."""
 
     def __init__(self, world, delay=DELAY):
-        self.robot = SimulatedRobot(Parameters(world=world), world.start)
+        self.robot = SimulatedRobot(SimulatorParameters(world=world), world.start)
         self.reaction = Reaction(0.0)
         self.sensed, self.cycle = Sensed(), 0
         self.answers, self.holds_until, self.pushed = [None] * delay, 0.0, 0

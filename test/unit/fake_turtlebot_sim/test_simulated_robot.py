@@ -5,14 +5,14 @@ from math import hypot, inf, isfinite, nan
 
 import pytest
 
-from fake_turtlebot_sim.simulator.parameters import Parameters
+from fake_turtlebot_sim.simulator.parameters import SimulatorParameters
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot, Verdict
 
-KOBUKI = Parameters()
+KOBUKI = SimulatorParameters()
 SECOND = 10**9  # [ns]
 PERIOD = 20_000_000  # [ns], 50 Hz
 RAMPS = {"max_linear_acceleration": 1.0, "max_angular_acceleration": 2.0}
-RAMPING = Parameters(**RAMPS)
+RAMPING = SimulatorParameters(**RAMPS)
 
 
 def command_log(seed, seconds):
@@ -68,7 +68,7 @@ def test_the_robot_stops_at_the_instant_of_the_timeout(velocity):
 
 
 def test_a_ramp_takes_as_long_as_the_slower_part():
-    robot = SimulatedRobot(Parameters(**RAMPS, cmd_vel_timeout=1.0, wheel_noise=0.01))
+    robot = SimulatedRobot(SimulatorParameters(**RAMPS, cmd_vel_timeout=1.0, wheel_noise=0.01))
     for second, target, halfway in (
         (0, (0.5, 2.0), (0.25, 1.0)),
         (1, (-0.5, 2.0), (0.0, 2.0)),
@@ -96,7 +96,9 @@ def test_what_is_too_fast_is_limited_and_what_is_not_finite_feeds_no_timeout(bad
 
 
 def test_a_speed_without_a_limit_is_still_one_that_can_be_computed():
-    no_limits = Parameters(max_linear_speed=0, max_angular_speed=0, max_linear_acceleration=1.0)
+    no_limits = SimulatorParameters(
+        max_linear_speed=0, max_angular_speed=0, max_linear_acceleration=1.0
+    )
     robot = SimulatedRobot(no_limits)
     assert robot.command((1e308, 1e308), 0) is Verdict.LIMITED
     robot.advance(SECOND // 10)

@@ -3,7 +3,7 @@
 import pytest
 import yaml
 
-from kobuki_driver.parameters import DriverParameters, parse_parameters
+from kobuki_driver.parameters import KobukiParameters, parse_parameters
 from kobuki_protocol.battery import Limits
 from tutorial_testing.processes import REPOSITORY
 
@@ -11,8 +11,8 @@ BASE = REPOSITORY / "common/stand_ins/kobuki_node/param/base.yaml"
 
 
 def test_base_yaml_has_the_defaults():
-    assert parse_parameters(yaml.safe_load(BASE.read_text())) == DriverParameters()
-    assert DriverParameters().battery == Limits()
+    assert parse_parameters(yaml.safe_load(BASE.read_text())) == KobukiParameters()
+    assert KobukiParameters().battery == Limits()
 
 
 @pytest.mark.parametrize(

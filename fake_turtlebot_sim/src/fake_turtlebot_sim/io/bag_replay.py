@@ -18,7 +18,7 @@ from rosbags.rosbag1 import Reader, Writer
 from tf2_msgs.msg import TFMessage
 
 from fake_turtlebot_sim.simulator.differential_drive import Velocity
-from fake_turtlebot_sim.simulator.parameters import Parameters
+from fake_turtlebot_sim.simulator.parameters import SimulatorParameters
 from fake_turtlebot_sim.simulator.ros_messages import RobotMessages
 from fake_turtlebot_sim.simulator.simulated_robot import RobotState, SimulatedRobot
 
@@ -82,7 +82,7 @@ def _open(path: Path) -> Iterator[Reader]:
         raise ReplayError(f"{path}: not a whole ROS 1 bag ({why:.200})") from None
 
 
-def replay(commands: Commands, target: Path, parameters: Parameters) -> Replay:
+def replay(commands: Commands, target: Path, parameters: SimulatorParameters) -> Replay:
     """Obey the commands and write odom, /tf and joint_states to a new bag `target`.
 
     The robot starts at the first command and is watched until it has come to rest after the last.

@@ -16,7 +16,7 @@ from sensor_msgs.msg import Joy
 
 from fake_turtlebot_sim.io.bag_replay import ReplayError, read_commands, replay, topics_of
 from fake_turtlebot_sim.simulator.differential_drive import Velocity
-from fake_turtlebot_sim.simulator.parameters import Parameters, parse_parameters
+from fake_turtlebot_sim.simulator.parameters import SimulatorParameters, parse_parameters
 from fake_turtlebot_sim.simulator.simulated_robot import RobotState
 from fake_turtlebot_sim.simulator.world import World
 
@@ -73,8 +73,8 @@ def run(options: argparse.Namespace) -> None:
     )
 
 
-def read_parameters(path: Path | None, world: str | None = None) -> Parameters:
-    """Return the Parameters of a YAML file, or the defaults without one; world: in place of its."""
+def read_parameters(path: Path | None, world: str | None = None) -> SimulatorParameters:
+    """Return the parameters in a YAML file, or the defaults; world: replaces that of the file."""
     in_world = {} if world is None else {"world": world}
     if path is None:
         return parse_parameters(in_world)

@@ -1,4 +1,4 @@
-"""Private parameters of cmd_vel_mux: a mapping in, a checked and frozen MuxParameters out.
+"""The private parameters of cmd_vel_mux and their checks.
 
 The keys are those of yocs_cmd_vel_mux, so that a TurtleBot's own mux.yaml can be loaded.
 """
@@ -70,7 +70,7 @@ class MuxParameters:
 
 
 def parse_mux_parameters(given: Mapping[str, Any]) -> MuxParameters:
-    """Return MuxParameters, checked, with the defaults filled in. Raises ValueError, one line."""
+    """Return the checked parameters, with defaults filled in. Raises ValueError, one line."""
     parameters = MuxParameters(**checked(MuxParameters, given, example=EXAMPLE))
     publisher = parameters.publisher
     if publisher in [one.topic for one in parameters.subscribers]:

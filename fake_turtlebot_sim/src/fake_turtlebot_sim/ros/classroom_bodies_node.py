@@ -13,7 +13,7 @@ from geometry_msgs.msg import Point, Pose, Quaternion
 from std_msgs.msg import ColorRGBA
 from visualization_msgs.msg import Marker, MarkerArray
 
-from fake_turtlebot_sim.simulator.parameters import Parameters, parse_parameters
+from fake_turtlebot_sim.simulator.parameters import SimulatorParameters, parse_parameters
 from node_kit.ros.lifecycle.start import run
 
 NODE_NAME = "classroom_bodies"
@@ -55,7 +55,7 @@ class ClassroomBodies:
     Parameters: those of the node fake_turtlebot; of these count ~robots and ~base_frame
     """
 
-    def __init__(self, parameters: Parameters) -> None:
+    def __init__(self, parameters: SimulatorParameters) -> None:
         """Take the robots' names."""
         self._bodies = MarkerArray()
         for name in parameters.robots:

@@ -16,7 +16,7 @@ from fake_turtlebot_sim.ros.robot_topics import RobotTopics
 from fake_turtlebot_sim.ros.ros_clock import Instant, Motion
 from fake_turtlebot_sim.ros.world_topics import WorldTopics
 from fake_turtlebot_sim.simulator.clock import PhaseLock
-from fake_turtlebot_sim.simulator.parameters import Parameters, parse_parameters
+from fake_turtlebot_sim.simulator.parameters import SimulatorParameters, parse_parameters
 from fake_turtlebot_sim.simulator.ros_messages import ORIGIN, Place, static_transform
 from node_kit.ros.lifecycle.start import run
 from node_kit.ros.log import Log
@@ -41,10 +41,10 @@ class FakeTurtlebot:
         /tf and /tf_static (tf2_msgs/TFMessage), /diagnostics (diagnostic_msgs/DiagnosticArray)
     Services: ~reset (std_srvs/Empty), and of several robots each one's own, reset; in a world
         static_map (nav_msgs/GetMap), change_map (nav_msgs/LoadMap)
-    Parameters: parameters.Parameters, as a table in README.md
+    Parameters: parameters.SimulatorParameters, as a table in README.md
     """
 
-    def __init__(self, parameters: Parameters) -> None:
+    def __init__(self, parameters: SimulatorParameters) -> None:
         """Put the robots at their start poses; nothing is published before spin()."""
         log, parameters = Log(), prefixed(parameters)
         report_bad_messages(log.warn)
@@ -160,8 +160,8 @@ class FakeTurtlebot:
         return status
 
 
-def prefixed(given: Parameters) -> Parameters:
-    """Return Parameters whose frames have the tf_prefix of the namespace, as ROS 1 has it."""
+def prefixed(given: SimulatorParameters) -> SimulatorParameters:
+    """Return the parameters with the tf_prefix of the namespace before each frame, as in ROS 1."""
     name = rospy.search_param("tf_prefix")
     prefix = f"{rospy.get_param(name)}/".lstrip("/") if name else ""
     odom, base, scan = given.odom_frame, given.base_frame, given.scan_frame

@@ -12,7 +12,7 @@ from std_msgs.msg import Int16MultiArray, String
 from fake_turtlebot_sim.ros.ros_clock import Motion
 from fake_turtlebot_sim.simulator.differential_drive import wrap_angle
 from fake_turtlebot_sim.simulator.kobuki import sensors, with_gyro
-from fake_turtlebot_sim.simulator.parameters import Parameters
+from fake_turtlebot_sim.simulator.parameters import SimulatorParameters
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
 from kobuki_protocol import command_messages, commands, messages, robot_packets
 from kobuki_protocol.base_control import base_control, control_values
@@ -37,7 +37,12 @@ class KobukiTopics:
     """Sensors, events and commands of a Kobuki, and a topic that presses its buttons."""
 
     def __init__(
-        self, prefix: str, robot: SimulatedRobot, parameters: Parameters, motion: Motion, log: Log
+        self,
+        prefix: str,
+        robot: SimulatedRobot,
+        parameters: SimulatorParameters,
+        motion: Motion,
+        log: Log,
     ) -> None:
         """Take the prefix of all names; in a world WorldTopics has the events of bumpers."""
         self._prefix, self._robot, self._motion, self._log = prefix, robot, motion, log

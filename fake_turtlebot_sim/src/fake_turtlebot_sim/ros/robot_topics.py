@@ -14,7 +14,7 @@ from std_srvs import srv
 from fake_turtlebot_sim.ros.kobuki_topics import KobukiTopics
 from fake_turtlebot_sim.ros.ros_clock import Instant, Motion
 from fake_turtlebot_sim.simulator.differential_drive import Pose, composed
-from fake_turtlebot_sim.simulator.parameters import Parameters
+from fake_turtlebot_sim.simulator.parameters import SimulatorParameters
 from fake_turtlebot_sim.simulator.ros_messages import RobotMessages, between_frames, pose_on_plane
 from fake_turtlebot_sim.simulator.simulated_robot import REST, SimulatedRobot, Verdict
 from node_kit.ros.log import Log
@@ -26,7 +26,7 @@ class RobotTopics:
     """A simulated robot and its topics, in the namespace of its name if it has one."""
 
     def __init__(
-        self, name: str, start_pose: Pose, parameters: Parameters, motion: Motion, log: Log
+        self, name: str, start_pose: Pose, parameters: SimulatorParameters, motion: Motion, log: Log
     ) -> None:
         """Take the Motion of all robots."""
         prefix = f"{name}/" if name else ""

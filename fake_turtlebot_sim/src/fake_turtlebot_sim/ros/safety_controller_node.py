@@ -10,7 +10,7 @@ import rospy
 from geometry_msgs.msg import Twist, Vector3
 from std_msgs.msg import Empty
 
-from fake_turtlebot_sim.safety.parameters import Parameters, parse_parameters
+from fake_turtlebot_sim.safety.parameters import SafetyParameters, parse_parameters
 from fake_turtlebot_sim.safety.reaction import Reaction
 from kobuki_protocol.events import EVENTS, QUEUE
 from node_kit.ros.lifecycle.start import run
@@ -31,7 +31,7 @@ class SafetyController:
     Parameters: ~time_to_extend_bump_cliff_events 0 s
     """
 
-    def __init__(self, parameters: Parameters) -> None:
+    def __init__(self, parameters: SafetyParameters) -> None:
         """Take the parameters; from now on events count."""
         report_bad_messages(Log().warn)
         self._reaction = Reaction(parameters.time_to_extend_bump_cliff_events)

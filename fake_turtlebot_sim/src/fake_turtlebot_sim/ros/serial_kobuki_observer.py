@@ -23,7 +23,7 @@ from std_srvs import srv
 import node_kit.io.quiet  # noqa: F401  Ctrl-C ends it quietly while ROS loads
 from fake_turtlebot_sim.serial_kobuki.parameters import (
     NODE_NAME,
-    Parameters,
+    SerialKobukiParameters,
     parse_parameters,
 )
 from fake_turtlebot_sim.simulator.simulated_robot import RobotState
@@ -82,7 +82,7 @@ class Observer:
         (std_srvs/SetBool)
     """
 
-    def __init__(self, parameters: Parameters, states: States, wishes: Wishes) -> None:
+    def __init__(self, parameters: SerialKobukiParameters, states: States, wishes: Wishes) -> None:
         """Publish what arrives from now on."""
         self._wishes = wishes
         self._message = Odometry()
@@ -137,7 +137,7 @@ def main() -> int:
         time.sleep(LOOK_S)
     threading.Thread(target=begin_again_with_master, args=(uri, process), daemon=True).start()
 
-    def observe(parameters: Parameters) -> None:
+    def observe(parameters: SerialKobukiParameters) -> None:
         Observer(parameters, states, wishes)
         states.end = lambda: rospy.signal_shutdown("the device is gone")
         rospy.spin()

@@ -14,7 +14,7 @@ from visualization_msgs.msg import MarkerArray
 from fake_turtlebot_sim.ros.map_topics import MapTopics
 from fake_turtlebot_sim.simulator.kobuki import felt
 from fake_turtlebot_sim.simulator.laser import Laser
-from fake_turtlebot_sim.simulator.parameters import Parameters
+from fake_turtlebot_sim.simulator.parameters import SimulatorParameters
 from fake_turtlebot_sim.simulator.ros_messages import ORIGIN, Place
 from fake_turtlebot_sim.simulator.sensors import Sensed
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot, meet
@@ -33,7 +33,7 @@ class WorldTopics:
 
     def __init__(
         self,
-        parameters: Parameters,
+        parameters: SimulatorParameters,
         world: World,
         robots: dict[str, SimulatedRobot],
         warn: Callable[[str], None],
@@ -80,7 +80,7 @@ class SensorTopics:
     """Publishers: mobile_base/events/bumper, cliff, wheel_drop, bumper_markers and scan."""
 
     def __init__(
-        self, name: str, parameters: Parameters, world: World, warn: Callable[[str], None]
+        self, name: str, parameters: SimulatorParameters, world: World, warn: Callable[[str], None]
     ) -> None:
         """Take the name of the robot, empty for the only one."""
         self._name, self._warn = name or "the robot", warn

@@ -1,4 +1,4 @@
-"""Private parameters of the node: a mapping in, checked and frozen Parameters out."""
+"""The private parameters of the safety controller and their checks."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from node_kit.parameters.declaration import checked, number, parameter
 
 
 @dataclass(frozen=True)
-class Parameters:
+class SafetyParameters:
     """What can be set."""
 
     time_to_extend_bump_cliff_events: float = parameter(
@@ -17,6 +17,6 @@ class Parameters:
     )
 
 
-def parse_parameters(given: Mapping[str, Any]) -> Parameters:
-    """Return Parameters from a mapping. Raises ValueError, one line."""
-    return Parameters(**checked(Parameters, given))
+def parse_parameters(given: Mapping[str, Any]) -> SafetyParameters:
+    """Return the checked parameters, with defaults filled in. Raises ValueError, one line."""
+    return SafetyParameters(**checked(SafetyParameters, given))

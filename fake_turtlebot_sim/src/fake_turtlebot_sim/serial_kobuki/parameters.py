@@ -1,4 +1,4 @@
-"""Private parameters of serial_kobuki: a mapping in, a checked and frozen Parameters out."""
+"""The private parameters of serial_kobuki and their checks."""
 
 from __future__ import annotations
 
@@ -9,9 +9,8 @@ from typing import Any, Mapping
 from fake_turtlebot_sim.serial_kobuki.damage import STALL_EVERY_S
 from fake_turtlebot_sim.serial_kobuki.firmware import DOCK_CHARGING, Equipment
 from fake_turtlebot_sim.simulator.differential_drive import Pose
-from fake_turtlebot_sim.simulator.parameters import Parameters as Simulation
+from fake_turtlebot_sim.simulator.parameters import SimulatorParameters, simulated
 from fake_turtlebot_sim.simulator.parameters import parse_parameters as parse_simulation
-from fake_turtlebot_sim.simulator.parameters import simulated
 from fake_turtlebot_sim.simulator.world import World
 from kobuki_protocol.identity import FirmwareVersion
 from node_kit.parameters.declaration import checked, declared, number, parameter, text, whole_number
@@ -25,7 +24,7 @@ _VERSION = text(
 
 
 @dataclass(frozen=True)
-class Parameters:
+class SerialKobukiParameters:
     """What can be set, with the defaults; README.md has them as a table."""
 
     link: str = parameter("", text("a path, or empty"), "symlink to the pseudo terminal")
@@ -59,10 +58,14 @@ class Parameters:
         0.0, number(0.0, 1e6, "s, or 0: never"), "the cable is out for 2 s, once"
     )
 
-    def simulation(self) -> Simulation:
+    def simulation(self) -> SimulatorParameters:
         """Return the parameters of the simulated robot. Raises ValueError, one line."""
-        given = {name: getattr(self, name) for name in declared(Simulation) if hasattr(self, name)}
-        return Simulation(**given, cmd_vel_timeout=self.base_control_timeout)
+        given = {
+            name: getattr(self, name)
+            for name in declared(SimulatorParameters)
+            if hasattr(self, name)
+        }
+        return SimulatorParameters(**given, cmd_vel_timeout=self.base_control_timeout)
 
     def equipment(self) -> Equipment:
         """Return what is built into the Kobuki."""
@@ -79,8 +82,8 @@ class Parameters:
         return pose
 
 
-def parse_parameters(given: Mapping[str, Any]) -> Parameters:
-    """Return Parameters, checked, with the defaults filled in. Raises ValueError, one line."""
-    parameters = Parameters(**checked(Parameters, given))
-    parse_simulation({name: given[name] for name in declared(Simulation) if name in given})
+def parse_parameters(given: Mapping[str, Any]) -> SerialKobukiParameters:
+    """Return the checked parameters, with defaults filled in. Raises ValueError, one line."""
+    parameters = SerialKobukiParameters(**checked(SerialKobukiParameters, given))
+    parse_simulation({name: given[name] for name in declared(SimulatorParameters) if name in given})
     return parameters

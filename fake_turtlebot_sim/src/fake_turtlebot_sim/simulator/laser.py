@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from fake_turtlebot_sim.simulator.differential_drive import Pose, composed
-from fake_turtlebot_sim.simulator.parameters import Parameters
+from fake_turtlebot_sim.simulator.parameters import SimulatorParameters
 from fake_turtlebot_sim.simulator.world import REACH_M, World, gaps
 
 SLACK = 1e-9  # [rad] of the ends of a wall, so that no beam slips between two that meet
@@ -91,8 +91,8 @@ class Scanner:
 class Laser:
     """Measures the ranges of one scan on a robot; each name draws noise of its own."""
 
-    def __init__(self, parameters: Parameters, world: World, name: str = "") -> None:
-        """Take the scan_... of the Parameters; beams are spread evenly over the angle."""
+    def __init__(self, parameters: SimulatorParameters, world: World, name: str = "") -> None:
+        """Take the scan_... of the SimulatorParameters; beams are spread evenly over the angle."""
         p = self._parameters = parameters
         gaps = p.scan_beams if p.scan_angle >= tau else max(1, p.scan_beams - 1)
         self.angle_min, self.increment = -0.5 * p.scan_angle, p.scan_angle / gaps

@@ -32,7 +32,7 @@ class OdometryErrors:
         wheel_noise: float = 0.0,
         seed: str = "",
     ) -> None:
-        """Take what Parameters has under these names; the noise is drawn from the seed."""
+        """Take what SimulatorParameters has under these names; the noise is drawn from the seed."""
         self._separation = wheel_separation
         self._radius_ratio, self._track_ratio = wheel_radius_ratio, track_ratio
         self.wheel_noise = wheel_noise

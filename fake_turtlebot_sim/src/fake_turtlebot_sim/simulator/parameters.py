@@ -1,4 +1,4 @@
-"""Private parameters of the node: a mapping in, a checked and frozen Parameters out."""
+"""The private parameters of the simulator and their checks."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ def _world(value: Any) -> World | None:
 
 
 @dataclass(frozen=True)
-class Parameters:
+class SimulatorParameters:
     """What can be set, with the defaults; README.md has them as a table."""
 
     rate: float = parameter(50.0, number(5, 1000, "Hz"), "of odometry, transform and wheels")
@@ -178,14 +178,14 @@ class Parameters:
 
 def simulated(name: str) -> Any:
     """Declare a parameter of another program that is one of the simulator's."""
-    declaration = declared(Parameters)[name]
+    declaration = declared(SimulatorParameters)[name]
     meta = declaration.metadata
     return parameter(declaration.default, meta["check"], meta["meaning"], meta["default"])
 
 
-def parse_parameters(given: Mapping[str, Any]) -> Parameters:
-    """Return Parameters, checked, with the defaults filled in. Raises ValueError, one line."""
-    parameters = Parameters(**checked(Parameters, given))
+def parse_parameters(given: Mapping[str, Any]) -> SimulatorParameters:
+    """Return the checked parameters, with defaults filled in. Raises ValueError, one line."""
+    parameters = SimulatorParameters(**checked(SimulatorParameters, given))
     for one, other in (("odom_frame", "base_frame"), ("left_wheel_joint", "right_wheel_joint")):
         value = getattr(parameters, one)
         if value == getattr(parameters, other):

@@ -9,7 +9,7 @@ from geometry_msgs.msg import TransformStamped, Vector3
 from nav_msgs.msg import Odometry
 
 from fake_turtlebot_sim.simulator.differential_drive import Pose, composed
-from fake_turtlebot_sim.simulator.parameters import Parameters
+from fake_turtlebot_sim.simulator.parameters import SimulatorParameters
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
 from kobuki_protocol.odometry_messages import OdometryMessages, fill_odometry
 
@@ -23,8 +23,8 @@ LEAST_VARIANCE = 1e-9  # [m2, rad2]
 class RobotMessages(OdometryMessages):
     """The odometry, transform and wheel joints of one robot, and the truth if that differs."""
 
-    def __init__(self, parameters: Parameters, prefix: str = "") -> None:
-        """Take the names of frames and joints from the Parameters; the prefix is for the frames."""
+    def __init__(self, parameters: SimulatorParameters, prefix: str = "") -> None:
+        """Name frames and joints as the parameters say; prefix: of the frames' names."""
         odom_frame, base_frame = prefix + parameters.odom_frame, prefix + parameters.base_frame
         joints = parameters.left_wheel_joint, parameters.right_wheel_joint
         super().__init__(odom_frame, base_frame, joints)

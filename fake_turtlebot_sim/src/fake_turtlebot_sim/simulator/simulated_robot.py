@@ -25,7 +25,7 @@ from fake_turtlebot_sim.simulator.differential_drive import (
     wrap_angle,
 )
 from fake_turtlebot_sim.simulator.odometry_errors import OdometryErrors
-from fake_turtlebot_sim.simulator.parameters import FASTEST, Parameters
+from fake_turtlebot_sim.simulator.parameters import FASTEST, SimulatorParameters
 from fake_turtlebot_sim.simulator.sensors import Sensed, bumpers, cliffs, first_drop
 from fake_turtlebot_sim.simulator.world import BASE_RADIUS_M, FARTHEST_PLACE_M, ORIGIN, Surroundings
 
@@ -69,11 +69,13 @@ class RobotState(NamedTuple):
 class SimulatedRobot:
     """A robot that obeys its newest command until the timeout, if it has one, then stops."""
 
-    def __init__(self, parameters: Parameters, start_pose: Pose = ORIGIN, name: str = "") -> None:
+    def __init__(
+        self, parameters: SimulatorParameters, start_pose: Pose = ORIGIN, name: str = ""
+    ) -> None:
         """Put the robot at rest at start_pose, (x [m], y [m], yaw [rad]), at the time 0.
 
         Each name draws odometry noise of its own, in company or alone. The pose is in the frame of
-        the Parameters' world, if there is one, and the odometry starts with it.
+        the SimulatorParameters' world, if there is one, and the odometry starts with it.
         """
         p = self._parameters = parameters
         self._timeout_ns = round(p.cmd_vel_timeout * 1e9) if p.cmd_vel_timeout else inf

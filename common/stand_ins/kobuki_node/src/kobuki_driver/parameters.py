@@ -1,4 +1,4 @@
-"""Private parameters of the driver: those of kobuki_node's base.yaml (pure)."""
+"""The private parameters of the driver, those of kobuki_node's base.yaml, and their checks."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _VOLTAGE = number(5.0, 25.0, "V")
 
 
 @dataclass(frozen=True)
-class DriverParameters:
+class KobukiParameters:
     """What can be set, with the defaults; README.md has them as a table."""
 
     device_port: str = parameter("/dev/kobuki", _PATH, "the serial port; waited for if missing")
@@ -45,9 +45,9 @@ class DriverParameters:
         return Limits(self.battery_capacity, self.battery_low, self.battery_dangerous)
 
 
-def parse_parameters(given: Mapping[str, Any]) -> DriverParameters:
-    """Return DriverParameters, checked, with the defaults. Raises ValueError, one line."""
-    parameters = DriverParameters(**checked(DriverParameters, given))
+def parse_parameters(given: Mapping[str, Any]) -> KobukiParameters:
+    """Return the checked parameters, with defaults filled in. Raises ValueError, one line."""
+    parameters = KobukiParameters(**checked(KobukiParameters, given))
     for one, other in (
         ("odom_frame", "base_frame"),
         ("wheel_left_joint_name", "wheel_right_joint_name"),

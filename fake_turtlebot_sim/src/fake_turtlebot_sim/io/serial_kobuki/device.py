@@ -11,7 +11,7 @@ from fake_turtlebot_sim.io.serial_kobuki.beside import Beside
 from fake_turtlebot_sim.io.serial_kobuki.serial_line import SerialLine
 from fake_turtlebot_sim.serial_kobuki.damage import Damage
 from fake_turtlebot_sim.serial_kobuki.firmware import DOCK_CHARGING, Firmware
-from fake_turtlebot_sim.serial_kobuki.parameters import Parameters
+from fake_turtlebot_sim.serial_kobuki.parameters import SerialKobukiParameters
 from fake_turtlebot_sim.simulator.clock import PhaseLock
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
 
@@ -41,7 +41,10 @@ class Device:
     """A Kobuki on a serial line."""
 
     def __init__(
-        self, parameters: Parameters, beside: Beside | None, report: Callable[[str], None]
+        self,
+        parameters: SerialKobukiParameters,
+        beside: Beside | None,
+        report: Callable[[str], None],
     ) -> None:
         """Plug it in. beside: what shows it to a master. Raises ValueError, one line."""
         p = self._parameters = parameters

@@ -12,7 +12,7 @@ from sensor_msgs.msg import Imu, JointState
 from std_msgs.msg import Int16MultiArray, String
 from tf2_msgs.msg import TFMessage
 
-from kobuki_driver.parameters import DriverParameters
+from kobuki_driver.parameters import KobukiParameters
 from kobuki_driver.robot.diagnostics import Entry
 from kobuki_protocol import messages
 from kobuki_protocol.base_control import Velocity, control_values
@@ -53,7 +53,7 @@ READING = rospy.Duration.from_sec(READING_PERIOD_S)
 class BaseTopics:
     """The publishers; all but events and what is latched is made only for subscribers."""
 
-    def __init__(self, parameters: DriverParameters, prefix: str) -> None:
+    def __init__(self, parameters: KobukiParameters, prefix: str) -> None:
         """Take the prefix of the frames."""
         self._prefix = prefix
         self._prompt = {name: PromptPublisher(f"~{name}", kind) for name, kind in PROMPT.items()}

@@ -9,9 +9,9 @@ from typing import Iterable
 
 import rosgraph
 
-from fake_turtlebot_sim.simulator.parameters import Parameters
+from fake_turtlebot_sim.simulator.parameters import SimulatorParameters
 from kobuki_driver.choice import SIMULATION, USUAL_PORT, VARIABLE, Choice, Given, choose
-from kobuki_driver.parameters import DriverParameters
+from kobuki_driver.parameters import KobukiParameters
 from node_kit.parameters.declaration import declared
 from node_kit.ros.graph.ros_api import call
 from node_kit.ros.lifecycle.announcement import full_name
@@ -53,7 +53,7 @@ def _choice(port: str, simulation: str) -> Choice:
 def _drive(port: str) -> int:
     from kobuki_driver.ros.kobuki_node import main as drive  # noqa: PLC0415 (needs python3-serial)
 
-    _forget(set(declared(Parameters)) - set(declared(DriverParameters)))
+    _forget(set(declared(SimulatorParameters)) - set(declared(KobukiParameters)))
     sys.argv.append(f"_device_port:={port}")
     return drive()
 
@@ -61,7 +61,7 @@ def _drive(port: str) -> int:
 def _simulate() -> int:
     from fake_turtlebot_sim.ros.fake_turtlebot_node import main as simulate  # noqa: PLC0415 (one of two)
 
-    _forget(set(declared(DriverParameters)) - set(declared(Parameters)))
+    _forget(set(declared(KobukiParameters)) - set(declared(SimulatorParameters)))
     return simulate()
 
 

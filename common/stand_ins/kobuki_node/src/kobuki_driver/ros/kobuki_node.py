@@ -12,7 +12,7 @@ from kobuki_msgs import msg
 from std_msgs.msg import Empty
 
 from kobuki_driver.io.serial_port import PortError, SerialPort
-from kobuki_driver.parameters import DriverParameters, parse_parameters
+from kobuki_driver.parameters import KobukiParameters, parse_parameters
 from kobuki_driver.robot.diagnostics import entries
 from kobuki_driver.robot.driving import Verdict
 from kobuki_driver.ros.base_topics import BaseTopics, DiagnosticTopic
@@ -43,10 +43,10 @@ class KobukiNode:
         (sensor_msgs/Imu), ~events/button, bumper, cliff, wheel_drop, power_system, digital_input,
         latched ~events/robot_state, ~version_info, ~controller_info (kobuki_msgs),
         ~debug/raw_data_stream, raw_data_command, raw_control_command, /diagnostics
-    Parameters: parameters.DriverParameters, as a table in README.md
+    Parameters: parameters.KobukiParameters, as a table in README.md
     """
 
-    def __init__(self, parameters: DriverParameters) -> None:
+    def __init__(self, parameters: KobukiParameters) -> None:
         """Take the parameters; the port is opened by spin()."""
         self._parameters = parameters
         self._log = Log()

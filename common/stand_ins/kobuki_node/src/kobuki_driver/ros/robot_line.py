@@ -13,7 +13,7 @@ from kobuki_driver.io.ports import ports
 from kobuki_driver.io.serial_port import PortError, SerialPort
 from kobuki_driver.link import port_advice
 from kobuki_driver.link.watch import Finding, Watch
-from kobuki_driver.parameters import DriverParameters
+from kobuki_driver.parameters import KobukiParameters
 from kobuki_driver.robot.driving import ZERO, Driving, Verdict
 from kobuki_driver.robot.introduction import Introduction
 from kobuki_driver.ros.base_topics import BaseTopics
@@ -34,7 +34,7 @@ class RobotLine:
     """Serves the robot. The main thread reads and writes; callbacks only change what is wanted."""
 
     def __init__(
-        self, parameters: DriverParameters, topics: BaseTopics, report: Callable[..., None]
+        self, parameters: KobukiParameters, topics: BaseTopics, report: Callable[..., None]
     ) -> None:
         """Begin without a port; report(line, is_bad) shows a line."""
         self._parameters, self._topics, self._report = parameters, topics, report
