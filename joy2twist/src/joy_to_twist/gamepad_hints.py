@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Sequence
 
-from joy_to_twist.mapping import NEUTRAL
 from joy_to_twist.parameters import Parameters
+from node_kit.rules.released import RELEASED_AXIS
 
 # The Logitech F710 in D mode has 6 axes; with its MODE LED on, the left stick and the D-pad swap,
 # so that the stick moves axes 4 and 5. Source: the tutorial's "Gamepad F710 Setup Memo".
@@ -43,7 +43,7 @@ class GamepadHints:
                 )
         if not self._look_for_swap:
             return None
-        moved = {i for i, axis in enumerate(axes) if abs(axis) > NEUTRAL}
+        moved = {i for i, axis in enumerate(axes) if abs(axis) > RELEASED_AXIS}
         self._look_for_swap = not moved & (self._used | SWAPPED_STICK)
         if self._look_for_swap or moved & self._used:
             return None  # nothing has moved so far, or the stick is where it should be

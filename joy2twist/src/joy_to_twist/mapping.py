@@ -11,11 +11,10 @@ from typing import Sequence
 
 from joy_to_twist.parameters import COMPONENTS, Parameters
 from node_kit.rules.arming import Velocity
+from node_kit.rules.released import are_released
 
 # A stick gives -1 to 1, other devices may give some hundreds. More is noise, not a hand.
 LARGEST_AXIS_VALUE = 1e6
-# An axis this near to 0 is released: what drivers take as their dead zone, and some wear.
-NEUTRAL = 0.1
 
 
 class BadJoyError(ValueError):
@@ -64,9 +63,8 @@ class Mapping:
 
     def rests(self, axes: Sequence[float], velocity: Velocity | None) -> bool:
         """Return whether all is released in a good message, for which velocity() returned this."""
-        return (velocity is None or self._free) and all(
-            abs(axes[index]) <= NEUTRAL for _, index, _, _ in self._axes
-        )
+        sticks = (axes[index] for _, index, _, _ in self._axes)
+        return (velocity is None or self._free) and are_released(sticks)
 
     def stops(self, buttons: Sequence[int]) -> bool:
         """Return whether the stop button is pressed, in a good message or a bad one."""

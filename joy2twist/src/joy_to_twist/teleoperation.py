@@ -29,8 +29,8 @@ class Teleoperation:
         """Call wake() as Safety does, and warn() with a line for the user."""
         self._parameters = parameters
         self._warn = warn
-        self.mapping = Mapping(parameters)
-        self.safety = Safety(parameters, wake, lambda one: warn(sentence(one, parameters)))
+        self._mapping = Mapping(parameters)
+        self._safety = Safety(parameters, wake, lambda one: warn(sentence(one, parameters)))
         self._hints = GamepadHints(parameters)
         self._may_warn = Throttle(1.0 / WARNING_PERIOD_S)
         self._max_age_ns = round(parameters.max_joy_age * 1e9)
@@ -39,6 +39,28 @@ class Teleoperation:
         self._messages, self._counted_at = 0, -math.inf  # since the last summary, and its time
         self._last_message: float | None = None
         self._last: object = None  # axes and buttons of the last good message
+
+    @property
+    def state(self) -> State:
+        return self._safety.state
+
+    @property
+    def due(self) -> float:
+        """When tick() must be called next [s]; infinity if nothing will happen by itself."""
+        return self._safety.due
+
+    @property
+    def released(self) -> bool:
+        """Whether a robot that was lost may be driven again."""
+        return self._safety.released
+
+    def describe(self) -> list[str]:
+        """Return the mapping in words, a line for each axis that drives the robot, and more."""
+        return self._mapping.describe()
+
+    def tick(self, now: float) -> Velocity | None:
+        """Return the velocity that is due by now, such as a stop after silence."""
+        return self._safety.tick(now)
 
     def joy(
         self,
@@ -53,46 +75,46 @@ class Teleoperation:
         age_ns: [ns] since its stamp; ignored unless max_joy_age is set. sender: an object that
         identifies the joystick node.
         """
-        if self.mapping.stops(buttons):
-            return self.safety.latch(now)
+        if self._mapping.stops(buttons):
+            return self._safety.latch(now)
         if self._resumption.is_old(now):
             return None
         self._messages += 1
         self._last_message = now
         try:
-            velocity = self.mapping.velocity(axes, buttons)
+            velocity = self._mapping.velocity(axes, buttons)
             if self._max_age_ns and age_ns > self._max_age_ns:
                 raise BadJoyError(f"it is {age_ns / 1e9:.1f} s old")
         except BadJoyError as error:
             if self._may_warn.ready(now):
                 self._warn(f"Stopping: a joystick message is unusable, {error}.")
-            return None if self.safety.latched else self.safety.reject(now)
+            return None if self._safety.latched else self._safety.reject(now)
         last, self._last = self._last, (axes, buttons)
-        if self.safety.latched:
-            if self.mapping.resets(buttons):
-                self.safety.reset()
+        if self._safety.latched:
+            if self._mapping.resets(buttons):
+                self._safety.reset()
             return None
         hint = self._hints.hint(axes, buttons)
         if hint:
             self._warn(hint)
-        matters = self._parameters.arm_on_neutral or not self.safety.arming.armed
-        rests = matters and self.mapping.rests(axes, velocity)
-        return self.safety.drive(velocity, rests, now, sender, last != self._last)
+        matters = self._parameters.arm_on_neutral or not self._safety.arming.armed
+        rests = matters and self._mapping.rests(axes, velocity)
+        return self._safety.drive(velocity, rests, now, sender, last != self._last)
 
     def suspended(self, number: int, now: float) -> Velocity | None:
         """Take how often this node was suspended; return the velocity to send at once."""
         if not self._resumption.notice(number, now):
             return None
         self._warn("This node was suspended. What came meanwhile is not driven.")
-        return self.safety.lost(State.SUSPENDED, now)
+        return self._safety.lost(State.SUSPENDED, now)
 
     def left(self, now: float) -> Velocity | None:
         """Stop, as no node publishes joystick messages; return the velocity to send at once."""
-        return self.safety.lost(State.LEFT, now)
+        return self._safety.lost(State.LEFT, now)
 
     def listeners(self, count: int, topic: str, now: float) -> None:
         """Warn, once, when driving reaches no subscriber, as under a wrong name."""
-        if count or self.safety.state is not State.DRIVING:
+        if count or self._safety.state is not State.DRIVING:
             self._unheard_since = None
         elif self._unheard_since is None:
             self._unheard_since = now
@@ -102,13 +124,13 @@ class Teleoperation:
 
     def summary(self, now: float) -> tuple[bool, str, dict[str, str]]:
         """Return for diagnostics whether all is well, the state, and details by name."""
-        state = self.safety.state
+        state = self._safety.state
         rate = self._messages / ((now - self._counted_at) or math.inf)
         self._messages, self._counted_at = 0, now
         age = "none yet" if self._last_message is None else f"{now - self._last_message:.3f}"
         details = {
             "Joy rate [Hz]": f"{rate:.1f}",
             "Age of the last Joy [s]": age,
-            "Dead-man button": self.mapping.deadman,
+            "Dead-man button": self._mapping.deadman,
         }
         return state in (State.ARMED, State.DRIVING), sentence(state, self._parameters), details

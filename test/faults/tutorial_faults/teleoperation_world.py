@@ -93,7 +93,7 @@ class TeleoperationWorld(World):
 
     def happen(self, event):
         self._woken.clear()
-        due, before, was_late = self._machine.safety.due, self._sent, self._is_silent
+        due, before, was_late = self._machine.due, self._sent, self._is_silent
         answer = self._answer(event, was_late)
         if answer is not None:
             yield from self._judge_velocity(answer)
@@ -113,7 +113,7 @@ class TeleoperationWorld(World):
             self._all_released = self._all_released and not was_late
             if moves(self._sent) and self.now >= self._still_s:
                 self._lose()
-            return self._machine.safety.tick(self.now)
+            return self._machine.tick(self.now)
         if event == LEFT:
             self._lose()
             return self._machine.left(self.now)
@@ -177,7 +177,7 @@ class TeleoperationWorld(World):
 
     def _must_stand(self, event):
         """Yield what is wrong with the velocity that the robot keeps until the next one."""
-        arms, due = self._p.arm_on_neutral, self._machine.safety.due
+        arms, due = self._p.arm_on_neutral, self._machine.due
         is_due = isinstance(event, Message) and due <= self.now < self._held_s
         for must_stand, why in (
             (self.now >= self._until_s and not is_due, "no dead-man button is held"),
@@ -189,15 +189,15 @@ class TeleoperationWorld(World):
             if must_stand and moves(self._sent):
                 yield "d", f"no stop: {why}"
         stands = self._all_released if arms else not moves(self._sent)
-        if self._machine.safety.released and self._has_moved and not stands:
+        if self._machine.released and self._has_moved and not stands:
             yield "b", "a robot that was lost is driven on"
 
     def _must_watch(self, event, due, answer):
         """Yield what is wrong with the time of the next call, and with repeated stops."""
-        safety, p = self._machine.safety, self._p
-        if safety.due < due and not self._woken:
+        machine, p = self._machine, self._p
+        if machine.due < due and not self._woken:
             yield "d", "something is due sooner, and the node is not woken"
-        is_last = safety.due > self.now + 1.0 / p.output_rate
+        is_last = machine.due > self.now + 1.0 / p.output_rate
         if self._latched and is_last:
             yield "e", "a robot that was stopped by its button is left to other inputs"
         if event == TICK and self._never_sleeps():
@@ -209,10 +209,10 @@ class TeleoperationWorld(World):
     def _never_sleeps(self):
         machine = copy.deepcopy(self._machine)
         for _ in range(self._p.stop_messages):
-            if machine.safety.due > self.now:
+            if machine.due > self.now:
                 return False
-            machine.safety.tick(self.now)
-        return machine.safety.due <= self.now
+            machine.tick(self.now)
+        return machine.due <= self.now
 
     def _must_go_on(self, event, answer, was_late):
         """Yield (h): a dead-man button that is held, in time and armed, drives."""

@@ -65,7 +65,7 @@ def test_a_stick_held_for_eight_seconds_is_stopped_unless_it_trembles(step):
     sent = []
     for i in range(1, 161):
         now = i * 0.05
-        sent += [machine.safety.tick(now), machine.joy((0.0, 1.0 - step * (i % 2)), (1, 0, 0), now)]
+        sent += [machine.tick(now), machine.joy((0.0, 1.0 - step * (i % 2)), (1, 0, 0), now)]
         if now == 2.6:  # half a second before the stop
             assert machine.summary(now)[1].startswith("driving: ") is (step == 0), "no warning"
     assert sent[2:].count((0,) * 6) == 5 * (step == 0)  # ~stop_messages
@@ -82,11 +82,11 @@ def test_the_stop_button_is_named_until_it_is_reset_and_sends_zeros_meanwhile():
     state = machine.summary(0.4)[1]
     assert state.startswith("stopped: the stop button") and "press button 2" in state
     # Zeros at ~output_rate, so that no other source of a multiplexer drives meanwhile.
-    zeros = over_time(machine.safety, 0.6, 10.6)
+    zeros = over_time(machine, 0.6, 10.6)
     assert len(zeros) > 190 and {velocity for _, velocity in zeros} == {(0,) * 6}
     machine.joy((0.0, 1.0), (1, 0, 1), 11.0)
-    over_time(machine.safety, 11.0, 11.05)
-    assert over_time(machine.safety, 11.05, 20.0) == []
+    over_time(machine, 11.0, 11.05)
+    assert over_time(machine, 11.05, 20.0) == []
     assert machine.joy(*HELD, 20.0) is None  # reset, but not released
     machine.joy(*RELEASED, 20.2)
     assert machine.joy(*HELD, 20.3)[0] == 1.0
@@ -103,6 +103,6 @@ def test_diagnostics_tell_the_state_the_rate_and_the_age():
     details = {rate: "42.1", age: "0.400", deadman: "0"}
     assert machine.summary(102.4) == (True, "driving", details)
     assert machine.summary(102.4)[2][rate] == "0.0"  # asked for twice at once
-    machine.safety.tick(105.0)
+    machine.tick(105.0)
     assert machine.summary(105.5)[:2] == (False, "stopped: no message for 0.5 s")
     assert machine.suspended(1, 106.0) is None and "suspended" in warnings[-1]

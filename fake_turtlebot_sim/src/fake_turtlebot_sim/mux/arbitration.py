@@ -54,7 +54,7 @@ class Sender:
         self._may_be_late = publisher.is_stick or publisher.is_remote
         self.heard_s = self.doubt_s = -inf  # the last command; the first one after a silence
         self.late_until_s = self.rests_since_s = -inf
-        self.moves = False  # the last command was not zero
+        self.moves = False  # the last command was not zero (node_kit.rules.released)
         self.waiting: Velocity | None = None  # the first command after a silence
 
     def judge(self, velocity: Velocity, now: float) -> Verdict:

@@ -85,8 +85,7 @@ class Joy2Twist:
         report_bad_messages(self.console.warn)
         self.timer = threading.Event()  # set to have the time looked at now
         self.teleoperation = Teleoperation(parameters, self.console.warn, self.timer.set)
-        self.safety = self.teleoperation.safety
-        for line in self.teleoperation.mapping.describe():
+        for line in self.teleoperation.describe():
             self.console.info(line)
         self.uses_age = parameters.max_joy_age > 0
         # ROS time [ns]; without simulated time read the short way, as it is for every message.
@@ -130,7 +129,7 @@ class Joy2Twist:
     def publish(self, velocity: Velocity | None) -> None:
         """Publish a velocity, or None, until the node is stopped."""
         if not self.stopped.is_set():
-            self.cmd_vel.publish(velocity, self.safety.released, self.hold_new)
+            self.cmd_vel.publish(velocity, self.teleoperation.released, self.hold_new)
 
     def watch(self) -> None:
         """Stop the robot when the joystick falls silent or leaves, and repeat what is to repeat.
@@ -151,11 +150,11 @@ class Joy2Twist:
             self.notice_suspension(now)
             if self.joy.get_num_connections() == 0:
                 self.publish(self.teleoperation.left(now))
-            self.publish(self.safety.tick(now))
+            self.publish(self.teleoperation.tick(now))
             self.teleoperation.listeners(self.cmd_vel.listeners, self.cmd_vel.name, now)
             self.timer.clear()
-            due = min(self.safety.due, now + LOOK_ROUND_S)
-            is_new = self.safety.state is not self.diagnosed
+            due = min(self.teleoperation.due, now + LOOK_ROUND_S)
+            is_new = self.teleoperation.state is not self.diagnosed
         wanted = self.may_diagnose.ready(now) or (is_new and self.may_diagnose_new.ready(now))
         if wanted and self.diagnostics.publisher.get_num_connections():
             self.diagnostics.force_update()
@@ -165,7 +164,7 @@ class Joy2Twist:
         """Fill in the diagnostic status, a DiagnosticStatusWrapper."""
         with self.lock:
             well, state, details = self.teleoperation.summary(monotonic())
-            self.diagnosed = self.safety.state
+            self.diagnosed = self.teleoperation.state
         status.summary(DiagnosticStatus.OK if well else DiagnosticStatus.WARN, state)
         for name, value in details.items():
             status.add(name, value)

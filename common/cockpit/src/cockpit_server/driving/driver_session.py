@@ -13,6 +13,7 @@ from typing import Callable, NamedTuple, Tuple
 
 from cockpit_server.clients import RefusedError
 from gamepad.gamepads import triggers_by_count
+from node_kit.rules.released import are_released
 
 SILENCE_S = 0.2  # without a fresh input the operator is lost
 LATE_S = 0.1  # an input that was longer on its way than the fastest one by this is dropped
@@ -24,7 +25,6 @@ AWAY_S = 5.0  # without any fresh input the session is free again
 KEPT_BEATS = 16  # [beats] as many as are sent in several SILENCE_S
 # The page's clock may run slower than ours by this; crystals differ by a tenth of it.
 CLOCK_DRIFT = 1e-3
-NEUTRAL = 0.1  # a stick that was let go is within this, as joy2twist has it
 Axes = Tuple[float, ...]
 Buttons = Tuple[int, ...]
 
@@ -61,7 +61,7 @@ def neutral_of(axes: Axes, buttons: Buttons) -> tuple[Axes, Buttons]:
 
 def is_neutral(axes: Axes, buttons: Buttons) -> bool:
     rest, _ = neutral_of(axes, buttons)
-    return not any(buttons) and all(abs(a - r) <= NEUTRAL for a, r in zip(axes, rest))
+    return not any(buttons) and are_released(a - r for a, r in zip(axes, rest))
 
 
 class DriverSession:

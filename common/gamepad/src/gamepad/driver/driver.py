@@ -99,7 +99,8 @@ class Driver:
         """Return the messages to publish at a loss: a neutral one, if any was before.
 
         The next gamepad sends nothing until the user touches it. What the kernel says of a
-        gamepad at opening may be made up, and a made-up neutral position would arm a robot.
+        gamepad at opening may be made up, and a made-up neutral position would arm a robot
+        (node_kit.rules.released).
         """
         messages = [self._state.neutral(self._triggers)] if self._state and self._told else []
         self._state, self._told, self._mute = None, False, True
