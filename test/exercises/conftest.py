@@ -10,7 +10,7 @@ import pytest
 import stored
 from edits import literal  # noqa: F401
 
-from tutorial_check.checking.examination import examine
+from tutorial_check.examining.examination import examine
 from tutorial_check.submission.order import Order
 
 HERE = Path(__file__).resolve().parent

@@ -10,9 +10,9 @@ from pathlib import Path
 
 from recorder_code import REPOSITORY, code_hash
 
-from tutorial_check.checking.judging import judge
 from tutorial_check.course.definition import read_course
-from tutorial_check.recording.data import as_json, from_json
+from tutorial_check.data.json_data import as_json, from_json
+from tutorial_check.examining.judging import judge
 from tutorial_check.recording.launcher import prepared
 from tutorial_check.submission.order import Order, Reply
 

@@ -15,7 +15,7 @@ from test_awkward import PYTHONPATH, command, examines
 from test_endings import path_without_namespaces
 from test_mistakes import OF_HANDOUT
 
-from tutorial_check.checking.examination import examine
+from tutorial_check.examining.examination import examine
 from tutorial_check.submission.order import Order
 from tutorial_testing.processes import Program, command_line, descendants, signal_all
 from tutorial_testing.two_hosts.network import Network

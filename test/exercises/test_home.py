@@ -7,7 +7,7 @@ import pytest
 from edits import built, put
 from solution import LAUNCH_BAG, TALKER, J
 
-from tutorial_check.checking.examination import examine
+from tutorial_check.examining.examination import examine
 from tutorial_check.sandbox import bubblewrap
 from tutorial_check.submission.order import Order
 

@@ -10,7 +10,7 @@ import pytest
 from edits import put, write
 from solution import JOY2TWIST, TALKER
 
-from tutorial_check.checking.examination import examine
+from tutorial_check.examining.examination import examine
 from tutorial_check.report.text import lines_of
 from tutorial_check.sandbox import bubblewrap
 from tutorial_check.submission.order import Order

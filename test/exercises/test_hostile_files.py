@@ -9,8 +9,8 @@ import subprocess
 import pytest
 from edits import write
 
-from tutorial_check.checking.examination import examine
-from tutorial_check.processes.errors import CannotCheck
+from tutorial_check.errors import CannotCheck
+from tutorial_check.examining.examination import examine
 from tutorial_check.sandbox.privileges import MOST_CPU_S, MOST_MB
 from tutorial_check.submission.order import Order
 

@@ -8,8 +8,8 @@ import mistakes_world
 import pytest
 from edits import apply
 
-from tutorial_check.checking.examination import examine
 from tutorial_check.course.definition import read_course
+from tutorial_check.examining.examination import examine
 from tutorial_check.report.text import lines_of
 from tutorial_check.submission.order import Order
 

@@ -12,8 +12,8 @@ from notes import NOTES
 from test_mistakes import is_reported
 
 from tutorial_check.checking.checks import checks_of
-from tutorial_check.checking.examination import examine
 from tutorial_check.course.definition import read_course
+from tutorial_check.examining.examination import examine
 from tutorial_check.report.text import lines_of
 from tutorial_check.submission.order import Order
 from tutorial_testing.processes import REPOSITORY

@@ -9,7 +9,7 @@ from functools import lru_cache
 import pytest
 
 from tutorial_check.cluster import dask_cluster as cluster
-from tutorial_check.processes.errors import CannotCheck
+from tutorial_check.errors import CannotCheck
 from tutorial_check.sandbox import bubblewrap, landlock
 from tutorial_check.sandbox.bubblewrap import Isolation
 from tutorial_testing.isolation import old_bubblewrap

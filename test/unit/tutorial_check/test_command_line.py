@@ -6,7 +6,7 @@ import pytest
 
 from tutorial_check.checking.results import OK, UNREACHED, WRONG, Outcome, Result
 from tutorial_check.commands import check as command
-from tutorial_check.commands import program
+from tutorial_check.commands import command_line
 from tutorial_check.commands.options import parse
 from tutorial_check.commands.watch import stamps
 from tutorial_check.report.formats import FORMATS
@@ -62,7 +62,7 @@ def test_an_option_says_which_command_is_meant(words, command, capsys):
         shown = capsys.readouterr().out
         assert all(word.partition("=")[0] in shown for word in words if word.startswith("-"))
         assert ("--show-variant NAME" in shown) == (command == "show-variant" or not given)
-    assert command in program.COMMANDS
+    assert command in command_line.COMMANDS
 
 
 @pytest.mark.parametrize(
@@ -104,7 +104,7 @@ def main(monkeypatch):
         monkeypatch.setattr(sys, "argv", ["check", *UNDERLAY, *map(str, words)])
         monkeypatch.setenv("TUTORIAL_IN", "ws")
         with pytest.raises(SystemExit) as ended:
-            program.main()
+            command_line.main()
         return ended.value.code
 
     return called
@@ -146,7 +146,7 @@ def test_a_reader_that_has_seen_enough_is_no_fault(main, monkeypatch, capsys):
         raise BrokenPipeError
 
     monkeypatch.setattr(sys, "stdout", sys.stdout)  # main() gives it up
-    monkeypatch.setattr(program.bubblewrap, "lacking", list)  # on any machine
+    monkeypatch.setattr(command_line.bubblewrap, "lacking", list)  # on any machine
     assert main(closed) == 2 and not capsys.readouterr().err
 
 

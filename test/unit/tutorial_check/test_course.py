@@ -9,7 +9,7 @@ from tutorial_check.checking.packages import package_of
 from tutorial_check.checking.results import UNREACHED, Outcome, Result, Wrong
 from tutorial_check.commands.self_test import complaint_of, patch
 from tutorial_check.course.definition import read_course
-from tutorial_check.processes.errors import CannotCheck
+from tutorial_check.errors import CannotCheck
 
 YAML = 'title: T\ndocument: sheet\nexercises: {"2": two, "1": {title: one, points: 3}}\n'
 CHECKS = '''

@@ -10,13 +10,13 @@ from types import SimpleNamespace
 import pytest
 from roslaunch.loader import Loader
 
-from tutorial_check.checking.files import File, Script
-from tutorial_check.checking.launches import launch_file
+from tutorial_check.checking.launch_file import launch_file
+from tutorial_check.checking.package_files import File, Script
 from tutorial_check.checking.results import Wrong
-from tutorial_check.processes.errors import CannotCheck, CutShort
+from tutorial_check.errors import CannotCheck, CutShort
 from tutorial_check.recording import client_node
 from tutorial_check.recording.client import Answer, Client, Seen, Transform
-from tutorial_check.recording.launch_facts import facts_of
+from tutorial_check.recording.launch_file_reader import facts_of
 from tutorial_check.recording.launch_files import Launch
 from tutorial_testing.waiting import wait_for
 

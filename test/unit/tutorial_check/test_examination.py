@@ -6,8 +6,8 @@ import threading
 
 import pytest
 
-from tutorial_check.checking import examination
-from tutorial_check.processes.errors import CannotCheck
+from tutorial_check.errors import CannotCheck
+from tutorial_check.examining import examination
 from tutorial_check.recording import worker_process
 from tutorial_check.submission.order import Order
 from tutorial_testing.waiting import wait_for
@@ -15,7 +15,7 @@ from tutorial_testing.waiting import wait_for
 # In place of judging.examine(); Linux counts the time of a processor in whole seconds.
 PROCESS = """#!/usr/bin/python3
 import os, re, resource, sys, time
-from tutorial_check.checking import examination, judging
+from tutorial_check.examining import examination, judging
 from tutorial_check.sandbox import privileges
 
 privileges.OF_READER[resource.RLIMIT_CPU] = 1

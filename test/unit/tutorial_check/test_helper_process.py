@@ -4,7 +4,7 @@ import os
 
 import pytest
 
-from tutorial_check.processes.errors import CannotCheck
+from tutorial_check.errors import CannotCheck
 from tutorial_check.processes.helper_process import Helper
 
 

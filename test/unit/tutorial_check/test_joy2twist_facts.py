@@ -6,8 +6,8 @@ import pytest
 
 from courses.handout.driving import answer_diagnoses as a
 from courses.handout.driving import connection_diagnoses as c
-from courses.handout.driving.node import Joy2TwistNode, repetition
-from courses.handout.driving.run import Connections, Joy2TwistRun, NumberedJoys, Stream
+from courses.handout.driving.joy2twist_node import Joy2TwistNode, repetition
+from courses.handout.driving.joy2twist_run import Connections, Joy2TwistRun, NumberedJoys, Stream
 from courses.handout.task import CMD_VEL, JOY, JoystickTask
 from tutorial_check import Wrong, first_of
 from tutorial_check.submission.python_facts import PythonFacts

@@ -7,10 +7,10 @@ from types import SimpleNamespace
 
 import pytest
 
-from tutorial_check.checking import judging
-from tutorial_check.checking.ask_once import AskOnce
 from tutorial_check.checking.checks import Check
-from tutorial_check.processes.errors import CannotCheck
+from tutorial_check.errors import CannotCheck
+from tutorial_check.examining import judging
+from tutorial_check.examining.ask_once import AskOnce
 from tutorial_check.recording import worker_process
 from tutorial_check.sandbox import bubblewrap
 from tutorial_check.submission.order import Order, Question, Reply

@@ -6,7 +6,7 @@ import pytest
 
 from tutorial_check.checking.results import NOTE, OK, WRONG, Outcome, Result
 from tutorial_check.course.definition import read_course
-from tutorial_check.processes.errors import CannotCheck
+from tutorial_check.errors import CannotCheck
 from tutorial_check.report.memory import AGAIN, ALWAYS, LATER, NEVER, Memory, show_solution
 
 WRONG_SIGN = Result("C16", WRONG, "axes", seen="angular.z = -1.00 * axes[0]", hint="no minus")

@@ -7,7 +7,7 @@ import pytest
 from tutorial_check.checking.checks import Check, CheckRunner, checks_of
 from tutorial_check.checking.results import OK, UNREACHED, WRONG, Note, Outcome, Wrong
 from tutorial_check.course.definition import read_course
-from tutorial_check.processes.errors import CannotCheck
+from tutorial_check.errors import CannotCheck
 
 NEEDS = {"A": ("1", ()), "B": ("1", ("A",)), "C": ("2", ("B",)), "D": ("2", ())}
 CHECKS = [Check(name, one, name, one, print, needs) for name, (one, needs) in NEEDS.items()]

@@ -10,7 +10,7 @@ import yaml
 
 from tutorial_check.commands.package import package
 from tutorial_check.course.definition import read_course
-from tutorial_check.processes.errors import CannotCheck
+from tutorial_check.errors import CannotCheck
 
 SQUARE = Path(__file__).resolve().parents[3] / "common/courses/square"
 

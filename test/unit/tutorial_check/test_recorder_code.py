@@ -16,7 +16,7 @@ def test_a_change_of_a_check_or_a_report_makes_no_recording_old(recorder):
 @pytest.mark.parametrize("recorder", RECORDERS)
 def test_a_change_of_what_runs_programs_or_reads_them_makes_recordings_old(recorder):
     checker = ("processes.runner", "processes.cpu_clock", "submission.python_facts")
-    imported_later = ("recording.peer", "recording.gamepad")  # within functions
+    imported_later = ("recording.peer", "recording.virtual_gamepad")  # within functions
     needed = {f"tutorial_check.{name}" for name in (*checker, *imported_later)}
     needed |= {recorder, "courses.handout.task", "gamepad.io.pads"}
     assert needed <= closure(recorder)
@@ -41,5 +41,5 @@ def test_a_name_stands_for_the_module_that_defines_it(base, name, modules):
 
 def test_a_change_of_what_chooses_the_next_joy_makes_recordings_old():
     driving = "courses.handout.driving"
-    chosen_by = {f"{driving}.{name}" for name in ("evidence", "joys", "replies", "run")}
+    chosen_by = {f"{driving}.{name}" for name in ("evidence", "joys", "replies", "joy2twist_run")}
     assert chosen_by <= closure(f"{driving}.record")

@@ -1,5 +1,6 @@
 """Recordings become JSON and come back equal."""
 
+import importlib
 import json
 
 import pytest
@@ -7,15 +8,16 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from courses.handout.driving.bag import Bag
-from courses.handout.driving.run import Joy2TwistRun
+from courses.handout.driving.joy2twist_run import Joy2TwistRun
 from courses.handout.gamepad.record import Stick
-from courses.handout.launching.record import LaunchRun
+from courses.handout.launch_runs.record import LaunchRun
 from courses.handout.node_class.record import Alone, Endings
 from courses.handout.remapping.record import Remap
 from courses.handout.simulated_robot.record import Follow
 from courses.handout.talker_listener.record import Talk
 from courses.handout.world import record as s7
-from tutorial_check.recording.data import as_json, from_json
+from tutorial_check.data import recorders
+from tutorial_check.data.json_data import as_json, from_json
 
 KINDS = [Talk, Bag, Follow, Stick, Joy2TwistRun, LaunchRun, Remap, Alone, Endings]
 KINDS += [s7.Presses, s7.RoomDrive]
@@ -34,3 +36,10 @@ def test_a_recording_comes_back_from_json(kind, data):
 def test_another_text_is_no_recording(text):
     with pytest.raises(ValueError, match="no Stick"):
         from_json(Stick, json.loads(text))
+
+
+@pytest.mark.parametrize("word", ["BUILT", "OWN_BUILT", "INSTALLED", "LAUNCH_FILES"])
+def test_a_name_of_a_recorder_leads_to_it(word):
+    named = getattr(recorders, word)
+    module, _, name = named.name.partition(":")
+    assert recorders.name_of(getattr(importlib.import_module(module), name)) == named

@@ -12,7 +12,7 @@ import pytest
 from tutorial_check.checking.results import Wrong
 from tutorial_check.checking.submission import Submission
 from tutorial_check.course.tasks import Task
-from tutorial_check.processes.errors import CannotCheck, CutShort
+from tutorial_check.errors import CannotCheck, CutShort
 from tutorial_check.recording.launcher import must_start_programs
 from tutorial_check.submission.order import Question, Reply
 

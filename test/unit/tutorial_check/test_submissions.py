@@ -13,7 +13,7 @@ import pytest
 from tutorial_check.checking.results import OK, UNREACHED, Outcome, Result
 from tutorial_check.commands import check_all as submissions
 from tutorial_check.course.definition import read_course
-from tutorial_check.processes.errors import CannotCheck
+from tutorial_check.errors import CannotCheck
 from tutorial_check.report.memory import digest_of_checks
 from tutorial_testing.waiting import wait_for
 

@@ -8,7 +8,7 @@ from courses.handout.talker_listener import checks as judge
 from courses.handout.talker_listener.record import STRINGS, Talk
 from courses.handout.task import BEGINNER
 from tutorial_check.checking.results import Wrong
-from tutorial_check.processes.program import Ran
+from tutorial_check.processes.started_program import Ran
 
 LISTENER = """from std_msgs.msg import String
 def callback(data):

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from courses.handout.task import JoystickTask
 from tutorial_check.course.definition import read_course
 from tutorial_check.course.tasks import drawn, read_variant, sheet, variant_of
-from tutorial_check.processes.errors import CannotCheck
+from tutorial_check.errors import CannotCheck
 
 COURSE = read_course()
 ALL = yaml.safe_load(

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from tutorial_check.checking.manifest_errors import unreadable
-from tutorial_check.processes.errors import CannotCheck
-from tutorial_check.submission import files, handed_in, packages
+from tutorial_check.errors import CannotCheck
+from tutorial_check.submission import handed_in, packages, submission_files
 from tutorial_check.submission.handed_in import copy, find_layout, hand_in, unpack
 from tutorial_check.submission.packages import Layout, packages_below
 
@@ -201,7 +201,7 @@ def test_a_launch_file_or_cmakelists_of_any_text_is_read_at_once(tmp_path, text)
     (tmp_path / "a.launch").write_text(text * 99_999)
     began_s = time.process_time()
     assert handed_in.named_outside(tmp_path) == []
-    assert not files.NEEDS_BUILD.search(text * 99_999)
+    assert not submission_files.NEEDS_BUILD.search(text * 99_999)
     assert time.process_time() - began_s < 60.0
 
 

@@ -9,8 +9,8 @@ from tutorial_check import Note, Wrong, first_of
 
 from ..task import AXES
 from .connection_diagnoses import crashed, ended_early, hidden_crash
+from .joy2twist_node import Joy2TwistNode
 from .joys import COUNT, ROUNDED
-from .node import Joy2TwistNode
 from .probe_diagnoses import SILENCES
 
 MOST_STRAY_ZEROS = 2  # in a row of Joys

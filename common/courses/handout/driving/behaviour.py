@@ -8,9 +8,9 @@ from tutorial_check import Note, Submission, Wrong, must_pass
 
 from . import answer_diagnoses as answers
 from . import connection_diagnoses as connections
+from .joy2twist_node import Joy2TwistNode
 from .joys import COUNT
-from .node import Joy2TwistNode
-from .program import main_script
+from .main_script import main_script
 from .record import drive
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from tutorial_check import MASTER_GONE, CutShort, Note, Wrong, wrong_of
 
-from .node import Joy2TwistNode
+from .joy2twist_node import Joy2TwistNode
 
 
 def crashed(node: Joy2TwistNode) -> Wrong | None:

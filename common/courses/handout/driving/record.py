@@ -12,8 +12,8 @@ from tutorial_check import GRACE_S, START_S, RosSession, Workspace
 from ..task import CMD_VEL, JOY, NEUTRAL, PACKAGE, Joy
 from . import joys as sent_joys
 from .evidence import FIELDS, LINEAR, RIGHT, rule_of
+from .joy2twist_run import Connections, Ending, Joy2TwistRun, NumberedJoys, Stream
 from .joys import COUNT
-from .run import Connections, Ending, Joy2TwistRun, NumberedJoys, Stream
 
 RATE, STREAM_S = 50.0, 2.5
 RATED = frozenset(["4.3", "6.2"])  # the exercises that look at the rate

@@ -5,7 +5,7 @@ from __future__ import annotations
 from tutorial_check import Note, Script, Submission, check, check_file, find_script
 
 from ..driving import behaviour
-from ..driving.program import check_manifest, main_script
+from ..driving.main_script import check_manifest, main_script
 from ..driving.record import drive
 from ..task import NAME, PACKAGE
 from .record import loaded

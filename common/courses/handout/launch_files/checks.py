@@ -8,12 +8,21 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Sequence
 
-from tutorial_check import Node, Note, PythonFacts, Submission, Wrong, attribute, check, must_pass
+from tutorial_check import (
+    LaunchNode,
+    Note,
+    PythonFacts,
+    Submission,
+    Wrong,
+    attribute,
+    check,
+    must_pass,
+)
 
 from ..driving.bag_checks import check_recording
-from ..launching.files import BAG, JOY_HINT, STICK, HandoutLaunch, check_launch, copy_bag
-from ..launching.record import LaunchRun, Plan
-from ..launching.runs import OWN_HINT, ROBOT_HINT, fault_of, plan_of, topic_of
+from ..launch_runs.handout_launch import BAG, JOY_HINT, STICK, HandoutLaunch, check_launch, copy_bag
+from ..launch_runs.plans import OWN_HINT, ROBOT_HINT, fault_of, plan_of, topic_of
+from ..launch_runs.record import LaunchRun, Plan
 from ..task import CMD_VEL, JOY, PACKAGE
 from .record import BAG_S, bag_run, stick_run
 
@@ -71,7 +80,7 @@ class Player:
     """The node of launch_bag that plays a recording."""
 
     file: HandoutLaunch
-    node: Node
+    node: LaunchNode
     words: Sequence[str]  # its arguments
 
     @property

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from tutorial_check import ODOM, Workspace
 
-from ..launching.record import LaunchRun, Plan, RunningLaunch, drives_forwards, plug_in_for
+from ..launch_runs.record import LaunchRun, Plan, RunningLaunch, drives_forwards, plug_in_for
 from ..task import NEUTRAL
 
 BAG_S = 1.2  # length of the recording that takes the place of the student's, and is played again

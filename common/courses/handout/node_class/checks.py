@@ -23,7 +23,7 @@ from tutorial_check import (
 )
 
 from ..driving import behaviour
-from ..driving.program import check_manifest
+from ..driving.main_script import check_manifest
 from ..task import PACKAGE
 from .class_text import DIAGNOSES, ClassProgram, program
 from .record import LAUNCH, End, Endings, alone, endings

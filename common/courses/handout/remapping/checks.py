@@ -8,9 +8,9 @@ from typing import Sequence
 
 from tutorial_check import Submission, Wrong, check, last_lines, must_pass
 
-from ..launching.files import JOY_HINT, REAL, TURTLEBOT, HandoutLaunch, check_launch
-from ..launching.record import Plan
-from ..launching.runs import OWN_HINT, fault_of, plan_of, topic_of, traced
+from ..launch_runs.handout_launch import JOY_HINT, REAL, TURTLEBOT, HandoutLaunch, check_launch
+from ..launch_runs.plans import OWN_HINT, fault_of, plan_of, topic_of, traced
+from ..launch_runs.record import Plan
 from ..task import CMD_VEL, JOY
 from .record import TELEOP, Remap, real_run, remap_run
 

@@ -9,7 +9,7 @@ from typing import Tuple
 from tutorial_check import CannotCheck, Topics, Workspace
 
 from ..driving.record import rest
-from ..launching.record import LaunchRun, Plan, RunningLaunch, drives_forwards, plug_in_for
+from ..launch_runs.record import LaunchRun, Plan, RunningLaunch, drives_forwards, plug_in_for
 
 TELEOP, ACTIVE = "/cmd_vel_mux/input/teleop", "/cmd_vel_mux/active"
 

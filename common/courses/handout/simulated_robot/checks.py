@@ -5,7 +5,7 @@ from __future__ import annotations
 from tutorial_check import Note, Submission, Wrong, check, crash
 
 from ..driving.evidence import ANGULAR, LINEAR
-from ..driving.program import main_script
+from ..driving.main_script import main_script
 from ..task import PACKAGE
 from .record import agree, follow
 

@@ -10,10 +10,10 @@ from tutorial_check.checking.builds import build_output, cmake_of, must_build
 from tutorial_check.checking.causes import is_lacking, meant, packages_of_ros, with_import
 from tutorial_check.checking.checks import check
 from tutorial_check.checking.crashes import cause_of, crash, traceback_of
-from tutorial_check.checking.files import File, Script
 from tutorial_check.checking.launch_errors import package_hint
-from tutorial_check.checking.launches import LaunchFile, find_launch, launch_file
+from tutorial_check.checking.launch_file import LaunchFile, find_launch, launch_file
 from tutorial_check.checking.manifest_errors import must_be_unique, unreadable
+from tutorial_check.checking.package_files import File, Script
 from tutorial_check.checking.packages import must_be_launchable, package_of
 from tutorial_check.checking.programs import (
     find_script,
@@ -26,14 +26,12 @@ from tutorial_check.checking.script_faults import check_file
 from tutorial_check.checking.submission import Submission
 from tutorial_check.checking.texts import read_xml
 from tutorial_check.course.tasks import Task, Variant
-from tutorial_check.processes.errors import MASTER_GONE, CannotCheck, CutShort
-from tutorial_check.processes.program import Program, Ran
+from tutorial_check.data.recordings import Built, Heard, HeardText, LaunchNode, Ran, Topics
+from tutorial_check.errors import MASTER_GONE, CannotCheck, CutShort
 from tutorial_check.processes.runner import GRACE_S
+from tutorial_check.processes.started_program import Program
 from tutorial_check.recording.build import built, own_built
-from tutorial_check.recording.builder import Built
 from tutorial_check.recording.client import Answer, Client, Seen, Transform
-from tutorial_check.recording.data import Heard, HeardText, Topics
-from tutorial_check.recording.launch_facts import Node
 from tutorial_check.recording.launch_files import Launch, read_launch_files
 from tutorial_check.recording.ros_session import SETTLE_S, START_S, RosSession
 from tutorial_check.recording.simulated_robot import (
@@ -45,22 +43,22 @@ from tutorial_check.recording.simulated_robot import (
     has_moved,
 )
 from tutorial_check.recording.workspace import Workspace
-from tutorial_check.submission.files import SubmissionFiles
 from tutorial_check.submission.launch_xml import GAPS, attribute, line_of, place_of
 from tutorial_check.submission.manifests import is_stand_in
 from tutorial_check.submission.packages import Package, packages_beside, underlays
 from tutorial_check.submission.python_facts import ClassFacts, PythonFacts, shows, with_bases
 from tutorial_check.submission.python_text import flipped_anonymous, unmasked, without_name
 from tutorial_check.submission.student_files import put_file
+from tutorial_check.submission.submission_files import SubmissionFiles
 from tutorial_check.submission.tracebacks import first_traceback, last_lines
 
 if TYPE_CHECKING:  # its module loads ROS
-    from tutorial_check.recording.gamepad import Gamepad as Gamepad
+    from tutorial_check.recording.virtual_gamepad import Gamepad as Gamepad
 
 __all__ = [
     "BUMPER", "GAPS", "GRACE_S", "MASTER_GONE", "ODOM", "SETTLE_S", "START_S", "TRUTH", "Answer",
     "Built", "CannotCheck", "ClassFacts", "Client", "CutShort", "File", "Heard", "HeardText",
-    "Launch", "LaunchFile", "Node", "Note", "Package", "Program", "PythonFacts", "Ran",
+    "Launch", "LaunchFile", "LaunchNode", "Note", "Package", "Program", "PythonFacts", "Ran",
     "RosSession", "Sample", "Script", "Seen", "SimulatedRobot", "Submission", "SubmissionFiles",
     "Task", "Topics", "Transform", "Variant", "Workspace", "Wrong", "attribute", "build_error",
     "build_output", "built", "cause_of", "check", "check_file", "cmake_of", "crash", "find_launch",

@@ -1,6 +1,6 @@
 """python3 -m tutorial_check: see commands/program.py."""
 
-from tutorial_check.commands.program import main
+from tutorial_check.commands.command_line import main
 
 if __name__ == "__main__":
     main()

@@ -5,8 +5,8 @@ from __future__ import annotations
 from tutorial_check.checking.build_errors import build_error
 from tutorial_check.checking.results import Wrong
 from tutorial_check.checking.submission import Submission
-from tutorial_check.recording.build import built, own_built
-from tutorial_check.recording.builder import Built
+from tutorial_check.data.recorders import BUILT, OWN_BUILT
+from tutorial_check.data.recordings import Built
 from tutorial_check.submission.packages import Package
 
 
@@ -22,7 +22,7 @@ def must_build(submission: Submission) -> Built:
     """Return what catkin_make has built. Raises Wrong."""
     for package in submission.needed:
         cmake_of(package)
-    made = submission.recording(built)
+    made = submission.recording(BUILT)
     if made.code is None:
         hint = "catkin_make in your workspace"
         raise Wrong("catkin_make ends", "it runs for more than two minutes", hint=hint)
@@ -38,7 +38,7 @@ def must_build(submission: Submission) -> Built:
 
 def build_output(submission: Submission) -> str:
     """Return what catkin_make prints of the packages of the exercises, whatever others do."""
-    made = submission.recording(built)
+    made = submission.recording(BUILT)
     if not made.code or len(submission.needed) == len(submission.packages):
         return made.output
-    return submission.recording(own_built).output
+    return submission.recording(OWN_BUILT).output

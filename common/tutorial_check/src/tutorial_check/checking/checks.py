@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import functools
 import re
-import threading
 from dataclasses import dataclass, replace
 from typing import Callable, Iterable, Iterator, TypeVar, Union, cast
 
@@ -20,7 +19,7 @@ from tutorial_check.checking.results import (
 )
 from tutorial_check.checking.submission import Submission
 from tutorial_check.course.definition import FILE, Course, load
-from tutorial_check.processes.errors import CannotCheck, CutShort, FileTooLarge, fault
+from tutorial_check.errors import CannotCheck, CutShort, FileTooLarge, fault
 
 LINE = re.compile(r":\d+$")  # line number at the end of a place
 Verdict = Union[str, Note, None]
@@ -28,7 +27,6 @@ CheckFunction = Callable[[Submission], Verdict]
 Need = Union[Callable[..., object], str]  # a check, or its id, where another section has it
 _Function = TypeVar("_Function", bound=Callable[..., object])
 _checks: list[Check] = []  # all loaded courses
-_loading = threading.Lock()
 
 
 @dataclass(frozen=True)
@@ -102,14 +100,12 @@ def _ids_of(check_id: str, needs: Iterable[Need]) -> tuple[str, ...]:
     return tuple(names)
 
 
-def checks_of(course: Course) -> list[Check]:
-    """Load the files of a course, once; return their checks, in its order. Raises CannotCheck."""
-    with _loading:  # several threads may ask
-        return _load(course)
-
-
 @functools.lru_cache(maxsize=8)
-def _load(course: Course) -> list[Check]:
+def checks_of(course: Course) -> list[Check]:
+    """Load the files of a course, once; return its checks in order. Raises CannotCheck.
+
+    Call it before threads start: while one loads a course, another would see half of it.
+    """
     checks: dict[str, Check] = {}
     for check in _registered(load(course)):
         exercise = course.exercise_of(check.section)

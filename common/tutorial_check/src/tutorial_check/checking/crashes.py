@@ -8,8 +8,8 @@ from pathlib import Path
 from tutorial_check.checking.causes import explain, hider, traced
 from tutorial_check.checking.results import Wrong
 from tutorial_check.checking.submission import Submission
-from tutorial_check.processes.program import Ran
-from tutorial_check.recording.build import built
+from tutorial_check.data.recorders import BUILT
+from tutorial_check.data.recordings import Ran
 from tutorial_check.submission.python_facts import ClassFacts, PythonFacts
 from tutorial_check.submission.tracebacks import Traceback, first_traceback, last_lines
 
@@ -41,7 +41,7 @@ def cause_of(
     if hides:
         return file or f"{script}:{line}", hides
     is_import = re.match("ImportError|ModuleNotFoundError", trace.error)
-    if is_import and submission.needs_build() and submission.recording(built).code != 0:
+    if is_import and submission.needs_build() and submission.recording(BUILT).code != 0:
         fails = "catkin_make, which may have to make it, fails: run it, it says why"
         hint = "; ".join(filter(None, (hint, fails)))
     return f"{script}:{line}" if line else "", hint

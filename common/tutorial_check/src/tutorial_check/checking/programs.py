@@ -6,7 +6,7 @@ import difflib
 from pathlib import Path
 from typing import Callable, TypeVar
 
-from tutorial_check.checking.files import Script
+from tutorial_check.checking.package_files import Script
 from tutorial_check.checking.packages import package_of
 from tutorial_check.checking.results import Wrong
 from tutorial_check.checking.script_faults import check_file

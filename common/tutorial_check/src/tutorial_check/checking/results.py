@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Callable, Iterable, TypeVar
 
-from tutorial_check.processes.errors import (
+from tutorial_check.errors import (
     CANNOT_START,
     MASTER_GONE,
     MULTIPLIES,

@@ -6,10 +6,10 @@ import re
 import shutil
 
 from tutorial_check.checking.causes import explain
-from tutorial_check.checking.files import Script
+from tutorial_check.checking.package_files import Script
 from tutorial_check.checking.results import Wrong, first_of
 from tutorial_check.checking.submission import Submission
-from tutorial_check.recording.build import installed
+from tutorial_check.data.recorders import INSTALLED
 from tutorial_check.submission import student_files
 from tutorial_check.submission.python_text import unreadable
 
@@ -117,7 +117,7 @@ def python2(file: ScriptFile) -> Wrong | None:
 
 def not_executable(file: ScriptFile) -> Wrong | None:
     may_be_run = file.path.stat().st_mode & 0o100  # or catkin makes it so, in devel
-    if may_be_run or file.submission.recording(installed, file.package, file.where).installed:
+    if may_be_run or file.submission.recording(INSTALLED, file.package, file.where).installed:
         return None
     seen = f"{file.name} is not executable (rosrun: Couldn't find executable)"
     hint, look = f"chmod +x {file.whole}", f"ls -l {file.whole}"

@@ -6,19 +6,19 @@ import os
 import shlex
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, cast
+from typing import Any, Callable, cast
 
 from node_kit.printable import quotable
-from tutorial_check.checking.ask_once import Ask
 from tutorial_check.checking.manifest_errors import unreadable
 from tutorial_check.checking.results import Result, Wrong, wrong_of
 from tutorial_check.course.tasks import Task
-from tutorial_check.processes.errors import UNREADABLE, CannotCheck
-from tutorial_check.recording.data import as_json, from_json, must_be_whole, recorded_by
-from tutorial_check.sandbox import bubblewrap
+from tutorial_check.data.json_data import as_json, from_json
+from tutorial_check.data.recorders import RecorderName, Recording, name_of
+from tutorial_check.errors import UNREADABLE, CannotCheck
+from tutorial_check.sandbox.environment import SYSTEM
 from tutorial_check.submission import handed_in
-from tutorial_check.submission.files import Recorded, Recorder, SubmissionFiles
-from tutorial_check.submission.order import Order, Question, Reply
+from tutorial_check.submission.order import Ask, Order, Question, Reply
+from tutorial_check.submission.submission_files import SubmissionFiles
 
 
 class Submission(SubmissionFiles):
@@ -27,26 +27,27 @@ class Submission(SubmissionFiles):
     def __init__(self, order: Order, task: Task, ask: Ask) -> None:
         super().__init__(order, task)
         self.source = self.folder / handed_in.COPY
-        visible = [self.source, *order.readable, *map(Path, bubblewrap.SYSTEM)]
+        visible = [self.source, *order.readable, *map(Path, SYSTEM)]
         self._visible = [Path(os.path.realpath(path)) for path in visible]
         self._ask = ask
         self._runs: dict[object, Any] = {}  # what was recorded, or the Wrong in its place
         self.exchanges: list[dict[str, object]] = []  # as JSON, questions with their replies
         self._last = Reply()
 
-    def recording(self, recorder: Recorder[Recorded], *arguments: object) -> Recorded:
-        """Ask for a recording, at the first call. Raises CannotCheck, or Wrong if there is none."""
-        key = recorder.__module__, recorder.__name__, *arguments
+    def recording(
+        self, recorder: Callable[..., Recording] | RecorderName[Recording], *arguments: object
+    ) -> Recording:
+        """Return a recording, made at the first call. Raises CannotCheck, or Wrong if it failed."""
+        named = recorder if isinstance(recorder, RecorderName) else name_of(recorder)
+        key = named.name, *arguments
         if key not in self._runs:
-            self._runs[key] = self._recorded(recorder, arguments)
+            self._runs[key] = self._recorded(named, arguments)
         if isinstance(self._runs[key], Wrong):
             raise self._runs[key]
-        return cast(Recorded, self._runs[key])
+        return cast(Recording, self._runs[key])
 
-    def _recorded(self, recorder: Recorder[object], arguments: tuple[object, ...]) -> object:
-        kind = recorded_by(recorder)
-        must_be_whole(kind)
-        question = Question(f"{recorder.__module__}:{recorder.__name__}", arguments)
+    def _recorded(self, named: RecorderName[Any], arguments: tuple[object, ...]) -> object:
+        question = Question(named.name, arguments)
         self._last = self._ask(question)
         exchange = {**vars(question), **vars(self._last)}
         self.exchanges.append({k: as_json(v) for k, v in exchange.items() if v is not None})
@@ -57,7 +58,7 @@ class Submission(SubmissionFiles):
             if reply.cut_short.kind == UNREADABLE and self.broken:
                 return unreadable(self.broken)
             return wrong_of(reply.cut_short)
-        return from_json(kind, reply.recording)
+        return from_json(named.kind, reply.recording)
 
     def busy(self) -> bool:
         """Return whether the machine was busy as something was recorded last."""

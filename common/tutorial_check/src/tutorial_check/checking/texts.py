@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from tutorial_check.checking.results import Wrong, wrong_of
-from tutorial_check.processes.errors import FileTooLarge
+from tutorial_check.errors import FileTooLarge
 from tutorial_check.submission import student_files
 from tutorial_check.submission.launch_xml import place_of, without_comments
 

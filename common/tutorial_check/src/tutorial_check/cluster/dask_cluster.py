@@ -21,10 +21,10 @@ from pathlib import Path
 from typing import Any, Mapping, NoReturn
 from urllib.parse import urlsplit
 
-from tutorial_check.checking.examination import examine
 from tutorial_check.checking.results import Outcome
 from tutorial_check.course.definition import read_course
-from tutorial_check.processes.errors import CannotCheck
+from tutorial_check.errors import CannotCheck
+from tutorial_check.examining.examination import examine
 from tutorial_check.report.memory import digest_of_checks
 from tutorial_check.sandbox import bubblewrap, landlock, privileges
 from tutorial_check.submission.handed_in import MOST_BYTES

@@ -7,10 +7,10 @@ import os
 import sys
 from pathlib import Path
 
-from tutorial_check.checking.examination import examine
 from tutorial_check.checking.results import Outcome
 from tutorial_check.course.tasks import variant_of
-from tutorial_check.processes.errors import CannotCheck
+from tutorial_check.errors import CannotCheck
+from tutorial_check.examining.examination import examine
 from tutorial_check.report.formats import FORMATS, clear, keep, without_hints, write
 from tutorial_check.report.memory import NEVER, Memory
 from tutorial_check.report.text import Terminal, summary

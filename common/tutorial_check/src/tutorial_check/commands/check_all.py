@@ -12,10 +12,10 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 
 from node_kit.printable import printable
-from tutorial_check.checking.examination import examine
 from tutorial_check.cluster.dask_cluster import MOST_AT_ONCE, Cluster, Gone
 from tutorial_check.course.tasks import variant_of
-from tutorial_check.processes.errors import CannotCheck, fault
+from tutorial_check.errors import CannotCheck, fault
+from tutorial_check.examining.examination import examine
 from tutorial_check.recording.worker_process import no_more
 from tutorial_check.report.class_page import Student, table_csv, table_html
 from tutorial_check.report.formats import as_json, clear, keep, without_hints, write

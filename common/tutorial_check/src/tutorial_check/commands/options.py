@@ -8,7 +8,7 @@ from typing import Any, Callable, Iterable, Sequence
 
 from node_kit.parameters.arguments import Parser
 from tutorial_check.course.definition import HANDOUT, read_course
-from tutorial_check.processes.errors import CannotCheck
+from tutorial_check.errors import CannotCheck
 from tutorial_check.report.formats import FORMATS
 from tutorial_check.report.memory import AGAIN, ALWAYS, NEVER
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Sequence
 
 from tutorial_check.course.definition import HANDOUT, SUITE, Course
-from tutorial_check.processes.errors import CannotCheck
+from tutorial_check.errors import CannotCheck
 
 GRADESCOPE, GITHUB = "gradescope", "github"
 FILES = {GRADESCOPE: "autograder.zip", GITHUB: "check.yml"}

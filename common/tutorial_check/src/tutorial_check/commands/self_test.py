@@ -9,10 +9,10 @@ from pathlib import Path
 from typing import Iterator
 
 from tutorial_check.checking.checks import checks_of
-from tutorial_check.checking.examination import examine
 from tutorial_check.checking.results import UNREACHED, WRONG, Outcome
 from tutorial_check.course.definition import SOLUTIONS, Course
-from tutorial_check.processes.errors import CannotCheck
+from tutorial_check.errors import CannotCheck
+from tutorial_check.examining.examination import examine
 from tutorial_check.sandbox.environment import copy_tree
 from tutorial_check.submission.order import Order
 
@@ -44,8 +44,13 @@ def solutions(course: Course) -> Iterator[tuple[str, str, list[Path]]]:
 def self_test(course: Course, underlay: str, jobs: int) -> int:
     """Check all solutions of a course, a line each; return 0 if all come to what they should."""
     failed, every = 0, list(solutions(course))
+    exercises = {known.id: known.exercise for known in checks_of(course)}
     with ThreadPoolExecutor(jobs) as pool:
-        tests = [pool.submit(_examined, course, underlay, *about) for about in every]
+        wanted = (([exercises[check]] if check in exercises else []) for _, check, _ in every)
+        tests = [
+            pool.submit(_examined, course, underlay, names, check, layers)
+            for names, (_, check, layers) in zip(wanted, every)
+        ]
         for (name, check, _), test in zip(every, tests):
             outcomes = test.result()
             complaint = complaint_of(check, outcomes)
@@ -59,10 +64,9 @@ def self_test(course: Course, underlay: str, jobs: int) -> int:
 
 
 def _examined(
-    course: Course, underlay: str, _: str, check: str, layers: list[Path]
+    course: Course, underlay: str, exercises: list[str], check: str, layers: list[Path]
 ) -> list[Outcome]:
-    """Check a solution: a right one in all exercises, a wrong one in that of its check."""
-    exercises = [known.exercise for known in checks_of(course) if known.id == check]
+    """Check a solution in these exercises, or in all; a wrong one up to its check."""
     with tempfile.TemporaryDirectory() as scratch:
         for layer in layers:
             try:

@@ -11,7 +11,7 @@ import time
 from typing import NoReturn
 
 from tutorial_check.commands.check import examine_and_print
-from tutorial_check.processes.errors import CannotCheck, fault
+from tutorial_check.errors import CannotCheck, fault
 from tutorial_check.report.text import summary
 from tutorial_check.submission.handed_in import all_below
 

@@ -5,7 +5,7 @@ import sys
 
 from node_kit.parameters.arguments import Parser
 from tutorial_check.cluster.dask_cluster import become_worker
-from tutorial_check.processes.errors import CannotCheck
+from tutorial_check.errors import CannotCheck
 
 
 def main() -> None:

@@ -16,7 +16,7 @@ from typing import Any
 
 import yaml
 
-from tutorial_check.processes.errors import CannotCheck
+from tutorial_check.errors import CannotCheck
 
 FILE = "course.yaml"
 SOLUTIONS = "solutions"  # folder of a course; what is in it is for the self-test

@@ -11,7 +11,7 @@ from typing import Any, Dict, Mapping
 import yaml
 
 from tutorial_check.course.definition import Course, package_of, read_yaml
-from tutorial_check.processes.errors import CannotCheck
+from tutorial_check.errors import CannotCheck
 
 Variant = Dict[str, Any]  # {name of a value: what it is}; what is not named is as the course has it
 SHEET = (

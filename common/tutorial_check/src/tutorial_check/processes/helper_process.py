@@ -11,7 +11,7 @@ import time
 from multiprocessing.connection import Connection
 from typing import Any, Callable, Generic, Mapping, TypeVar, cast
 
-from tutorial_check.processes.errors import CannotCheck
+from tutorial_check.errors import CannotCheck
 
 ASK_AGAIN_S = 1.0  # whether an answer may still come
 FORK = multiprocessing.get_context("fork")

@@ -16,9 +16,9 @@ import time
 from subprocess import DEVNULL, PIPE, STDOUT
 from typing import Callable, Iterable, Iterator, Mapping, Sequence, TypeVar
 
+from tutorial_check.errors import MULTIPLIES, CutShort
 from tutorial_check.processes.cpu_clock import CpuClock, fields_of
-from tutorial_check.processes.errors import MULTIPLIES, CutShort
-from tutorial_check.processes.program import Program
+from tutorial_check.processes.started_program import Program
 from tutorial_check.sandbox import landlock, privileges
 
 GRACE_S = 3.0  # after Ctrl-C a program has this long to end by itself

@@ -2,16 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
-from tutorial_check.recording.builder import Builder, Built
-
-
-@dataclass(frozen=True)
-class Installed:
-    """Whether catkin has made a program that rosrun finds."""
-
-    installed: bool
+from tutorial_check.data.recordings import Built, Installed
+from tutorial_check.recording.builder import Builder
 
 
 def built(workspace: Builder) -> Built:

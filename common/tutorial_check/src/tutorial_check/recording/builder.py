@@ -2,31 +2,22 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
-from typing import Optional
 
 from tutorial_check.course.tasks import Task
-from tutorial_check.processes.errors import CannotCheck
-from tutorial_check.processes.program import Program
+from tutorial_check.data.recordings import Built
+from tutorial_check.errors import CannotCheck
 from tutorial_check.processes.runner import Runner
+from tutorial_check.processes.started_program import Program
 from tutorial_check.sandbox.environment import environment_of
 from tutorial_check.submission import student_files
-from tutorial_check.submission.files import SubmissionFiles
 from tutorial_check.submission.manifests import is_stand_in
 from tutorial_check.submission.order import Order
+from tutorial_check.submission.submission_files import SubmissionFiles
 
 SLOW_S = 120  # [s] for what needs a second, when the machine is very busy
-
-
-@dataclass(frozen=True)
-class Built:
-    """A build of all, or of what the exercises need if all cannot be built."""
-
-    code: Optional[int]  # catkin_make's exit code; None: it did not end
-    output: str
-    unbuilt: str = ""  # what it printed of packages that the exercises do not need
 
 
 class Builder(SubmissionFiles):

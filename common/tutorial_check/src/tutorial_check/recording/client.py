@@ -12,8 +12,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Dict, List, Optional, Sequence, Tuple
 
-from tutorial_check.processes.errors import NO_TYPE, CannotCheck, CutShort
-from tutorial_check.processes.program import Program, Ran
+from tutorial_check.data.recordings import Ran
+from tutorial_check.errors import NO_TYPE, CannotCheck, CutShort
+from tutorial_check.processes.started_program import Program
 from tutorial_check.recording.ros_session import START_S, RosSession
 from tutorial_check.submission.tracebacks import last_lines
 

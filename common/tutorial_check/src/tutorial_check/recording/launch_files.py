@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import json
 import re
-from dataclasses import dataclass
-from typing import Any, Dict, Optional, Tuple
+from typing import Tuple
 
-from tutorial_check.processes.errors import CannotCheck
-from tutorial_check.recording import launch_facts
+from tutorial_check.data.recordings import ReadLaunchFiles
+from tutorial_check.errors import CannotCheck
+from tutorial_check.recording import launch_file_reader
 from tutorial_check.recording.ros_session import RosSession
 from tutorial_check.recording.workspace import Workspace
 from tutorial_check.submission.tracebacks import last_lines
@@ -17,17 +17,10 @@ READ_S = 15.0  # for all four files
 DIED = re.compile(r"^\[([^\]]+)-\d+\] process has died", re.MULTILINE)
 
 
-@dataclass(frozen=True)
-class ReadLaunchFiles:
-    """What roslaunch makes of launch files; see launch_facts."""
-
-    files: Optional[Tuple[Dict[str, Any], ...]]  # None: reading them does not end
-
-
 def read_launch_files(workspace: Workspace, *paths: str) -> ReadLaunchFiles:
     """Read launch files as roslaunch does, and start nothing. paths: within src."""
     whole = [str(workspace.source / path) for path in paths]
-    command = ["/usr/bin/python3", launch_facts.__file__, *whole]
+    command = ["/usr/bin/python3", launch_file_reader.__file__, *whole]
     program = workspace.runner.start(command, workspace.environment)
     ended = workspace.runner.wait(program.has_ended, READ_S)
     workspace.runner.end(program)
@@ -35,8 +28,10 @@ def read_launch_files(workspace: Workspace, *paths: str) -> ReadLaunchFiles:
         raise CannotCheck("launch files cannot be read in time: the machine is too busy")
     if not ended:
         return ReadLaunchFiles(None)
-    lines = (line for line in program.output.splitlines() if line.startswith(launch_facts.MARK))
-    files = tuple(json.loads(line[len(launch_facts.MARK) :]) for line in lines)
+    lines = (
+        line for line in program.output.splitlines() if line.startswith(launch_file_reader.MARK)
+    )
+    files = tuple(json.loads(line[len(launch_file_reader.MARK) :]) for line in lines)
     if sorted(file["path"] for file in files) != sorted(whole):
         raise CannotCheck(f"launch files cannot be read: {last_lines(program.output)}")
     return ReadLaunchFiles(files)

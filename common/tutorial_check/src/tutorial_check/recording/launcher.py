@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any, Iterator
 
 from tutorial_check.course.definition import SUITE, copy_sources
-from tutorial_check.processes.errors import CannotCheck
+from tutorial_check.errors import CannotCheck
 from tutorial_check.recording.worker_process import Worker
 from tutorial_check.sandbox import bubblewrap, privileges
 from tutorial_check.sandbox.environment import environment_of

@@ -19,7 +19,7 @@ from sensor_msgs.msg import Joy, LaserScan
 from std_msgs.msg import String
 
 from node_kit.ros.rospy_patches.connections import connect_once
-from tutorial_check.recording.data import Heard, HeardText, Topics
+from tutorial_check.data.recordings import Heard, HeardText, Topics
 
 NAME = "tutorial_check"
 JOY = "/joy"  # that it answers

@@ -9,15 +9,15 @@ import uuid
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Callable, Sequence, cast
 
-from tutorial_check.processes.errors import CANNOT_START, CannotCheck, CutShort
+from tutorial_check.errors import CANNOT_START, CannotCheck, CutShort
 from tutorial_check.processes.helper_process import Helper, MasterProcess, Remote, Served
-from tutorial_check.processes.program import Program
 from tutorial_check.processes.runner import Value
+from tutorial_check.processes.started_program import Program
 from tutorial_check.recording.builder import Builder
 
 if TYPE_CHECKING:  # The module loads ROS.
-    from tutorial_check.recording.gamepad import Gamepad
     from tutorial_check.recording.peer import Echo, Peer
+    from tutorial_check.recording.virtual_gamepad import Gamepad
 
 START_S = 8.0  # a node of the student's has this long to appear
 SETTLE_S = 0.5  # once connected, a thread of it has this long to attach its callback
@@ -74,7 +74,7 @@ class RosSession:
 
     def plug_in(self, device: str = "/dev/input/js0") -> tuple[Gamepad, Path]:
         """Return a virtual F710 and its device, which is a FIFO elsewhere without namespaces."""
-        from tutorial_check.recording.gamepad import Gamepad  # noqa: PLC0415
+        from tutorial_check.recording.virtual_gamepad import Gamepad  # noqa: PLC0415
 
         workspace = self.workspace
         path = Path(device) if workspace.order.in_namespaces else workspace.folder / "js0"

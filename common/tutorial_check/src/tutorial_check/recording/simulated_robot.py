@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass
 from typing import Sequence
 
-from tutorial_check.processes.errors import CannotCheck
-from tutorial_check.processes.program import Program
+from tutorial_check.errors import CannotCheck
+from tutorial_check.processes.started_program import Program
 from tutorial_check.recording.ros_session import START_S, RosSession
 
 BUMPER, TRUTH = "/mobile_base/events/bumper", "/base_pose_ground_truth"

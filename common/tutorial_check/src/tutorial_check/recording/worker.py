@@ -20,11 +20,11 @@ from typing import Iterable, Iterator
 
 from tutorial_check.course.definition import load, read_course
 from tutorial_check.course.tasks import task_of
-from tutorial_check.processes.errors import CannotCheck, CutShort, fault
+from tutorial_check.data.json_data import arguments_of, as_json, from_json
+from tutorial_check.errors import CannotCheck, CutShort, fault
 from tutorial_check.processes.runner import Runner
-from tutorial_check.recording.data import arguments_of, as_json, from_json
 from tutorial_check.recording.workspace import Workspace
-from tutorial_check.sandbox import bubblewrap, environment, landlock, privileges
+from tutorial_check.sandbox import environment, landlock, privileges
 from tutorial_check.submission import handed_in
 from tutorial_check.submission.order import Order, Question, Reply
 
@@ -105,7 +105,7 @@ def _prepared(order: Order, reader: int) -> Workspace:
     shutil.copytree(scratch / handed_in.COPY, scratch / "ws" / "src", symlinks=True)
     environment.prepare(scratch)
     variables = environment.variables(scratch, order.environment)
-    readable: list[str | Path] = [scratch, *order.readable, *bubblewrap.SYSTEM, "/proc"]
+    readable: list[str | Path] = [scratch, *order.readable, *environment.SYSTEM, "/proc"]
     own = [scratch / name for name in environment.OWN]
     ruleset = None
     if landlock.version() and not order.in_namespaces:

@@ -13,8 +13,8 @@ import tempfile
 import threading
 import time
 
-from tutorial_check.processes.errors import CannotCheck
-from tutorial_check.recording.data import as_json, from_json
+from tutorial_check.data.json_data import as_json, from_json
+from tutorial_check.errors import CannotCheck
 from tutorial_check.sandbox import bubblewrap, privileges
 from tutorial_check.submission.order import Order, Question, Reply
 

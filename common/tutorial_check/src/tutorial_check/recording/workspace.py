@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 from typing import Iterator
 
-from tutorial_check.processes.errors import MASTER_GONE, UNREADABLE, CannotCheck, CutShort
+from tutorial_check.errors import MASTER_GONE, UNREADABLE, CannotCheck, CutShort
 from tutorial_check.recording.builder import Builder
 from tutorial_check.recording.ros_session import RosSession
 

@@ -12,7 +12,7 @@ from typing import Any, Callable, Mapping, Sequence
 
 from node_kit.printable import printable
 from tutorial_check.checking.results import NOTE, OK, UNREACHED, WRONG, Outcome
-from tutorial_check.processes.errors import CannotCheck
+from tutorial_check.errors import CannotCheck
 from tutorial_check.report.text import heading, lines_of
 
 FIELDS = ("id", "status", "title", "expected", "seen", "where", "hint")

@@ -17,7 +17,7 @@ from typing import Any, Dict, Iterable, Sequence
 
 from tutorial_check.checking.results import WRONG, Outcome, Result
 from tutorial_check.course.definition import HANDOUT, SUITE, Course, sources_of
-from tutorial_check.processes.errors import CannotCheck
+from tutorial_check.errors import CannotCheck
 from tutorial_check.report.class_page import Student, cause_of
 from tutorial_check.submission.handed_in import all_below
 

@@ -19,16 +19,9 @@ from subprocess import DEVNULL, PIPE
 from typing import Any, Iterable, Sequence
 
 from tutorial_check.sandbox import landlock
+from tutorial_check.sandbox.environment import SYSTEM
 
 SCRATCH_MB = 600  # for the copy, its build, logs and what the programs write
-ETC = (
-    "alternatives catkin group host.conf hosts ld.so.cache localtime nsswitch.conf passwd"
-    " python3 ros"
-)
-SYSTEM = (
-    *("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32", "/opt/ros"),
-    *(f"/etc/{name}" for name in ETC.split()),
-)
 NAMESPACES = ("--unshare-ipc", "--unshare-net", "--unshare-pid", "--unshare-uts", "--as-pid-1")
 # Of root's rights only those to become another user.
 AS_ROOT = ("--cap-drop", "ALL", "--cap-add", "CAP_SETGID", "--cap-add", "CAP_SETUID")

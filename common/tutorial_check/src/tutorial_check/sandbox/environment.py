@@ -7,6 +7,15 @@ import stat
 from pathlib import Path
 from typing import Iterable, Mapping
 
+# What a program sees of the system, read-only.
+ETC = (
+    "alternatives catkin group host.conf hosts ld.so.cache localtime nsswitch.conf passwd"
+    " python3 ros"
+)
+SYSTEM = (
+    *("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32", "/opt/ros"),
+    *(f"/etc/{name}" for name in ETC.split()),
+)
 OWN = ("home", "tmp", "ws")  # folders of a session in which the student's programs may write
 
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Iterator
 
-from tutorial_check.processes.errors import CannotCheck
+from tutorial_check.errors import CannotCheck
 from tutorial_check.submission.packages import (
     IGNORED,
     LEFT_OUT,

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Dict, Optional, Tuple
+from typing import Any, Callable, Dict, Optional, Tuple
 
 from tutorial_check.course.definition import HANDOUT
 from tutorial_check.course.tasks import Variant
-from tutorial_check.processes.errors import CutShort
+from tutorial_check.errors import CutShort
 from tutorial_check.submission.packages import Layout
 
 VERSION = 2  # raised by each change of recordings that an older check could not read
@@ -50,3 +50,6 @@ class Reply:
     busy: bool = False  # the machine kept programs waiting: a late answer proves little
     overloaded: bool = False  # it proves nothing
     version: int = VERSION
+
+
+Ask = Callable[[Question], Reply]  # the worker, for those who ask it

@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 
 from catkin_pkg.package import InvalidPackage, parse_package
 
-from tutorial_check.processes.errors import CannotCheck
+from tutorial_check.errors import CannotCheck
 from tutorial_check.submission.student_files import TOO_LARGE, is_too_large, text_of_file
 
 MOST_DEPTH = 100  # Folders in folders: Python calls a function in itself for each.

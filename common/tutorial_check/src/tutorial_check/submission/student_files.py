@@ -6,7 +6,7 @@ import stat
 from pathlib import Path
 from typing import Iterator, Tuple
 
-from tutorial_check.processes.errors import CannotCheck, FileTooLarge
+from tutorial_check.errors import CannotCheck, FileTooLarge
 
 # A program, launch file or manifest of the exercises has some 2 kB; what is said of one must not
 # take the time and memory that a hundred times as much takes.

@@ -14,12 +14,11 @@ import shlex
 import sys
 import traceback
 from pathlib import Path
-from typing import Any, Dict
+from typing import Any
 from xml.dom.minidom import Element
 from xml.parsers import expat
 
 MARK = "launch facts: "
-Node = Dict[str, Any]  # about a node: package, type, name, args ...
 
 
 @functools.lru_cache(maxsize=None)
@@ -76,7 +75,7 @@ def fault_of(error: BaseException, path: str) -> dict[str, object]:
     return {"kind": type(cause).__name__, "words": words, "tag": name, "places": places}
 
 
-def _node(node: Any, params: Any) -> Node:
+def _node(node: Any, params: Any) -> dict[str, object]:
     plain = ("package", "type", "name", "namespace", "filename")
     return {
         **{name: getattr(node, name) for name in plain},

@@ -10,7 +10,7 @@ from pathlib import Path
 from tutorial_check import (
     GAPS,
     LaunchFile,
-    Node,
+    LaunchNode,
     Submission,
     Wrong,
     find_launch,
@@ -59,18 +59,18 @@ class HandoutLaunch(LaunchFile):
         # The student's programs.
         self.own = [node for node in self.nodes if node["package"] == self.student_package]
 
-    def of(self, *roles: str) -> list[Node]:
+    def of(self, *roles: str) -> list[LaunchNode]:
         """Return the nodes that it starts of any of these ROLES."""
         pattern = re.compile("|".join(ROLES[role] for role in roles))
         return [node for node in self.nodes if pattern.fullmatch("{package}/{type}".format(**node))]
 
-    def must_start(self, what: str, nodes: list[Node], hint: str) -> Node:
+    def must_start(self, what: str, nodes: list[LaunchNode], hint: str) -> LaunchNode:
         """Return the first of these nodes. Raises Wrong if there is none."""
         if not nodes:
             raise Wrong(f"{self.name} starts {what}", "it does not", self.where, hint)
         return nodes[0]
 
-    def words_of(self, node: Node) -> list[str]:
+    def words_of(self, node: LaunchNode) -> list[str]:
         """Return the arguments of a node, as a shell would part them. Raises Wrong."""
         try:
             return shlex.split(node["args"])
@@ -151,7 +151,7 @@ def odd_node(file: HandoutLaunch) -> Wrong | None:
     return next(filter(None, (first_of(diagnoses, (file, node)) for node in file.nodes)), None)
 
 
-def type_with_a_folder(about: tuple[HandoutLaunch, Node]) -> Wrong | None:
+def type_with_a_folder(about: tuple[HandoutLaunch, LaunchNode]) -> Wrong | None:
     file, node = about
     if "/" not in node["type"]:
         return None
@@ -159,7 +159,7 @@ def type_with_a_folder(about: tuple[HandoutLaunch, Node]) -> Wrong | None:
     return Wrong(expected, f'type="{node["type"]}"', file.at_node(node), f'type="{hint}"')
 
 
-def launch_file_as_node(about: tuple[HandoutLaunch, Node]) -> Wrong | None:
+def launch_file_as_node(about: tuple[HandoutLaunch, LaunchNode]) -> Wrong | None:
     file, node = about
     kind = node["type"]
     if not kind.endswith(".launch"):
@@ -168,7 +168,7 @@ def launch_file_as_node(about: tuple[HandoutLaunch, Node]) -> Wrong | None:
     return Wrong("programs in <node>", f'type="{kind}"', file.at_node(node), hint)
 
 
-def not_located(about: tuple[HandoutLaunch, Node]) -> Wrong | None:
+def not_located(about: tuple[HandoutLaunch, LaunchNode]) -> Wrong | None:
     file, node = about
     if node["found"] or (node["package"], node["type"]) == ("rviz", "rviz"):
         return None
@@ -180,7 +180,7 @@ def not_located(about: tuple[HandoutLaunch, Node]) -> Wrong | None:
     return wrong
 
 
-def _no_own_program(file: HandoutLaunch, node: Node) -> Wrong:
+def _no_own_program(file: HandoutLaunch, node: LaunchNode) -> Wrong:
     """Return the Wrong for a node of a program that the student's package does not have."""
     submission, kind, place = file.submission, node["type"], file.at_node(node)
     files = [path for path in submission.package(PACKAGE).folder.rglob("*") if path.is_file()]

@@ -10,7 +10,7 @@ from tutorial_check.checking.packages import package_of
 from tutorial_check.checking.results import Note, Wrong
 from tutorial_check.checking.submission import Submission
 from tutorial_check.checking.texts import Lines
-from tutorial_check.processes.program import Ran
+from tutorial_check.data.recordings import Ran
 from tutorial_check.submission.python_facts import PythonFacts
 
 

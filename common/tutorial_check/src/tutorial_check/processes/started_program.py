@@ -5,29 +5,12 @@ from __future__ import annotations
 import contextlib
 import os
 import subprocess
-from dataclasses import dataclass
-from typing import Optional
 
+from tutorial_check.data.recordings import Ran
 from tutorial_check.processes.cpu_clock import Times, fields_of, is_ready, times_of
 
 SPINNING_S = 6.0  # [s of CPU time] a ROS program needs less than one to start
 KEPT_FIRST, KEPT_LAST = 200_000, 50_000  # bytes of a program's output
-
-
-@dataclass(frozen=True)
-class Ran:
-    """A program that was started, as it was when this was noted."""
-
-    name: str
-    output: str
-    code: Optional[int]  # it ended by itself, with this exit code, or by the signal -code
-    spins: bool  # it worked without end until we ended it, so that no busy machine is to blame
-    was_stopped: bool
-
-    @property
-    def ended(self) -> bool:
-        """Whether it ended by itself."""
-        return self.code is not None
 
 
 class Program:

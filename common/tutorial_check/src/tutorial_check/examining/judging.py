@@ -9,17 +9,17 @@ import time
 from dataclasses import replace
 from typing import Callable, Iterator
 
-from tutorial_check.checking.ask_once import Ask, AskOnce, Replies
 from tutorial_check.checking.checks import CheckRunner, checks_of
 from tutorial_check.checking.results import Outcome, Result
 from tutorial_check.checking.submission import Submission
 from tutorial_check.course.definition import Course, read_course
 from tutorial_check.course.tasks import task_of
-from tutorial_check.processes.errors import CannotCheck
+from tutorial_check.errors import CannotCheck
+from tutorial_check.examining.ask_once import AskOnce, Replies
 from tutorial_check.recording.launcher import sourced, started
 from tutorial_check.recording.worker_process import Ended, no_more
 from tutorial_check.sandbox import bubblewrap
-from tutorial_check.submission.order import Order
+from tutorial_check.submission.order import Ask, Order
 
 Report = Callable[[Outcome, Result], None]
 
@@ -53,6 +53,7 @@ def examine(bare: Order, report: Report = silent, side_by_side: bool = False) ->
 def _with_another(bare: Order, course: Course, ask: Ask) -> Iterator[Ask]:
     """Yield ask() of a worker, while another one makes the checks from the last exercise on."""
     shared: Replies = {}
+    checks_of(course)  # loads the course before the thread asks for it
     with started(replace(bare, exercises=bare.exercises[::-1])) as (order, other):
 
         def make_checks() -> None:

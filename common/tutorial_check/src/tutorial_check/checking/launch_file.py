@@ -7,14 +7,14 @@ import os
 from pathlib import Path
 from typing import Any, Iterable
 
-from tutorial_check.checking.files import File
 from tutorial_check.checking.launch_errors import UNSET, blamed_place, launch_error, package_hint
+from tutorial_check.checking.package_files import File
 from tutorial_check.checking.packages import must_be_launchable, package_of
 from tutorial_check.checking.results import Wrong
 from tutorial_check.checking.submission import Submission
 from tutorial_check.checking.texts import read_xml, text_of_file
-from tutorial_check.recording.launch_facts import Node
-from tutorial_check.recording.launch_files import read_launch_files
+from tutorial_check.data.recorders import LAUNCH_FILES
+from tutorial_check.data.recordings import LaunchNode
 from tutorial_check.submission.launch_xml import Fault, attribute, place_of
 from tutorial_check.submission.manifests import is_stand_in
 
@@ -31,14 +31,14 @@ class LaunchFile(File):
         self.path, self.text = os.path.relpath(path, source), read_xml(path)
         must_be_launchable(submission)
         paths = {os.path.relpath(other, source): other for other in (*others, path)}
-        files = submission.recording(read_launch_files, *paths).files
+        files = submission.recording(LAUNCH_FILES, *paths).files
         if files is None:
             expected, hint = "launch files that roslaunch can read", "roslaunch --nodes FILE"
             raise Wrong(expected, "reading them does not end", hint=hint)
         names = [Path(facts["path"]).name for facts in files]
         self.facts: dict[str, Any] = files[names.index(path.name)]
         # That it starts, with package, type, name, namespace, args, remaps, ...
-        self.nodes: list[Node] = self.facts["nodes"]
+        self.nodes: list[LaunchNode] = self.facts["nodes"]
 
     def must_be_read(self) -> None:
         """Raise Wrong for what roslaunch cannot read, in this file or in an included one."""
@@ -62,14 +62,14 @@ class LaunchFile(File):
         inside = os.path.relpath(path, self.submission.package(self.package).folder)
         return os.path.relpath(path, self.submission.source) if inside[:2] == ".." else inside
 
-    def at_node(self, node: Node) -> str:
+    def at_node(self, node: LaunchNode) -> str:
         """Return FILE:LINE of a node, which may be in an included file."""
         path = Path(node["filename"])
         path = path if self.submission.is_own(path) else self.submission.source / self.path
         words = (*attribute("type", node["type"]), Path(node["type"]).name)
         return place_of(self.inside(path), read_xml(path), *words)
 
-    def missing(self, node: Node) -> Wrong:
+    def missing(self, node: LaunchNode) -> Wrong:
         """Return the Wrong for a node whose program, or package, does not exist."""
         hint = "look at pkg= and type=: rosrun PACKAGE and Tab twice lists its programs"
         hint = package_hint(node["package"]) if node["found"] is None else hint

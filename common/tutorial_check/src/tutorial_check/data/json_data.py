@@ -16,7 +16,6 @@ from typing import (
     List,
     Sequence,
     Tuple,
-    Type,
     TypeVar,
     Union,
     cast,
@@ -25,12 +24,9 @@ from typing import (
     get_type_hints,
 )
 
-from tutorial_check.processes.errors import CannotCheck
+from tutorial_check.errors import CannotCheck
 
 Recording = TypeVar("Recording")
-Heard = Tuple[float, str, Tuple[float, ...]]  # (when it came [s], from which node, its numbers)
-HeardText = Tuple[float, str, str]
-Topics = Dict[str, Tuple[str, ...]]  # {topic: nodes}
 
 
 def as_json(value: object) -> object:
@@ -70,14 +66,6 @@ def _from_json(kind: Any, value: Any) -> Any:
     if origin in (list, List):
         return [_from_json(inner[0], part) for part in value]
     return kind(value) if kind in (float, Path) else value
-
-
-def recorded_by(recorder: Callable[..., Recording]) -> type[Recording]:
-    """Return the type of what a recorder returns. Raises TypeError if it does not name it."""
-    kind: Any = get_type_hints(recorder).get("return")
-    if not dataclasses.is_dataclass(kind):
-        raise TypeError(f"{recorder.__name__}() has to name the dataclass that it returns: ->")
-    return cast(Type[Recording], kind)
 
 
 def arguments_of(recorder: Callable[..., object], values: Sequence[object]) -> List[object]:

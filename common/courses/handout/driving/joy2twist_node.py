@@ -22,10 +22,10 @@ from tutorial_check import (
 
 from ..task import PACKAGE, other_topic
 from .field_diagnoses import rule_verdict
+from .joy2twist_run import Joy2TwistRun, Twist
 from .joys import ROUNDED, numbered_joys, values_displayed
 from .probe_diagnoses import probe_verdict
 from .record import drive
-from .run import Joy2TwistRun, Twist
 
 
 class Joy2TwistNode:

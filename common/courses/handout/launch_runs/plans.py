@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import re
 
-from tutorial_check import ODOM, Node, Submission, Wrong, cause_of, traceback_of
+from tutorial_check import ODOM, LaunchNode, Submission, Wrong, cause_of, traceback_of
 
 from ..task import CMD_VEL, JOY, PACKAGE
-from .files import HandoutLaunch
+from .handout_launch import HandoutLaunch
 from .record import LaunchRun, Plan
 
 ROBOT_HINT = '<include file="$(find rbx1_bringup)/launch/fake_turtlebot.launch"/>'
@@ -17,7 +17,7 @@ ERRORS = re.compile(r"^(?!.*(?:rviz|INFO)).*(?:ERROR|died|Invalid|cannot|Unable)
 COLOUR = re.compile(r"\x1b\[[0-9;]*m|\x1b\][^\x07]*\x07")
 
 
-def topic_of(node: Node, topic: str) -> str:
+def topic_of(node: LaunchNode, topic: str) -> str:
     """Return the name that a topic of a node has where a launch file starts it."""
     renamed = (*node["remaps"], *re.findall(r"(\S+):=(\S+)", node["args"]))
     names = {source.strip("/"): to for source, to in renamed}

@@ -24,9 +24,7 @@ NEEDS_BUILD = re.compile(
     r"|add_executable|catkin_install_python)\s*\(",
     re.MULTILINE | re.IGNORECASE,
 )
-Recorded = TypeVar("Recorded")
 Value = TypeVar("Value")
-Recorder = Callable[..., Recorded]  # called with a workspace.Workspace and arguments
 
 
 class SubmissionFiles:

@@ -5,12 +5,11 @@ from __future__ import annotations
 import contextlib
 import json
 from concurrent.futures import CancelledError, Future
-from typing import Callable, Dict
+from typing import Dict
 
-from tutorial_check.recording.data import as_json
-from tutorial_check.submission.order import Question, Reply
+from tutorial_check.data.json_data import as_json
+from tutorial_check.submission.order import Ask, Question, Reply
 
-Ask = Callable[[Question], Reply]  # the worker
 Replies = Dict[str, "Future[Reply]"]  # by question: JSON
 
 

@@ -20,10 +20,10 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any
 
-from tutorial_check.checking import judging
 from tutorial_check.checking.results import Outcome, Result
 from tutorial_check.course.definition import SOLUTIONS
-from tutorial_check.processes.errors import CannotCheck, fault
+from tutorial_check.errors import CannotCheck, fault
+from tutorial_check.examining import judging
 from tutorial_check.recording.launcher import sourced
 from tutorial_check.recording.worker_process import END_S, no_more
 from tutorial_check.sandbox import privileges
@@ -58,7 +58,7 @@ def examine(
 def _process() -> Any:
     """Yield (the process, the line to it). At the end it has ended, and what it started."""
     ours, theirs = socket.socketpair()
-    words = [sys.executable, "-s", "-m", "tutorial_check.checking.examination"]
+    words = [sys.executable, "-s", "-m", "tutorial_check.examining.examination"]
     # In a session of its own: Ctrl-C ends us, and the closed line ends it.
     about: dict[str, Any] = {"stdin": subprocess.DEVNULL, "start_new_session": True}
     process = subprocess.Popen([*words, str(theirs.fileno())], pass_fds=[theirs.fileno()], **about)

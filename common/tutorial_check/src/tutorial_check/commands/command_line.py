@@ -16,7 +16,7 @@ from tutorial_check.commands.package import package
 from tutorial_check.commands.self_test import self_test
 from tutorial_check.commands.watch import watch
 from tutorial_check.course.tasks import sheet, variant_of
-from tutorial_check.processes.errors import CannotCheck, fault
+from tutorial_check.errors import CannotCheck, fault
 from tutorial_check.report.memory import NEVER, Memory, show_solution
 from tutorial_check.sandbox import bubblewrap
 
