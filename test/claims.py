@@ -19,10 +19,10 @@ def tests_in(path):
 
 def to_be_named():
     """Yield (path, name) of each test that a claim must name; of a rostest the name is empty."""
-    for folder in ("system", "browser"):
-        for path in sorted((REPOSITORY / "test" / folder).glob("test_*.py")):
+    for kind in ("system", "browser"):
+        for path in sorted(REPOSITORY.glob(f"test/*/{kind}/test_*.py")):
             yield from ((path, name) for name in tests_in(path))
-    for path in sorted((REPOSITORY / "test/ros").glob("*/*.py")):
+    for path in sorted(REPOSITORY.glob("test/*/ros/*.py")):
         beside = path.with_suffix(".test")
         yield (beside if beside.exists() else path), ""
 

@@ -1,22 +1,33 @@
-"""The libraries of all packages, for tests that run outside of a workspace, too."""
+"""What all tests share: the folders of the libraries, the markers that folders give, settings."""
 
 import os
 import sys
 from pathlib import Path
 
-REPOSITORY = Path(__file__).resolve().parents[1]
+import pytest
+from hypothesis import HealthCheck, settings
+
+TESTS = Path(__file__).resolve().parent
 FOLDERS = (
-    *("*/src", "common", "common/*/src", "common/stand_ins/*/src"),
-    *("test/faults", "test/exercises", "test/ros2", "test/benchmark/fake_turtlebot_sim"),
+    *("*/src", "common", "common/*/src", "common/stand_ins/*/src", "test/support"),
+    *("test/tutorial_check/exercises", "test/ros2_bridge/ros2"),
+    "test/fake_turtlebot_sim/benchmark",
 )
-sys.path[:0] = [str(folder) for pattern in FOLDERS for folder in REPOSITORY.glob(pattern)]
+sys.path[:0] = [str(folder) for pattern in FOLDERS for folder in TESTS.parent.glob(pattern)]
 os.environ["TURTLEBOT_SIMULATION"] = "true"  # no test drives a robot that is plugged in here
-# The longest of ros and system begin first, as many as run at once; the others run beside them.
-LONGEST = (
-    "test_shared_clone", "test_other_programs", "test_handout", "starts.py", "test_cockpit",
-    "lost_nodes", "[A classroom", "[5. Launch", "ends.py", "keys.py", "joystick_driver",
-)  # fmt: skip
+if hasattr(pytest, "version_tuple"):  # pytest 7; that of Debian 11 runs the unit tests alone
+    names = ("benchmark_figures", "rostest_items", "system_fixtures")
+    pytest_plugins = [f"tutorial_testing.{name}" for name in names]
+# A slow machine is no failure: hypothesis must not watch the clock.
+settings.register_profile(
+    "any machine", deadline=None, suppress_health_check=[HealthCheck.too_slow]
+)
+settings.load_profile("any machine")
 
 
+@pytest.hookimpl(tryfirst=True)  # before -m selects
 def pytest_collection_modifyitems(items):
-    items.sort(key=lambda item: [words in item.nodeid for words in LONGEST], reverse=True)
+    """Mark each test with its kind: the folder below its package's; what is long begins first."""
+    for item in items:
+        item.add_marker(Path(item.fspath).relative_to(TESTS).parts[1])
+    items.sort(key=lambda item: item.get_closest_marker("long") is None)

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Run tests: ./tutorial test [KIND] [ARGUMENT ...] in the environment of the suite's workspace.
+"""Run tests: ./tutorial test [KIND|PACKAGE] [ARGUMENT ...], in the environment of the workspace.
 
 What failed is in pytest's caches, one for each kind, and one for what ./tutorial test runs.
 """
@@ -11,15 +11,22 @@ import subprocess
 import sys
 from pathlib import Path
 
-REPOSITORY = Path(__file__).resolve().parents[1]
+TESTS = Path(__file__).resolve().parent
 CACHES = Path(os.environ["TUTORIAL_RESULTS"]) / "pytest"
 PYTEST = ["/usr/bin/python3", "-m", "pytest"]
 JOBS = int(os.environ.get("TUTORIAL_JOBS", "2"))  # tests at a time
 NUMBER_OF_INTERRUPT = 130
-TOGETHER = "launch ros system"  # they mostly wait, so they run at the same time
+TOGETHER = ("launch", "ros", "system")  # they mostly wait, so they run at the same time
 ALL = "all"  # the cache of ./tutorial test
 BRIDGE = "--bridge"  # option of the faults
 MUTATE = CACHES.parent / "mutation/bin/python"  # with the lowest priority, as it takes hours
+OPTIONS = {  # more at a time where they wait more than they work
+    "launch": ("-n", JOBS),
+    "ros": ("-n", 2 * JOBS),
+    "exercises": ("-n", 4 * JOBS),
+    "system": ("-n", JOBS + 2, "--dist", "loadgroup"),
+    "browser": ("-n", JOBS, "--dist", "loadfile"),
+}
 
 
 def interrupt(number, _):
@@ -28,7 +35,7 @@ def interrupt(number, _):
 
 def run(*command):
     """Run a command in the repository; return its exit code. Ctrl-C reaches it, too."""
-    process = subprocess.Popen(list(map(str, command)), cwd=REPOSITORY)
+    process = subprocess.Popen(list(map(str, command)), cwd=TESTS.parent)
     try:
         return process.wait()
     except KeyboardInterrupt as error:
@@ -38,21 +45,43 @@ def run(*command):
         raise
 
 
-def tests(kinds, given, *options, cache=""):
-    """Run pytest on the folders of some kinds, or on what is named in them; it notes what fails."""
-    folders = [f"test/{kind}" for kind in kinds.split()]
-    where = [] if any(argument.startswith(tuple(folders)) for argument in given) else folders
-    noted = ["-o", f"cache_dir={CACHES / (cache or kinds)}"]
-    return run(*PYTEST, "-p", "no:benchmark", *noted, *options, *where, *given)
+def folders(*kinds, package="*"):
+    """Return the folders of some kinds of tests, of one package or of all, from the repository."""
+    paths = [path for kind in kinds for path in sorted(TESTS.glob(f"{package}/{kind}"))]
+    return [path.relative_to(TESTS.parent) for path in paths]
+
+
+def tests(where, given, *options, cache):
+    """Run pytest on folders, or on what is named of them; it notes in a cache what fails."""
+    is_named = any(Path(argument).parts[:1] == ("test",) for argument in given)
+    noted = ["-o", f"cache_dir={CACHES / cache}"]
+    named = [] if is_named else where
+    return run(*PYTEST, "-p", "no:benchmark", *noted, *options, *named, *given)
+
+
+def tests_of_kind(kind, given):
+    return tests(folders(kind), given, *OPTIONS.get(kind, ()), cache=kind)
+
+
+def unit(given):
+    """Run several at a time; with arguments in turn, so that -s shows what they print."""
+    return tests_of_kind("unit", given or ["-n", str(JOBS)])
+
+
+def tests_of_package(package, given):
+    """Run what is quick about a package."""
+    where = folders("unit", *TOGETHER, package=package)
+    quick = ["-n", 2 * JOBS, "--dist", "loadgroup", "-m", "not night and not long"]
+    return tests(where, given, *quick, cache=package)
 
 
 def run_all(_):
     """Run unit tests, then the others at once."""
     shutil.rmtree(CACHES / ALL, ignore_errors=True)  # a killed run may have left some
     options = os.environ.get("TUTORIAL_UNIT", f"-n {JOBS}").split()  # .ci/run sets it
-    failed = tests("unit", options, cache=ALL)
+    failed = tests(folders("unit"), options, cache=ALL)
     together = ["-n", 5 * JOBS, "--dist", "loadgroup"]
-    return tests(TOGETHER, [], *together, cache=ALL) or failed
+    return tests(folders(*TOGETHER), [], *together, cache=ALL) or failed
 
 
 def again(given):
@@ -61,7 +90,7 @@ def again(given):
         sys.exit("tutorial: test again: first run ./tutorial test to its end")
     # Distributed as before, so that a test of a group has the same name, and nothing else runs.
     only = ["--last-failed", "--last-failed-no-failures", "none", "-n", "1", "--dist", "loadgroup"]
-    return tests(f"unit {TOGETHER}", given, *only, cache=ALL)
+    return tests(folders("unit", *TOGETHER), given, *only, cache=ALL)
 
 
 def faults(arguments):
@@ -69,26 +98,23 @@ def faults(arguments):
     if BRIDGE not in arguments:
         return run("/usr/bin/python3", "-m", "tutorial_faults.live.program", *arguments)
     rest = [argument for argument in arguments if argument != BRIDGE]
-    return tests("ros2", ["-q", "-s", "test/ros2/test_faults.py", "-k", "random", *rest])
+    named = "test/ros2_bridge/ros2/test_faults.py"
+    return tests_of_kind("ros2", ["-q", "-s", named, "-k", "random", *rest])
 
 
-KINDS = {
+def bench(given):
+    where = folders("benchmark", package="".join(given[:1]) or "*")
+    return run(*PYTEST, "-qs", *where, *given[1:])
+
+
+COMMANDS = {
     "": run_all,
-    # Several at a time; with arguments in turn, so that -s shows what they print.
-    "unit": lambda given: tests("unit", given or ["-n", str(JOBS)]),
-    "launch": lambda given: tests("launch", given, "-n", JOBS),
-    # More at a time: they wait more than they work.
-    "ros": lambda given: tests("ros", given, "-n", 2 * JOBS),
-    "exercises": lambda given: tests("exercises", given, "-n", 4 * JOBS),
-    "system": lambda given: tests("system", given, "-n", JOBS + 2, "--dist", "loadgroup"),
+    "unit": unit,
     "again": again,
-    "kernel": lambda given: tests("kernel", given),
-    "ros2": lambda given: tests("ros2", given),
-    "browser": lambda given: tests("browser", given, "-n", JOBS, "--dist", "loadfile"),
-    "containers": lambda given: run(REPOSITORY / "test/check_containers", *given),
+    "containers": lambda given: run(TESTS / "check_containers", *given),
     "faults": faults,
-    "mutation": lambda given: run("nice", "-n", "19", MUTATE, "test/mutation/run.py", *given),
-    "bench": lambda given: run(*PYTEST, "-qs", f"test/benchmark/{''.join(given[:1])}", *given[1:]),
+    "mutation": lambda given: run("nice", "-n", "19", MUTATE, "test/suite/mutation/run.py", *given),
+    "bench": bench,
 }
 
 
@@ -96,17 +122,20 @@ def main():
     """Run one kind, or all; exit code 1 if a test failed."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, interrupt)
-    folders = [str(REPOSITORY / "test" / name) for name in ("src", "faults")]
-    os.environ["PYTHONPATH"] = ":".join([*folders, os.environ.get("PYTHONPATH", "")])
-    kind, *arguments = sys.argv[1:] or [""]
+    libraries = [str(TESTS / "support"), os.environ.get("PYTHONPATH", "")]
+    os.environ["PYTHONPATH"] = ":".join(libraries)
+    what, *arguments = sys.argv[1:] or [""]
     try:
-        code = KINDS[kind](arguments)
+        if what in COMMANDS:
+            code = COMMANDS[what](arguments)
+        else:
+            code = (tests_of_kind if folders(what) else tests_of_package)(what, arguments)
     except KeyboardInterrupt:
         shutil.rmtree(CACHES / ALL, ignore_errors=True)  # what failed is not known
         print("tutorial: test: interrupted", file=sys.stderr)
         sys.exit(NUMBER_OF_INTERRUPT)
-    if code and kind not in ("again", "faults", "bench"):
-        sys.exit(f"tutorial: failed: {kind or 'see above, or ./tutorial test again'}")
+    if code and what not in ("again", "faults", "bench"):
+        sys.exit(f"tutorial: failed: {what or 'see above, or ./tutorial test again'}")
     sys.exit(code)
 
 

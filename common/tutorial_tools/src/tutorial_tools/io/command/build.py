@@ -43,7 +43,7 @@ def stamp() -> str:
     for path in sorted((REPOSITORY / MODEL / "scripts").iterdir()):  # make_rqt() copies them.
         found.update(path.read_bytes())
     for suffix in (".py", ".test"):  # as test/CMakeLists.txt looks for them
-        for path in sorted(REPOSITORY.glob(f"test/ros/*/*{suffix}")):
+        for path in sorted(REPOSITORY.glob(f"test/*/ros/*{suffix}")):
             found.update(str(path.relative_to(REPOSITORY)).encode())
     return found.hexdigest()
 

@@ -30,7 +30,7 @@ WORDS = {  # word: (arguments as the help shows them, what it does)
     "ros2": ("[--yes] [PROGRAM ...]", "a Python program with ROS 2, beside ROS 1"),
     "scheduler": ("[--host HOST]", "distribute what check --all --cluster is to check"),
     "worker": ("ADDRESS [--jobs N]", "check for such a scheduler"),
-    "test": ("[KIND] [ARGUMENT ...]", "run the tests: all, or those of one kind"),
+    "test": ("[KIND|PACKAGE|PATH] [ARGUMENT ...]", "run the tests: all, or some of them"),
     "cockpit": ("[--port PORT] [--lan]", "see and drive the robots in a browser"),
     "join": ("HOST NAME [NAME:=VALUE ...]", "drive robot NAME of the classroom on HOST"),
     "doctor": ("[--in WORKSPACE]", "what to check when nothing moves"),
@@ -46,7 +46,7 @@ WORDS = {  # word: (arguments as the help shows them, what it does)
 KINDS = {  # kinds of tests
     "unit": "seconds, no ROS running",
     "launch": "whether roslaunch can read each launch file",
-    "ros": "rostests: all, or a folder or file of test/ros; --times N",
+    "ros": "rostests; --times N",
     "system": "./tutorial itself, workspaces, RViz on a virtual screen, two hosts",
     "again": "what failed of these, once more and alone",
     "kernel": "joy_node with a joystick of a real kernel; minutes",
@@ -57,6 +57,9 @@ KINDS = {  # kinds of tests
     "faults": "random faults on the live system, --for SECONDS or --trials N: test/FAULTS.md",
     "mutation": "whether the unit tests notice small changes to the rules; hours",
 }
+MORE_OF_TEST = """\
+PACKAGE, such as joy2twist: its tests of the first four kinds, without those marked long or night.
+PATH: a folder or file of test/PACKAGE/KIND. More arguments go to pytest, such as -k EXPRESSION."""
 CLUSTER = "--cluster"  # option of check --all
 HELP = {"-h", "--help"}
 IN_WORDS = ("shell", "run", "doctor", "check")  # which know --in
@@ -82,6 +85,20 @@ complete -o default -F _tutorial tutorial ./tutorial"""
 Plan = Dict[str, List[str]]  # sections of packages, builds, student and the command
 
 
+def tested() -> list[str]:
+    """Return the packages that have tests."""
+    folders = (REPOSITORY / "test").glob("*/*")
+    return sorted({folder.parent.name for folder in folders if folder.name in KINDS})
+
+
+def with_kind(arguments: list[str]) -> list[str]:
+    """Return the arguments of test with its kind before a path in test, or with its package."""
+    folder, *below = Path(*arguments[:1]).parts or [""]
+    if folder != "test":
+        return arguments
+    return [*below[1:2], *arguments] if below[1:] else [*below, *arguments[1:]]
+
+
 def parser_of(word: str) -> Parser:
     """Return the parser of one word's arguments."""
     arguments, text = WORDS[word]
@@ -103,8 +120,9 @@ def parser_of(word: str) -> Parser:
     elif word == "test":
         parser.formatter_class = argparse.RawDescriptionHelpFormatter
         kinds = "\n".join(f"  {kind:10} {text}" for kind, text in KINDS.items())
-        parser.epilog = f"kinds:\n{kinds}\nMore arguments go to pytest, such as -k EXPRESSION."
-        add("kind", nargs="?", choices=KINDS, metavar="KIND", help="all of the first four if none")
+        parser.epilog = f"kinds:\n{kinds}\n{MORE_OF_TEST}"
+        text = "all of the first four kinds if none"
+        add("kind", nargs="?", choices=[*KINDS, *tested()], metavar="KIND|PACKAGE|PATH", help=text)
         add("rest", nargs=argparse.REMAINDER, metavar="ARGUMENT")
     elif word == "run":
         add("rest", nargs=argparse.REMAINDER, metavar="COMMAND")
@@ -171,7 +189,7 @@ def plan_of_test(kind: str, rest: list[str]) -> Plan:
     if kind == "ros2" and not installed():
         made["builds"].append(ros2.BUILD)
     if kind == "mutation":
-        made["builds"].append("pypi=mutation:test/mutation/requirements.txt")
+        made["builds"].append("pypi=mutation:test/suite/mutation/requirements.txt")
     return {**made, "command": [str(REPOSITORY / "test/run.py"), *filter(None, [kind]), *rest]}
 
 
@@ -189,8 +207,8 @@ def refuse(word: str, arguments: list[str]) -> None:
         words = " ".join(["./tutorial check --in ~/ros/hydro/catkin_ws", *arguments])
         fail(f"check: which workspace? For example: {words}")
     for given in arguments[:1]:
-        if word == "bench" and not (REPOSITORY / "test/benchmark" / given).is_dir():
-            fail(f'bench: "{given}" has no folder in test/benchmark')
+        if word == "bench" and not (REPOSITORY / "test" / given / "benchmark").is_dir():
+            fail(f'bench: "{given}" has no folder test/{given}/benchmark')
         above = (Path(given), *Path(given).parents)
         if word == "docs" and any(path.exists() and not path.is_dir() for path in above):
             fail(f"docs: {given}: must be a folder, which is made if it does not exist")
@@ -227,6 +245,7 @@ def plan(word: str, arguments: list[str]) -> Plan:
             parser_of(word).error(f"unrecognized arguments: {' '.join(parsed[1])}")
         refuse(word, arguments)
         return plan_of_test(word, arguments)
+    arguments = with_kind(arguments) if word == "test" else arguments
     options = parser_of(word).parse_args(arguments)
     student = student_of(word, getattr(options, "student", None))
     if word == "doctor":

@@ -1,0 +1,156 @@
+"""A robot that a form moves: the ends of the cockpit, of its master and of its pages stop it, also
+a robot whose last velocity counts until the next one, as in launch_bag.launch.
+"""
+
+import contextlib
+import signal
+import time
+
+import pytest
+import rospkg
+
+from node_kit.ros.graph.ros_api import accepts
+from tutorial_testing.cockpit.world import World
+from tutorial_testing.nodes import node_path
+from tutorial_testing.processes import suspended
+from tutorial_testing.robot import OBSERVER
+from tutorial_testing.socket_page import SocketPage
+from tutorial_testing.waiting import tolerance, wait_for
+
+pytestmark = [pytest.mark.xdist_group("cockpit"), pytest.mark.long]
+BOUND_S = 0.6  # from the loss to rest
+ARM_S = 1.0  # A page waits for twice as long for a subscriber that does not connect.
+TWIST = {"topic": "/cmd_vel", "type": "geometry_msgs/Twist"}
+CURVE = {"linear/x": "0.2", "angular/z": "0.5"}
+CONFIG = rospkg.RosPack().get_path("fake_turtlebot_sim") + "/config"
+
+
+class Careless(World):
+    """A robot without a timeout, and no other node that drives it."""
+
+    launch = ("fake_turtlebot_sim", "fake_turtlebot.launch", "model:=false")
+
+
+class WithMaster(Careless):
+    """Beside a master that may go alone: roslaunch would end with its own."""
+
+    def begin(self):
+        uri = self.environment["ROS_MASTER_URI"]
+        self.master = self.run("rosmaster", "--core", "-p", uri.rpartition(":")[2])
+        wait_for(lambda: accepts(uri), "master")
+        self.launched = self.run("roslaunch", *self.launch, *self._arguments)
+        self.observe(OBSERVER, **self.environment)
+        self.start_cockpit()
+
+
+@pytest.fixture(scope="module")
+def world():
+    with Careless(f"config:={CONFIG}/rbx1.yaml") as world:
+        yield world
+
+
+@contextlib.contextmanager
+def moved(world, period):
+    """A page whose form moves the robot."""
+    with SocketPage(world.port) as page:
+
+        def hold():
+            page.say("publish", **TWIST, values=CURVE, period=period)
+            page.signs = True
+
+        world.drive_by(hold)
+        page.wait_for("session", lambda session: session["yours"] and session["topic"])
+        yield page
+
+
+def fall_silent(_world, page):
+    page.signs = False
+
+
+def stop_elsewhere(world, _page):
+    with SocketPage(world.port, Origin=f"http://127.0.0.1:{world.port}") as other:
+        who = other.wait_for("drives", lambda drives: "by a form" in drives["who"])["who"]
+        assert "drives by a form, on /cmd_vel" in who
+        other.say("stop")
+        other.wait_for("session", lambda session: session["driver"] is None)
+
+
+def end(number):
+    return lambda world, _: world.cockpit.signal(number)
+
+
+PAGES = {
+    "closed": lambda _, page: page.close(),
+    "silent": fall_silent,
+    "Stop": lambda _, page: page.say("stop"),
+    "Stop elsewhere": stop_elsewhere,
+    "Stop publishing": lambda _, page: page.say("publish_end"),
+}
+SERVERS = {
+    "INT": end(signal.SIGINT),
+    "TERM": end(signal.SIGTERM),
+    "HUP": end(signal.SIGHUP),
+}
+
+
+def judge(world, act, bound_s=BOUND_S):
+    late_s, lost_at = tolerance(), time.time()
+    act()
+    rest_at = world.wait_for_rest(lost_at)
+    assert rest_at - lost_at < bound_s + late_s()
+    assert world.stays_at_rest()
+
+
+@pytest.mark.parametrize("period", [None, 10.0])
+@pytest.mark.parametrize("way", PAGES)
+def test_the_end_of_a_form_by_its_page_stops_a_robot_without_a_timeout(world, way, period):
+    with moved(world, period) as page:
+        judge(world, lambda: PAGES[way](world, page))
+
+
+@pytest.mark.parametrize("way", SERVERS)
+def test_the_end_of_the_cockpit_stops_a_robot_without_a_timeout(world, way):
+    with moved(world, None) as page:
+        judge(world, lambda: SERVERS[way](world, page))
+    assert world.cockpit.wait() == 0
+    world.start_cockpit()
+
+
+def test_rosnode_kill_stops_a_robot_without_a_timeout(world):
+    with moved(world, None), world.run("rosnode", "kill", "/cockpit") as done:
+        world.cockpit.wait()
+        ended_at = time.time()
+        assert world.wait_for_rest() < ended_at + BOUND_S
+        assert world.stays_at_rest()
+        done.wait()
+    world.start_cockpit()
+
+
+def test_without_a_master_or_with_one_that_hangs_a_robot_without_a_timeout_is_stopped():
+    """One that hangs is waited for: the page still drives, and its loss stops the robot."""
+    with WithMaster(f"config:={CONFIG}/rbx1.yaml") as world:
+        with moved(world, None) as page, suspended([world.master.pid]):
+            judge(world, lambda: fall_silent(world, page))
+        with moved(world, None):
+            judge(world, world.master.kill)
+
+
+def test_a_cockpit_that_is_killed_leaves_a_turtlebot_to_its_timeout():
+    with World() as world, moved(world, 0.05):
+        judge(world, world.cockpit.kill, bound_s=0.7)
+
+
+def test_a_cockpit_that_was_killed_is_not_shown_by_the_next_one_which_arms_at_once():
+    with World() as world:
+        with SocketPage(world.port) as page:
+            page.sit_down()
+            world.cockpit.kill()
+        command = node_path("cockpit", "cockpit.py"), "--port", str(world.port), "__name:=another"
+        world.cockpit = world.run(*command)
+        world.find_page()
+        with SocketPage(world.port) as page:
+            drives = page.wait_for("drives", lambda drives: not drives["refusal"])
+            assert drives["who"] == "Nobody drives."
+            late_s, begin_s = tolerance(), time.monotonic()
+            page.sit_down()
+            assert time.monotonic() - begin_s < ARM_S + late_s()

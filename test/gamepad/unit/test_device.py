@@ -1,0 +1,113 @@
+"""Choosing, opening and losing devices: files and FIFOs here, the kernel's in kernel/."""
+
+import contextlib
+import errno
+import os
+import stat
+from types import SimpleNamespace
+
+import pytest
+
+from gamepad.driver.container import INITIAL, in_container
+from gamepad.driver.device_choice import DeviceError, choose_by_name, explain
+from gamepad.driver.parameters import load
+from gamepad.io.device import Finder
+
+JS0 = "/dev/input/js0"
+NAMES = {JS0: "Pad F710", "/dev/input/js1": "Pad F310", "/dev/input/js2": "Pad"}
+
+
+def test_the_exact_name_first_then_a_unique_part():
+    assert choose_by_name(NAMES, "Pad") == "/dev/input/js2"
+    assert choose_by_name(NAMES, "F710") == JS0
+
+
+@pytest.mark.parametrize(
+    ("names", "wanted", "line"),
+    [
+        (NAMES, "ad F", "~dev_name 'ad F' fits several gamepads, write more of it: 'Pad F710'"),
+        (NAMES, "PS4", "No gamepad is named 'PS4'; there are: 'Pad F710' (/dev/input/js0), "),
+    ],
+)
+def test_no_gamepad_is_opened_in_place_of_another(names, wanted, line):
+    with pytest.raises(DeviceError) as error:
+        choose_by_name(names, wanted)
+    assert str(error.value).startswith(line)
+
+
+@pytest.mark.parametrize(
+    ("path", "number", "container", "wsl", "words"),
+    [
+        (JS0, errno.ENOENT, False, False, "No joystick at /dev/input/js0: plug it in"),
+        (JS0, errno.ENOENT, True, False, "start it with --device /dev/input/js0"),
+        (JS0, errno.ENOENT, False, True, "usbipd attach --wsl"),
+        (JS0, errno.EACCES, False, False, "usermod -aG input"),
+        (JS0, errno.EIO, False, False, "Cannot open /dev/input/js0: Input/output error."),
+        ("/tmp/pad", errno.ENOENT, True, True, "No joystick at /tmp/pad so far: it is waited for."),
+    ],
+)
+def test_each_case_is_told_apart_and_says_what_to_do(path, number, container, wsl, words):
+    line = explain(path, number, container, wsl)
+    assert words in line and "\n" not in line
+    assert ("virtual:=true" in line) is (number == errno.ENOENT and path == JS0)
+
+
+def test_what_is_no_joystick_is_refused():
+    with pytest.raises(DeviceError, match="joystick"):
+        Finder("/dev/null", "").open()
+    with pytest.raises(ValueError, match="~dev: 'js0': must be a whole path, such as /dev/input"):
+        load({"dev": "js0"})
+
+
+@pytest.mark.parametrize(
+    ("owner", "group", "mode", "is_refused"),
+    [
+        (0, 0, 0o644, False), (8, 7, 0o600, True), (0, 0, 0o602, True),
+        (7, 7, 0o664, False), (7, 9, 0o664, True),  # the user's own group, as with umask 002
+    ],
+)  # fmt: skip
+def test_a_fifo_that_another_user_could_write_is_refused(
+    tmp_path, monkeypatch, owner, group, mode, is_refused
+):
+    path = tmp_path / "virtual_f710"
+    os.mkfifo(path)
+    status = SimpleNamespace(st_uid=owner, st_gid=group, st_mode=stat.S_IFIFO | mode)
+    monkeypatch.setattr(os, "fstat", lambda _: status)
+    monkeypatch.setattr(os, "getuid", lambda: 7)
+    monkeypatch.setattr(os, "getgid", lambda: 7)
+    refusal = pytest.raises(DeviceError, match="could drive the robot: choose another path, or")
+    with refusal if is_refused else contextlib.nullcontext():
+        Finder(str(path), "").open().close()
+
+
+def test_a_plain_file_is_read_once_until_it_changes(tmp_path):
+    path = tmp_path / "events"
+    finder = Finder(str(path), "")
+    for content in (b"8 bytes.", b"another 16 bytes"):
+        path.write_bytes(content)
+        device = finder.open()
+        assert device.read() == content
+        with pytest.raises(DeviceError, match="closed"):
+            device.read()
+        device.close()
+        with pytest.raises(DeviceError, match="read to its end"):
+            finder.open()
+
+
+@pytest.mark.parametrize(
+    ("marked", "own", "container"),
+    [
+        (True, "pid", True),
+        (True, "none", False),  # a virtual machine made from a container's image
+        (True, "all", True),  # a kernel without namespaces
+        (False, "pid", False),  # a sandbox, such as the checker's
+    ],
+)
+def test_a_container_has_a_mark_and_a_namespace_of_its_own(tmp_path, marked, own, container):
+    folder = tmp_path / "proc" / "self" / "ns"
+    folder.mkdir(parents=True)
+    for kind, number in INITIAL.items() if own != "all" else ():
+        (folder / kind).symlink_to(f"{kind}:[{4026532000 if kind == own else number}]")
+    if marked:
+        (tmp_path / ".dockerenv").touch()
+    assert in_container(str(tmp_path)) is container
