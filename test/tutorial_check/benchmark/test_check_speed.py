@@ -4,8 +4,8 @@ import os
 import shutil
 import time
 
-from tutorial_check.examining.examination import examine
 from tutorial_check.course.definition import read_course
+from tutorial_check.examining.examination import examine
 from tutorial_check.submission.order import Order
 from tutorial_testing.processes import REPOSITORY
 
