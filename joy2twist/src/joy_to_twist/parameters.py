@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Any, Callable, Mapping
 
 from node_kit.parameters.declaration import (
-    Check,
+    Allowed,
     checked,
     is_number,
     is_whole,
@@ -39,13 +39,13 @@ class Axis:
     turbo_scale: float  # the same with the turbo button
 
 
-def _one_or_each(names: tuple[str, ...], fits: Callable[[Any], bool], allowed: str) -> Check:
+def _one_or_each(names: tuple[str, ...], fits: Callable[[Any], bool], allowed: str) -> Allowed:
     def all_fit(value: Any) -> bool:
         if not isinstance(value, dict):
             return fits(value)
         return bool(value) and all(name in names and fits(one) for name, one in value.items())
 
-    return Check(f"a number ({allowed}), or a map from {', '.join(names)} to such", all_fit)
+    return Allowed(f"a number ({allowed}), or a map from {', '.join(names)} to such", all_fit)
 
 
 def _is_axis(value: Any) -> bool:

@@ -12,7 +12,7 @@ from cockpit_server.clients import LOOKS_ONLY, RefusedError
 from cockpit_server.graph import Graph
 from cockpit_server.ros.sources import forms
 from cockpit_server.ros.sources.publishing import Publishing
-from node_kit.ros.graph.services import ServiceError
+from node_kit.errors import ServiceError
 from tutorial_testing.session_room import Free, page
 
 

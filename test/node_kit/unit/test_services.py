@@ -9,8 +9,9 @@ import pytest
 from rosgraph.network import read_ros_handshake_header, write_ros_handshake_header
 from std_srvs.srv import SetBool, SetBoolRequest, SetBoolResponse
 
+from node_kit.errors import ServiceError
 from node_kit.ros.graph import services
-from node_kit.ros.graph.services import ServiceError, call_service, kind_of
+from node_kit.ros.graph.services import call_service, kind_of
 from node_kit.rules.answer import Answer
 
 

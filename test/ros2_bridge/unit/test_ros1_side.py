@@ -9,7 +9,7 @@ from types import SimpleNamespace
 import pytest
 import rospy
 
-from node_kit.ros.graph.raw_messages import Raw
+from node_kit.ros.graph.raw_messages import RawMessage
 from ros2_bridge.io.connection import Frame, frames
 from ros2_bridge.ros import ros1_side
 from ros2_bridge.routes import Route
@@ -59,7 +59,7 @@ class Room:
         return SimpleNamespace(publish=lambda *it: said.append(it), end=lambda: said.append("end"))
 
     def send(self, sender, data, is_latched=True, is_first=True):
-        self._hear(Raw(data, "std_msgs/String", sender, is_latched, is_first))
+        self._hear(RawMessage(data, "std_msgs/String", sender, is_latched, is_first))
 
     def senders_are(self, *names):
         """Connect these alone, and wait until that is noticed."""

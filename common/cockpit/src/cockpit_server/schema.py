@@ -47,7 +47,7 @@ def or_null(check: Check) -> Check:
 
 
 def list_of(check: Check, most: int) -> Check:
-    return declaration.Check(
+    return declaration.Allowed(
         f"a list of at most {most}",
         lambda v: isinstance(v, list) and len(v) <= most,
         lambda v: tuple([check(one) for one in v]),

@@ -15,7 +15,7 @@ import sys
 from pathlib import Path
 from typing import Callable
 
-from node_kit.parameters.declaration import Check
+from node_kit.parameters.declaration import Allowed
 
 
 def recording(value: str) -> None:
@@ -60,22 +60,22 @@ def _is_timeout(value: str, least: float = 1.0) -> bool:
     return number == 0 or least <= number <= 60
 
 
-true_or_false = Check("true or false", re.compile("(?i:true|false)|1|0").fullmatch)
+true_or_false = Allowed("true or false", re.compile("(?i:true|false)|1|0").fullmatch)
 RULES: dict[str, Callable[[str], object]] = {
     "bag": recording,
-    "cockpit": Check(
+    "cockpit": Allowed(
         "true, false or auto", lambda value: value == "auto" or true_or_false.fits(value)
     ),
-    "cockpit_port": Check("a port, a number from 1 to 65535", _is_port),
+    "cockpit_port": Allowed("a port, a number from 1 to 65535", _is_port),
     "joy_config": preset,
-    "joy_timeout": Check("a number up to 60 s, or 0 for off", lambda v: _is_timeout(v, 0.0)),
-    "joystick": Check("gamepad or browser", ("gamepad", "browser").__contains__),
+    "joy_timeout": Allowed("a number up to 60 s, or 0 for off", lambda v: _is_timeout(v, 0.0)),
+    "joystick": Allowed("gamepad or browser", ("gamepad", "browser").__contains__),
     "lan": true_or_false,
     "loop": true_or_false,
     "name": robot,
     "ros2": true_or_false,
     "rviz": true_or_false,
-    "vigilance_timeout": Check("a number from 1 to 60 s, or 0 for off", _is_timeout),
+    "vigilance_timeout": Allowed("a number from 1 to 60 s, or 0 for off", _is_timeout),
     "virtual": true_or_false,
 }
 

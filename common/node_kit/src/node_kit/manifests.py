@@ -1,7 +1,6 @@
-"""The files package.xml of a workspace, and those that keep every ROS program from starting.
+"""Finds the package.xml files of a workspace, and broken ones, which stop every ROS program.
 
-rospkg, and so rospy and roslaunch, reads all of them when it looks for any package; its error
-names no file.
+rospkg, and so rospy and roslaunch, reads all of them to find one package; its error names no file.
 """
 
 from __future__ import annotations
@@ -11,17 +10,17 @@ from pathlib import Path
 from typing import Iterator
 from xml.etree import ElementTree
 
-MOST_BYTES = 256 << 10  # Parsing takes ten times the memory.
+MOST_BYTES = 256 << 10  # parsing takes ten times as much memory
 
 
 def broken_manifests(folder: str | Path) -> list[tuple[str, str]]:
-    """Return [(path, what is wrong)] of each package.xml below a folder that is unreadable."""
+    """Return [(path, error)] of each unreadable package.xml below a folder."""
     complaints = ((str(path), _complaint(path)) for path in manifests(Path(folder)))
     return [(path, complaint) for path, complaint in complaints if complaint]
 
 
 def manifests(folder: Path, above: frozenset[str] = frozenset()) -> Iterator[Path]:
-    """Yield each package.xml below a folder, as rospkg finds them; above: folders around it."""
+    """Yield each package.xml below a folder, as rospkg does. above: real paths of its parents."""
     here = os.path.realpath(folder)
     try:
         inside = {entry.name: entry for entry in os.scandir(folder)}
@@ -31,7 +30,7 @@ def manifests(folder: Path, above: frozenset[str] = frozenset()) -> Iterator[Pat
         return
     if "package.xml" in inside:
         yield folder / "package.xml"
-        return  # rospkg looks no deeper than a package
+        return  # rospkg does not look inside a package
     for name in sorted(inside):
         if os.path.isdir(inside[name].path):  # not is_dir(), which fails for a link to itself
             yield from manifests(folder / name, above | {here})

@@ -1,11 +1,11 @@
-"""Texts from files and programs, as a terminal may show them (pure)."""
+"""Texts from files and programs, made safe for a terminal."""
 
 from __future__ import annotations
 
 import re
 
-# Escape sequences of a terminal (ECMA-48: CSI, and strings up to BEL or ST), then what is left of
-# the control characters but tab and line feed. XML forbids the same ones, and lone surrogates.
+# Escape sequences of a terminal (ECMA-48: CSI, and strings up to BEL or ST), then all
+# other control characters except tab and line feed. XML forbids the same ones, and lone surrogates.
 _ESCAPES = re.compile(
     r"\x1b\[[0-?]*[ -/]*[@-~]|\x1b[\]P^_X][^\x07\x1b]*(?:\x07|\x1b\\)?"
     r"|[\x00-\x08\x0b-\x1f\x7f-\x9f\ud800-\udfff\ufffe\uffff]"
@@ -14,11 +14,11 @@ LONGEST = 600  # characters
 
 
 def quotable(text: str) -> str:
-    """Return a printable text of at most LONGEST characters, to be quoted in a sentence."""
+    """Return a printable text of at most LONGEST characters, for use in a sentence."""
     text = printable(text)
     return text if len(text) <= LONGEST else f"{text[:LONGEST]} ..."
 
 
 def printable(text: str) -> str:
-    """Return a text without what would move the cursor, or colour, rename or clear a terminal."""
+    """Return a text without the characters that control a terminal."""
     return _ESCAPES.sub("", text)

@@ -1,6 +1,6 @@
-"""The command that runs Python with ROS 2, of wheels or as it is installed. No ROS is needed here.
+"""The command that runs Python with ROS 2, from wheels or as installed.
 
-ROS 1 and ROS 2 cannot share a process: both have a std_msgs.
+ROS 1 and ROS 2 cannot share a process: both have a package std_msgs.
 """
 
 from __future__ import annotations
@@ -10,23 +10,23 @@ import shlex
 from pathlib import Path
 
 PYTHON = "TUTORIAL_ROS2"  # environment variable: the Python of the wheels
-# What belongs to ROS 1: a path of its packages would hide those of ROS 2.
+# These belong to ROS 1, whose packages would hide those of ROS 2.
 HIDDEN = ("PYTHONPATH", "CMAKE_PREFIX_PATH", "ROS_DISTRO", "ROS_VERSION", "ROS_PACKAGE_PATH")
-# Unless the user says more: nodes of ROS 2 find each other here alone, and over UDP. A process
-# that is killed leaves its shared memory, half a megabyte, and locks that later ones wait for.
+# Unless the user sets them: nodes of ROS 2 find each other on this machine only, over UDP. A killed
+# process would leave half a megabyte of shared memory, and locks that block later processes.
 DEFAULTS = {"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST", "FASTDDS_BUILTIN_TRANSPORTS": "UDPv4"}
 
 
 def installed() -> str:
-    """Return setup.bash of an installed ROS 2, the last one by its name; "" if there is none."""
-    found = sorted(Path("/opt/ros").glob("*/share/rclpy/package.xml"))
-    return str(found[-1].parents[2] / "setup.bash") if found else ""
+    """Return the setup.bash of the ROS 2 in /opt/ros whose name sorts last, or ""."""
+    manifests = sorted(Path("/opt/ros").glob("*/share/rclpy/package.xml"))
+    return str(manifests[-1].parents[2] / "setup.bash") if manifests else ""
 
 
 def command(words: list[str], python: str = "", path: str = "") -> list[str]:
-    """Return the command line of Python with these words.
+    """Return the command line of Python with these arguments.
 
-    python: that of the wheels, if known. path: a folder to import from.
+    python: the Python of the wheels, if known. path: a folder for PYTHONPATH.
     """
     environment = [word for name in HIDDEN for word in ("-u", name)]
     environment += [
@@ -42,5 +42,5 @@ def command(words: list[str], python: str = "", path: str = "") -> list[str]:
 
 
 def is_there() -> bool:
-    """Return whether command() has a Python to run."""
+    """Return whether a Python with ROS 2 exists."""
     return bool(installed()) or os.path.exists(os.environ.get(PYTHON, ""))

@@ -6,18 +6,18 @@ from dataclasses import dataclass
 from typing import Tuple
 
 from gamepad.gamepads import Gamepad
-from node_kit.parameters.declaration import Check, is_number, parameter, switch
+from node_kit.parameters.declaration import Allowed, is_number, parameter, switch
 
 # A stick moves the D-pad's axes, which know only -1, 0 and 1, from this deflection on.
 DIGITAL_THRESHOLD = 0.5
 
 
-def _two_numbers(low: float) -> Check:
+def _two_numbers(low: float) -> Allowed:
     def fits(value: object) -> bool:
         numbers = value if isinstance(value, list) else []
         return len(numbers) == 2 and all(is_number(one) and low <= one <= 1 for one in numbers)
 
-    return Check(f"two numbers from {low} to 1", fits, keep=tuple)
+    return Allowed(f"two numbers from {low} to 1", fits, keep=tuple)
 
 
 def _are_names(value: object) -> bool:
@@ -38,7 +38,7 @@ class Controls:
     dpad: tuple[float, float] = parameter((0.0, 0.0), _two_numbers(-1))
     triggers: tuple[float, float] = parameter((0.0, 0.0), _two_numbers(0))
     held: frozenset[str] = parameter(
-        frozenset(), Check("a list of names of buttons", _are_names, keep=frozenset)
+        frozenset(), Allowed("a list of names of buttons", _are_names, keep=frozenset)
     )
     mode_led: bool = parameter(False, switch)
     plugged: bool = parameter(True, switch)

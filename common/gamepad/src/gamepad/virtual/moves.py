@@ -16,10 +16,10 @@ from typing import Any
 
 from gamepad.gamepads import F710
 from gamepad.virtual.controls import Controls
-from node_kit.parameters.declaration import Check, checked, checked_value, is_number, parameter
+from node_kit.parameters.declaration import Allowed, checked, checked_value, is_number, parameter
 
 EXAMPLE = "such as moves: [{for: 1.0, held: [LB]}]"
-_DURATION = Check(
+_DURATION = Allowed(
     "seconds above 0, up to 86400", lambda v: is_number(v) and 0 < v <= 86400, keep=float
 )
 
@@ -29,9 +29,9 @@ class Script:
     """mode: of the F710. moves: pairs of a duration [s] and Controls."""
 
     moves: tuple[tuple[float, Controls], ...] = parameter(
-        MISSING, Check("a list of moves", lambda value: isinstance(value, list) and value)
+        MISSING, Allowed("a list of moves", lambda value: isinstance(value, list) and value)
     )
-    mode: str = parameter("D", Check("D or X", lambda value: value in list(F710)))
+    mode: str = parameter("D", Allowed("D or X", lambda value: value in list(F710)))
 
 
 def load_script(document: Any) -> Script:

@@ -1,4 +1,4 @@
-"""Imported first, this lets Ctrl-C end a program quietly while ROS loads; later, ending does."""
+"""Import this first: Ctrl-C then ends the program quietly while ROS loads."""
 
 import signal
 

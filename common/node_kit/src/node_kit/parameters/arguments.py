@@ -1,4 +1,4 @@
-"""Command lines of this suite's programs (pure)."""
+"""Command lines of this suite's programs."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class Parser(argparse.ArgumentParser):
 
 
 def above_zero(text: str) -> float:
-    """Return a finite number above 0, such as a time. Raises what argparse reports."""
+    """Return a finite number above 0, such as a time. Raises argparse.ArgumentTypeError."""
     try:
         number = float(text)
     except ValueError:

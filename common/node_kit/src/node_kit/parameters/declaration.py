@@ -1,4 +1,4 @@
-"""Private parameters: from a mapping of names to values to a checked, frozen dataclass (pure).
+"""Private parameters: from a mapping of names to values to a checked, frozen dataclass.
 
 Each field of a dataclass declares its default, what is allowed and what it is for:
 
@@ -12,23 +12,24 @@ README's table.
 
 from __future__ import annotations
 
+import dataclasses
 import difflib
-from dataclasses import MISSING, Field, dataclass, field, fields
+from dataclasses import MISSING, Field, dataclass, fields
 from math import inf
 from sys import float_info
 from typing import Any, Callable, Collection, Mapping
 
 
 @dataclass(frozen=True)
-class Check:
-    """What a value must be, in words, and how this is decided; keep() converts a good value."""
+class Allowed:
+    """Which values are allowed, in words and as a test; keep() converts a good value."""
 
     allowed: str
     fits: Callable[[Any], object]
     keep: Callable[[Any], Any] = lambda value: value
 
     def __call__(self, value: Any) -> Any:
-        """Return what to keep of a value. Raises ValueError ("must be ...")."""
+        """Return the value to keep. Raises ValueError ("must be ...")."""
         if not self.fits(value):
             raise ValueError(f"must be {self.allowed}")
         return self.keep(value)
@@ -39,9 +40,9 @@ def parameter(
 ) -> Any:
     """Declare a field of a dataclass of parameters; default: MISSING if there is none."""
     metadata = {"check": check, "meaning": meaning, "default": default_in_words}
-    if isinstance(default, dict):  # each dataclass has one of its own
-        return field(default_factory=lambda: dict(default), metadata=metadata)
-    return field(default=default, metadata=metadata)
+    if isinstance(default, dict):  # so that no two instances share it
+        return dataclasses.field(default_factory=lambda: dict(default), metadata=metadata)
+    return dataclasses.field(default=default, metadata=metadata)
 
 
 def checked(
@@ -49,7 +50,7 @@ def checked(
 ) -> dict[str, Any]:
     """Return {name: checked value} of the fields of the dataclass `kind`, defaults filled in.
 
-    where: stands before each name. example: what to write where a value is missing. Raises
+    where: the text before each name. example: what to write if a value is missing. Raises
     ValueError, one line.
     """
     known = declared(kind)
@@ -57,27 +58,30 @@ def checked(
         if name not in known:
             raise ValueError(unknown(name, given[name], known, where))
     values = {}
-    for name, one in known.items():
+    for name, declaration in known.items():
         if name in given:
-            values[name] = checked_value(f"{where}{name}", given[name], one.metadata["check"])
+            values[name] = checked_value(
+                f"{where}{name}", given[name], declaration.metadata["check"]
+            )
         else:
-            values[name] = _default(one)
+            values[name] = _default(declaration)
             if values[name] is MISSING:
                 raise ValueError(f"{where}{name}: missing; {example}")
     return values
 
 
-def _default(one: Field[Any]) -> Any:
-    return one.default if one.default_factory is MISSING else one.default_factory()
+def _default(declaration: Field[Any]) -> Any:
+    factory = declaration.default_factory
+    return declaration.default if factory is MISSING else factory()
 
 
 def declared(kind: type) -> dict[str, Field[Any]]:
     """Return the fields of a dataclass that parameter() declares, by name."""
-    return {one.name: one for one in fields(kind) if "check" in one.metadata}
+    return {field.name: field for field in fields(kind) if "check" in field.metadata}
 
 
 def checked_value(name: str, value: Any, check: Callable[[Any], Any]) -> Any:
-    """Return what the check keeps of the value; its ValueError gets the name and the value."""
+    """Return the checked value. Raises ValueError, with the name and the value in it."""
     try:
         return check(value)
     except ValueError as error:
@@ -85,7 +89,7 @@ def checked_value(name: str, value: Any, check: Callable[[Any], Any]) -> Any:
 
 
 def unknown(name: str, value: Any, known: Collection[str], where: str = "~") -> str:
-    """Return one line about a name that does not exist, with the nearest one or all."""
+    """Return one line about an unknown name: the nearest known name, or all of them."""
     similar = difflib.get_close_matches(str(name), known, n=1)
     if similar:
         hint = f"did you mean {'~' if where == '~' else ''}{similar[0]}?"
@@ -97,10 +101,11 @@ def unknown(name: str, value: Any, known: Collection[str], where: str = "~") -> 
 def table(kind: type, where: str = "~") -> str:
     """Return the Markdown table of the parameters that a dataclass declares; where: as above."""
     rows = ["| parameter | default | allowed | |", "|---|---|---|---|"]
-    for name, one in declared(kind).items():
-        default = one.metadata["default"] or _as_yaml(_default(one))
-        allowed = getattr(one.metadata["check"], "allowed", "")
-        rows.append(f"| `{where}{name}` | {default} | {allowed} | {one.metadata['meaning']} |")
+    for name, declaration in declared(kind).items():
+        about = declaration.metadata
+        default = about["default"] or _as_yaml(_default(declaration))
+        allowed = getattr(about["check"], "allowed", "")
+        rows.append(f"| `{where}{name}` | {default} | {allowed} | {about['meaning']} |")
     return "\n".join(rows) + "\n"
 
 
@@ -111,33 +116,35 @@ def _as_yaml(value: Any) -> str:
 
 
 def is_whole(value: object) -> bool:
-    """Return whether it is a whole number; YAML's true and false are not."""
+    """Return whether a value is a whole number; YAML's true and false are not."""
     return isinstance(value, int) and not isinstance(value, bool)
 
 
 def is_number(value: Any) -> bool:
-    """Return whether it is a finite number that a float can hold."""
+    """Return whether a value is a finite number that a float can hold."""
     return (isinstance(value, float) or is_whole(value)) and abs(value) <= float_info.max
 
 
-def number(least: float, most: float, unit: str = "", off: Any = None) -> Check:
-    """Allow a number from least to most, both included, or off. unit: what follows in the text."""
+def number(least: float, most: float, unit: str = "", off: Any = None) -> Allowed:
+    """Allow a number from least to most, both included, or off. unit: the words after it."""
     allowed = f"a number from {least:g} to {most:g} {unit}".rstrip()
-    return Check(
+    return Allowed(
         allowed,
         lambda v: (is_number(v) and (least <= v <= most or v == off)) or v == off == "",
         lambda v: float(v) if is_number(v) else v,
     )
 
 
-def whole_number(least: float = -inf, most: float = inf, allowed: str = "a whole number") -> Check:
-    """Allow a whole number, within bounds where they are given. allowed: the words for them."""
-    return Check(allowed, lambda value: is_whole(value) and least <= value <= most)
+def whole_number(
+    least: float = -inf, most: float = inf, allowed: str = "a whole number"
+) -> Allowed:
+    """Allow a whole number, within bounds where they are given. allowed: in words."""
+    return Allowed(allowed, lambda value: is_whole(value) and least <= value <= most)
 
 
-def text(allowed: str = "a text", fits: Callable[[str], object] = lambda value: True) -> Check:
-    """Allow a text that fits. allowed: the words for what does."""
-    return Check(allowed, lambda value: isinstance(value, str) and fits(value))
+def text(allowed: str = "a text", fits: Callable[[str], object] = lambda value: True) -> Allowed:
+    """Allow a text that fits. allowed: in words."""
+    return Allowed(allowed, lambda value: isinstance(value, str) and fits(value))
 
 
-switch = Check("true or false", lambda value: isinstance(value, bool))
+switch = Allowed("true or false", lambda value: isinstance(value, bool))

@@ -1,4 +1,4 @@
-"""The keys of a terminal, or from a pipe."""
+"""Reads keys from a terminal or a pipe."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ PERIOD_S = 0.1
 
 
 def keys() -> Iterator[bytes]:
-    """Yield the bytes of the keys that are pressed, one by one, and b"" after each PERIOD_S without
-    one, until the node or standard input ends.
+    """Yield the byte of each pressed key, and b"" after each PERIOD_S without a key, until the node
+    or standard input ends.
     """
     terminal = sys.stdin.fileno()
     before = termios.tcgetattr(terminal) if os.isatty(terminal) else None

@@ -1,7 +1,7 @@
-"""Lines for the user, from a thread of their own.
+"""Lines for the user, shown by a separate thread.
 
-rospy asks the master a question for every line, and a screen may be held with Ctrl-S: a callback
-that logs through rospy may wait without end.
+rospy calls the master for every line, and a user can stop the output with Ctrl-S: a callback that
+logs through rospy can block forever.
 """
 
 from __future__ import annotations
@@ -16,8 +16,9 @@ from typing import Any, Callable, List
 
 import rospy
 
-GATHER_S = 0.25  # lines within this time are shown together: to wake a thread for each costs more
-LONGEST_QUEUE = 1000  # lines kept while a screen or a master is held; later ones are lost
+# Lines within this time are shown together, which costs less than to wake a thread for each.
+GATHER_S = 0.25
+LONGEST_QUEUE = 1000  # lines that are kept while the output is blocked; later lines are lost
 Show = Callable[[List[Any]], object]
 
 
@@ -41,7 +42,7 @@ class Log:
         self.put(self._error, line)
 
     def put(self, show: Show, content: Any) -> None:
-        """Have show([content, ...]) called with this and what else came for it meanwhile."""
+        """Call show([content, ...]) soon, with all that is put for it until then."""
         if self._waiting.qsize() < LONGEST_QUEUE:
             self._waiting.put((show, content))
 
@@ -51,7 +52,7 @@ class Log:
             while not self._waiting.empty():
                 together.append(self._waiting.get())
             for show, group in itertools.groupby(together, key=itemgetter(0)):
-                with contextlib.suppress(OSError):  # the screen is gone; the node goes on
+                with contextlib.suppress(OSError):  # the terminal is closed; the node goes on
                     show([content for _, content in group])
             time.sleep(GATHER_S)
 

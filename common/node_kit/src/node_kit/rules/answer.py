@@ -4,7 +4,7 @@ from enum import Enum
 
 
 class Answer(Enum):
-    """What comes back from a master or a node."""
+    """The result of a question to a master or a node."""
 
     WELL = "answers"
     MALFORMED = "is not of the form http://HOST:PORT"

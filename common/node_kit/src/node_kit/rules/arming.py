@@ -1,4 +1,4 @@
-"""The rules of joy2twist after a loss, and what it shares with the multiplexer (pure).
+"""The rules after a loss, which joy2twist shares with the multiplexer.
 
 Times are in seconds of one clock that never jumps.
 """
@@ -8,42 +8,42 @@ from typing import Tuple
 Velocity = Tuple[float, ...]  # linear x, y, z [m/s] and angular x, y, z [rad/s], REP-103
 ZERO: Velocity = (0.0,) * 6
 DRIVING = "driving"  # the state on /diagnostics in which joy2twist drives
-# After a longer silence in a motion, a velocity may be one that a broken network had kept.
+# After a longer silence during a motion, a velocity may have been delayed by a broken network.
 SILENCE_S = 0.5
-SETTLING_S = 0.25  # by then what was sent during an outage or a suspension has arrived
+SETTLING_S = 0.25  # by then, messages sent during an outage or a suspension have arrived
 
 
 class Arming:
     """Decides whether joystick messages may move the robot.
 
-    A loss disarms. A message in which all is released arms again.
+    A loss disarms. A message with everything released arms again.
     """
 
     def __init__(self, armed: bool = True) -> None:
-        """Start armed, or wait for a rest."""
+        """Start armed, or wait until everything is released."""
         self.armed = armed
-        self.rests = armed  # all was released in the newest message
+        self.rests = armed  # whether the newest message has everything released
 
     def lose(self) -> None:
-        """Disarm: what drove, or what it drove, was lost."""
+        """Disarm: the joystick or the robot was lost."""
         self.armed = self.rests = False
 
     def hear(self, rests: bool) -> bool:
-        """Take whether all is released in a message; return whether it may move the robot."""
+        """Take whether a message has everything released; return whether it may move the robot."""
         self.armed = self.armed or rests
         self.rests = rests
         return self.armed
 
 
 class Resumption:
-    """Decides what a receiver obeys after a suspension of its process: nothing for SETTLING_S."""
+    """Decides which messages to ignore after a suspension: all for SETTLING_S."""
 
     def __init__(self) -> None:
         self._seen = 0
         self._settled_at = 0.0
 
     def notice(self, number: int, now: float) -> bool:
-        """Return whether a suspension is new. number: of suspensions so far."""
+        """Return whether there was a new suspension. number: of suspensions so far."""
         if number == self._seen:
             return False
         self._seen = number
@@ -51,5 +51,5 @@ class Resumption:
         return True
 
     def is_old(self, now: float) -> bool:
-        """Return whether what comes now was sent during the suspension."""
+        """Return whether a message that arrives now may have been sent during the suspension."""
         return now < self._settled_at

@@ -1,22 +1,22 @@
-"""Limits how often something happens (pure): time enters in seconds."""
+"""Limits how often something happens."""
 
 from __future__ import annotations
 
 
 class Throttle:
-    """Says yes at most `rate` times a second in the long run, and up to `burst` times at once.
+    """Allows an event `rate` times a second on average, and up to `burst` times at once.
 
-    The burst lets every one of a series through that comes at the rate but not quite evenly.
+    With a burst, all events of a series pass that comes at the rate, but not evenly.
     """
 
     def __init__(self, rate: float, burst: float = 1.0) -> None:
         """Take the rate [1/s], 0 for never, and the burst, at least 1."""
         self._period = rate and 1.0 / rate
         self._slack = (burst - 1.0) * self._period
-        self._next: float | None = None  # when the next one of an even series comes [s]
+        self._next: float | None = None  # when the next event of an even series is due [s]
 
     def ready(self, now: float) -> bool:
-        """Return whether it may happen at the time now [s]."""
+        """Return whether the event may happen at the time now [s]."""
         if not self._period:
             return False
         if self._next is None or now > self._next:
@@ -28,10 +28,10 @@ class Throttle:
 
 
 class ThrottleEach:
-    """A Throttle for each text, so that one is not held up by another."""
+    """One Throttle for each text."""
 
     def __init__(self, rate: float) -> None:
-        """Take the rate [1/s] of each."""
+        """Take the rate [1/s] for each text."""
         self._rate = rate
         self._throttles: dict[str, Throttle] = {}
 

@@ -16,7 +16,13 @@ import rospkg
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 
-from node_kit.ros.graph.raw_messages import Raw, RawPublisher, senders, subscribe, types_of_others
+from node_kit.ros.graph.raw_messages import (
+    RawMessage,
+    RawPublisher,
+    senders,
+    subscribe,
+    types_of_others,
+)
 from node_kit.ros.lifecycle.start import run
 from ros2_bridge.io.connection import Frame, Sender, end_with_parent, frames, is_late
 from ros2_bridge.routes import Route, depth_of, read_routes
@@ -89,7 +95,7 @@ class Ros1Side:
         return array
 
     def _subscribe(self, route: Route) -> None:
-        def hear(raw: Raw) -> None:
+        def hear(raw: RawMessage) -> None:
             if raw.sender == rospy.get_name():
                 return  # what came through the bridge
             if raw.is_latched and raw.is_first and not route.may_latch:

@@ -11,7 +11,8 @@ import sys
 from fake_turtlebot_sim.io.serial_kobuki.beside import Beside
 from fake_turtlebot_sim.io.serial_kobuki.device import Device
 from fake_turtlebot_sim.serial_kobuki.parameters import NODE_NAME, parse_parameters
-from node_kit.ros.lifecycle.start import StartError, private_parameters
+from node_kit.errors import StartError
+from node_kit.ros.lifecycle.start import private_parameters
 from node_kit.ros.log import Log
 
 

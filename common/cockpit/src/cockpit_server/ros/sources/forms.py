@@ -18,7 +18,7 @@ from cockpit_server.ros.graph_watch import GraphWatch
 from cockpit_server.ros.sources.logs import without_folders
 from cockpit_server.schema import full_name, one_of, text
 from node_kit.message_types import message_class
-from node_kit.parameters.declaration import Check
+from node_kit.parameters.declaration import Allowed
 from node_kit.ros.graph.services import call_service, kind_of
 
 MOST_VALUES, SHORT = 1000, 60  # parameters in a list, and characters of the value of each
@@ -28,7 +28,7 @@ LONGEST_ANSWER, LONGEST_LINE = 4000, 200  # characters
 CALL_S, RESET_S = 30.0, 5.0  # A service that does not answer for so long is given up.
 MOST_ASKED = 100  # calls that wait at a time, each in a thread
 
-TEXTS = Check(
+TEXTS = Allowed(
     f"at most {MOST_FIELDS} texts of at most {LONGEST_VALUE} characters",
     lambda v: isinstance(v, dict) and len(v) <= MOST_FIELDS
     and all(isinstance(one, str) and len(one) <= LONGEST_VALUE for one in v.values()),

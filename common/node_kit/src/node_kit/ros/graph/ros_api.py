@@ -1,6 +1,6 @@
-"""Questions to a master or a node that end in time, unlike rospy's own: which node is where.
+"""Questions to a master or a node, with a timeout, which rospy's own lack.
 
-Also: which node holds a name, and this machine's own address.
+Also: which node holds a name, and the address of this machine.
 """
 
 from __future__ import annotations
@@ -14,18 +14,18 @@ from urllib.parse import urlsplit
 
 from node_kit.rules.answer import Answer
 
-TIMEOUT_S = 2.0  # for each question; on one network an answer takes milliseconds
-MASTER_S = 10.0  # a master without processor time still knows who has a name
-PATIENCE_S = 3.0  # a node that hangs or waits for a busy processor still holds its name
+TIMEOUT_S = 2.0  # for each question; on a local network an answer takes milliseconds
+MASTER_S = 10.0  # a busy master still knows which node has a name
+PATIENCE_S = 3.0  # a node that hangs or waits for the CPU still holds its name
 
 
-# The answer that an exception stands for: the first that fits.
+# The Answer for each exception: the first one that fits.
 _MEANINGS = (
     (ConnectionRefusedError, Answer.REFUSED),
     (socket.gaierror, Answer.UNKNOWN_NAME),
     (ConnectionError, Answer.STRANGE),
-    (OSError, Answer.SILENT),  # a timeout, or no way to that host
-    (Exception, Answer.STRANGE),  # what that program answered is not ROS
+    (OSError, Answer.SILENT),  # a timeout, or no route to that host
+    (Exception, Answer.STRANGE),  # the reply is not from a ROS program
 )
 
 
@@ -43,7 +43,10 @@ class _Transport(xmlrpc.client.Transport):
 def call(
     uri: str, method: str, *arguments: Any, caller: str | None = None, timeout_s: float = TIMEOUT_S
 ) -> tuple[Answer, Any]:
-    """Ask a master or a node, as `caller` or as no node; return (Answer, value or None)."""
+    """Call a method of a master or a node; return (Answer, value or None).
+
+    caller: the name of the calling node, if it is one.
+    """
     answer: list[tuple[Answer, Any]] = [(Answer.SILENT, None)]
 
     def ask() -> None:
@@ -55,8 +58,8 @@ def call(
         except Exception as error:
             answer[0] = (next(a for kind, a in _MEANINGS if isinstance(error, kind)), None)
 
-    # The timeout of a socket is not enough: another kind of server may keep sending, and the
-    # look-up of a name has none.
+    # The timeout of a socket is not enough: another kind of server may keep sending, and name
+    # resolution has no timeout.
     thread = threading.Thread(target=ask, daemon=True)
     thread.start()
     thread.join(2 * timeout_s)
@@ -64,18 +67,18 @@ def call(
 
 
 def known_nodes(master_uri: str) -> set[str]:
-    """Return the names of the nodes that a master knows, dead ones too; none without a master."""
+    """Return the names of the nodes that a master knows, dead ones included."""
     answer, state = call(master_uri, "getSystemState", timeout_s=MASTER_S)
     columns = state if answer is Answer.WELL else ()
     return {node for column in columns for _, users in column for node in users}
 
 
 def holder(master_uri: str, name: str) -> tuple[str, str] | None:
-    """Return where the node of a name runs, as (uri, words), or None if the name is free.
+    """Return (uri, description) of the node that holds a name, or None if the name is free.
 
     The name of a dead node is free: its port refuses or belongs to another node, or its host is
-    gone. The name of a node that accepts the connection but does not answer is not free: the node
-    may be stopped, and resume.
+    gone. The name of a node that accepts a connection without an answer is not free: the node may
+    be stopped, and may continue.
     """
     answer, uri = call(master_uri, "lookupNode", name, timeout_s=MASTER_S)
     if answer is not Answer.WELL:
@@ -92,7 +95,7 @@ def holder(master_uri: str, name: str) -> tuple[str, str] | None:
 
 
 def accepts(uri: str) -> bool:
-    """Return whether something accepts a connection at a URI, as a stopped process does, too."""
+    """Return whether a URI accepts a connection; that of a stopped process does."""
     try:
         parts = urlsplit(uri)
         with socket.create_connection((parts.hostname or "", parts.port or 0), PATIENCE_S):
@@ -102,11 +105,12 @@ def accepts(uri: str) -> bool:
 
 
 def family(address: str) -> socket.AddressFamily:
+    """Return the address family of a numeric address."""
     return socket.AF_INET6 if ":" in address else socket.AF_INET
 
 
 def way_out(address: str) -> str:
-    """Return our own address on the way to another one, or "". Nothing is sent."""
+    """Return the own address on the route to another address, or "". Send nothing."""
     try:
         with socket.socket(family(address), socket.SOCK_DGRAM) as probe:
             probe.connect((address, 9))

@@ -1,4 +1,4 @@
-"""Services by their names: what type one has, and calls that end in time, unlike rospy's own."""
+"""Services by name: their types, and calls with a timeout, which rospy's own lack."""
 
 from __future__ import annotations
 
@@ -18,21 +18,18 @@ from rosgraph.network import (
     write_ros_handshake_header,
 )
 
+from node_kit.errors import ServiceError
 from node_kit.message_types import service_class
 from node_kit.ros.graph.ros_api import call
 from node_kit.rules.answer import Answer
 
-PROBE_S = 5.0  # How long to wait for the type of a service.
+PROBE_S = 5.0  # to wait for the type of a service
 LONGEST_ANSWER = 50_000_000  # bytes
 _READ = 65536  # bytes at a time
 
 
-class ServiceError(Exception):
-    """A service cannot be called; the text says why in one line."""
-
-
 def kind_of(name: str) -> Any:
-    """Return the class of a service that is there, from its header. Raises ServiceError."""
+    """Return the class of a running service, from its header. Raises ServiceError."""
     with _connected(name, PROBE_S, probe="1") as (_, header):
         kind = service_class(header.get("type", ""))
     if kind is None:
@@ -41,7 +38,7 @@ def kind_of(name: str) -> Any:
 
 
 def call_service(name: str, request: Any, kind: Any, timeout_s: float) -> Any:
-    """Return the answer of a service of a class to a request. Raises ServiceError."""
+    """Call a service of the class `kind`; return its response. Raises ServiceError."""
     buffer = BytesIO()
     request.serialize(buffer)
     data = buffer.getvalue()
@@ -55,7 +52,7 @@ def call_service(name: str, request: Any, kind: Any, timeout_s: float) -> Any:
         raise ServiceError(answer.decode(errors="replace") or f"{name} reports a failure")
     try:
         return kind._response_class().deserialize(answer)
-    except Exception:  # Malformed bytes may raise anything.
+    except Exception:  # malformed bytes may raise anything
         raise ServiceError(f"the answer of {name} is malformed") from None
 
 
@@ -63,7 +60,7 @@ def call_service(name: str, request: Any, kind: Any, timeout_s: float) -> Any:
 def _connected(
     name: str, timeout_s: float, **fields: str
 ) -> Iterator[tuple[socket.socket, dict[str, str]]]:
-    """Yield a connection, which is shut after the timeout, and the header of the service."""
+    """Yield a connection, which is closed after the timeout, and the header of the service."""
     answer, uri = call(rosgraph.get_master_uri(), "lookupService", name, timeout_s=timeout_s)
     if answer is not Answer.WELL:
         raise ServiceError(f"there is no service {name}")

@@ -1,7 +1,7 @@
-"""Services of a node that others find before the node has loaded rospy, and that answer after it.
+"""Registers the services of a node before it loads rospy; they answer afterwards.
 
-`rosservice call` beside a node in one launch file looks once, as soon as it has loaded rospy
-itself. A node in Python that registers only then comes too late for it.
+`rosservice call` in the same launch file looks up a service once, as soon as it has loaded rospy.
+A Python node that registers its services only then is too late.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ MOST_WAITING = 128  # callers
 
 @dataclass(frozen=True)
 class Announcement:
-    """node: its name; services: by name; listener: where callers wait; place: keeps node_port."""
+    """A node and its services, by name. listener: where callers wait. place: keeps node_port."""
 
     node: str
     services: Sequence[str]
@@ -35,35 +35,35 @@ class Announcement:
 
     @property
     def node_port(self) -> int:
-        """The port that rospy.init_node() must take: the master knows it already."""
+        """The port for rospy.init_node(), which the master knows already."""
         return int(self.place.getsockname()[1])
 
     @property
     def address(self) -> str:
-        """Where the services are, as the master has it."""
+        """The address of the services on the master."""
         return f"rosrpc://{network.get_host_name()}:{self.listener.getsockname()[1]}"
 
     def register(self) -> None:
-        """Register the services, and withdraw them should the start fail."""
+        """Register the services, and withdraw them if the start fails."""
         atexit.register(self.withdraw)
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             if signal.getsignal(number) != signal.SIG_IGN:
-                signal.signal(number, self._end)  # The node's own handlers replace it.
+                signal.signal(number, self._end)  # the node's own handlers replace it
         uri = network.create_local_xmlrpc_uri(self.node_port)
         for service in self.services:
-            self._tell("registerService", service, self.address, uri)
+            self._call_master("registerService", service, self.address, uri)
 
     def withdraw(self) -> None:
         """Unregister the services, unless the node itself has registered them since."""
         for service in self.services:
-            self._tell("unregisterService", service, self.address)
+            self._call_master("unregisterService", service, self.address)
 
     def keep(self) -> None:
-        """Leave the services to the node, which has registered them itself."""
+        """Leave the services to the node, which has registered them now."""
         atexit.unregister(self.withdraw)
         self.place.close()
 
-    def _tell(self, *request: str) -> None:
+    def _call_master(self, *request: str) -> None:
         call(rosgraph.get_master_uri(), *request, caller=self.node)
 
     def _end(self, number: int, _frame: Any) -> None:
@@ -73,10 +73,10 @@ class Announcement:
 
 
 def announce(name: str, services: Sequence[str]) -> Announcement | None:
-    """Register services, the most urgent first, of a node that is about to start.
+    """Register services of a node that is about to start, the most urgent first.
 
-    Return None, and change nothing, without a master, and if the node or one of the services is
-    registered: then it must start as any other. name: of the node, unless __name:= is given.
+    Return None, and register nothing, if there is no master or if the node or one of the services
+    is registered. name: the default of the node, unless __name:= is given.
     """
     node, given = full_name(name), load_mappings(sys.argv)
     remapped = {
@@ -103,7 +103,7 @@ def full_name(name: str) -> str:
 
 
 def _bound() -> socket.socket:
-    """Return a socket with a port that a server of rospy may take, while this one only has it."""
+    """Return a socket that reserves a port, which a server of rospy may take."""
     bound = socket.socket(socket.AF_INET6 if network.use_ipv6() else socket.AF_INET)
     bound.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     bound.bind((network.get_bind_address(), 0))

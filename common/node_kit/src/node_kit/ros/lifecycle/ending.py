@@ -1,4 +1,4 @@
-"""The end of a node: quiet, in time, with the robot at rest first."""
+"""The end of a node: quiet, within a limit, and after the robot has stopped."""
 
 from __future__ import annotations
 
@@ -8,17 +8,17 @@ import threading
 
 import rospy
 
-# How long rospy may unregister from the master and from other nodes [s]. It would wait without end
-# for one that does not answer; roslaunch waits 15 s for a node, a user does not.
+# How long rospy may take to unregister from master and other nodes [s]. Without a limit it would
+# wait for one that does not answer; roslaunch waits 15 s for a node, a user does not.
 LONGEST_GOODBYE_S = 1.2
 
 
 def end_on_signals() -> None:
-    """Let SIGINT, SIGTERM and SIGHUP, which comes when a terminal is closed, shut the node down;
-    call before init_node(disable_signals=True). What nohup starts goes on ignoring SIGHUP.
+    """Shut the node down on SIGINT, SIGTERM and SIGHUP, which arrives when a terminal is closed.
 
-    rospy's own handler calls the master from the thread that it has interrupted. If that was doing
-    the same, as while the node starts, it waits for its own lock without end.
+    Call this before init_node(disable_signals=True). A program under nohup keeps ignoring SIGHUP.
+    rospy's own handler calls the master from the thread that it interrupts. If that thread was
+    calling the master, as at the start of a node, it waits for its own lock forever.
     """
 
     def end(number: int, _frame: object) -> None:
@@ -33,7 +33,7 @@ def end_on_signals() -> None:
 
 
 def end_in_time() -> None:
-    """Limit what comes after the node's own shutdown, however it began; call after init_node()."""
+    """Limit the time between the start of a shutdown and the exit; call this after init_node()."""
     rospy.on_shutdown(_exit_soon)
 
 
@@ -44,11 +44,11 @@ def _exit_soon() -> None:
 
 
 def wait_for_goodbye() -> None:
-    """Wait until the shutdown is complete: a node that exits sooner stays registered."""
+    """Wait until the shutdown is complete: a node that exits earlier stays registered."""
     if rospy.core._shutdown_lock.acquire(timeout=LONGEST_GOODBYE_S):  # held until then
         rospy.core._shutdown_lock.release()
 
 
 def is_ending() -> bool:
-    """Return whether the end was requested; rospy.is_shutdown() waits until the topics close."""
+    """Return whether the shutdown has begun; rospy.is_shutdown() waits until the topics close."""
     return rospy.core.is_shutdown_requested()

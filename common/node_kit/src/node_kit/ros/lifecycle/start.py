@@ -1,4 +1,4 @@
-"""The start of a node: every mistake is one line and exit code 1, and harms nothing that runs."""
+"""The start of a node: a mistake gives one line and exit code 1, and affects no running node."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ import rosgraph
 import rospy
 from rospy.client import load_command_line_node_params
 
+from node_kit.errors import StartError
 from node_kit.parameters.declaration import checked_value, switch
 from node_kit.printable import printable
 from node_kit.ros.graph.ros_api import call, holder
@@ -25,11 +26,7 @@ from node_kit.ros.rospy_patches.connections import be_careful
 from node_kit.ros.rospy_patches.shutdown import end_only_if_replaced
 from node_kit.rules.answer import Answer
 
-TAKE_OVER = "take_over"  # private parameter of every node that keeps its name
-
-
-class StartError(Exception):
-    """The node cannot start; the text says in one line why and what to do."""
+TAKE_OVER = "take_over"  # private parameter of every node with keeps_name
 
 
 def run(
@@ -41,13 +38,13 @@ def run(
 ) -> int:
     """Run a node: main(load(private parameters)); return its exit code.
 
-    name: unless __name:= is given. load: takes a dict of the private parameters; raises ValueError
-    with one line. main: called once the node is registered; returns when it is shut down.
-    keeps_name: start only if that displaces no other node of the name.
-    announcement: of services that this process has registered already.
+    name: the default, unless __name:= is given. load: takes a dict of the private parameters, and
+    raises ValueError with one line. main: runs once the node is registered, until it is shut down.
+    keeps_name: do not start if another node has the name. announcement: services that this process
+    has already registered.
 
     Everything is checked before rospy.init_node(), which ends a running node of the same name. The
-    parameters of the command line are not put on the master, where they would stay.
+    parameters of the command line do not go to the master, where they would stay.
     """
     own_name = name
     stored: set[str] = set()
@@ -73,7 +70,7 @@ def run(
         end_in_time()
         main(parameters)
     except rospy.ROSException:
-        # A shutdown in the middle of the start, or one that closes a topic while it is published.
+        # The node was shut down while it started, or while it published.
         if not is_ending():
             raise
     if is_ending():
@@ -82,7 +79,7 @@ def run(
 
 
 def private_parameters(name: str) -> dict[str, Any]:
-    """Return the private parameters of the command line, and under them those of a master, if any.
+    """Return the private parameters of the command line, and otherwise of the master, if any.
 
     For a program that needs no master. Raises StartError or ValueError, one line.
     """
@@ -90,7 +87,7 @@ def private_parameters(name: str) -> dict[str, Any]:
 
 
 def as_callback(function: Callable[..., object]) -> Callable[..., None]:
-    """Return it for rospy's threads: that the end of the node closes its topics is no error."""
+    """Return the function as a callback that ignores the errors of a node's shutdown."""
 
     @functools.wraps(function)
     def call_it(*arguments: Any) -> None:
@@ -126,10 +123,10 @@ def _check_master() -> None:
 
 
 def remedy(error: ValueError, own_name: str, stored: Collection[str]) -> str:
-    """Return how to get rid of the parameter that an error begins with, if it is a stored one.
+    """Return how to delete the parameter that an error is about, if an earlier launch left it.
 
-    stored: names of the private parameters that are on the master alone. Nobody who starts a node
-    sees those that an earlier launch has left there.
+    stored: names of the private parameters that are on the master only, where a user does not see
+    them.
     """
     name = re.match(r"~([^\s:/\[]+)", str(error))
     if not name or name[1] not in stored:
@@ -138,9 +135,9 @@ def remedy(error: ValueError, own_name: str, stored: Collection[str]) -> str:
 
 
 def _parameters(full_name: str) -> tuple[dict[str, Any], set[str]]:
-    """Return the private parameters of the master, and over them those of the command line.
+    """Return the private parameters, and the names of those that are on the master only.
 
-    And the names of those that are on the master alone.
+    The command line overrides the master.
     """
     answer, given = call(rosgraph.get_master_uri(), "getParam", full_name)
     given = given if answer is Answer.WELL and isinstance(given, dict) else {}
@@ -152,7 +149,7 @@ def _parameters(full_name: str) -> tuple[dict[str, Any], set[str]]:
     for key, value in of_command_line.items():
         *outer, last = key.split("/")
         place = given
-        for part in outer:  # a/b:=value sets one entry of a map
+        for part in outer:  # a/b:=value sets an entry of a map
             if not isinstance(place.get(part), dict):
                 place[part] = {}
             place = place[part]

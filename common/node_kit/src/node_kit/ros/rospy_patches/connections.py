@@ -1,4 +1,4 @@
-"""Fixes three faults of rospy's connections from outside; README.md says which."""
+"""Fixes three faults of rospy's connections; README.md lists them."""
 
 from __future__ import annotations
 
@@ -20,16 +20,16 @@ from rospy.msg import deserialize_messages
 
 from node_kit.rules.throttle import ThrottleEach
 
-GREETING_S = 2.0  # for a peer to name its topic; on one network it takes milliseconds
-# A message that takes longer from its first bytes on, and comes slower, claims to be longer than it
-# is: what fills it are the next ones, of which no robot's control has so many.
+GREETING_S = 2.0  # for a peer to name its topic; on a local network this takes milliseconds
+# A message that takes longer and arrives slower declares a wrong length: the messages after it fill
+# it up, and control messages are too small to do so in that time.
 LONGEST_ARRIVAL_S, SLOWEST_ARRIVAL = 0.5, 1e6  # [s], [bytes/s]
-WARNING_PERIOD_S = 1.0  # a sender may send a hundred of them a second
+WARNING_PERIOD_S = 1.0  # a sender may send a hundred bad messages a second
 _LENGTH = struct.Struct("<I")
 
 _greet = TCPROSServer._tcp_server_callback  # rospy's own
 _connect = ROSHandler._connect_topic  # rospy's own
-# A lock for each (topic, publisher), while it is used.
+# A lock for each (topic, publisher) in use.
 _turns: weakref.WeakValueDictionary[tuple[str, str], Any] = weakref.WeakValueDictionary()
 _turns_lock = threading.Lock()
 _warn: Callable[[str], object] | None = None  # takes a line about an unreadable message
@@ -37,19 +37,19 @@ _may_warn = ThrottleEach(1.0 / WARNING_PERIOD_S)
 
 
 def be_careful() -> None:
-    """Make all connections of this node carefully; call before rospy.init_node()."""
+    """Patch all connections of this node; call this before rospy.init_node()."""
     TCPROSServer._tcp_server_callback = _greet_in_time
     TCPROSSub.read_messages = _read_messages
     connect_once()
 
 
 def connect_once() -> None:
-    """Connect to no publisher twice, and change nothing else: for nodes that observe."""
+    """Connect to each publisher only once, and patch nothing else: for nodes that observe."""
     ROSHandler._connect_topic = _connect_in_turn
 
 
 def report_bad_messages(warn: Callable[[str], object]) -> None:
-    """Call warn(line), which must not wait, at most once a second for a topic."""
+    """Call warn(line), which must not block, at most once a second for each topic."""
     global _warn  # noqa: PLW0603  rospy makes the connections
     _warn = warn
 
@@ -60,32 +60,32 @@ def sender_of(message: Any) -> str:
 
 
 def has_sender(subscriber: Any) -> bool:
-    """Return whether a rospy.Subscriber is connected; rospy also counts what it tries to reach."""
-    return any(one.socket is not None for one in list(subscriber.impl.connections))
+    """Return whether a rospy.Subscriber is connected; rospy also counts pending connections."""
+    return any(link.socket is not None for link in list(subscriber.impl.connections))
 
 
 def header_of(message: Any) -> dict[str, str]:
-    """Return what the publisher of a message declared; one object (`is`) for each connection."""
+    """Return the header of a message's connection: one object (`is`) for each connection."""
     return message._connection_header
 
 
 def is_remote(subscriber: Any, message: Any) -> bool:
-    """Return whether a message came to a rospy.Subscriber from another host."""
-    for one in list(subscriber.impl.connections):
-        if one.header is header_of(message):
-            with contextlib.suppress(AttributeError, OSError):  # it is closed meanwhile
-                peer, own = one.socket.getpeername()[0], one.socket.getsockname()[0]
+    """Return whether a rospy.Subscriber received a message from another host."""
+    for link in list(subscriber.impl.connections):
+        if link.header is header_of(message):
+            with contextlib.suppress(AttributeError, OSError):  # closed in the meantime
+                peer, own = link.socket.getpeername()[0], link.socket.getsockname()[0]
                 return peer != own and not ip_address(peer).is_loopback
     return False
 
 
 def established(subscriber: Any) -> list[Any]:
-    """Return the connections of a rospy.Subscriber that are in use, not those being made."""
-    return [one for one in list(subscriber.impl.connections) if one.header and one.socket]
+    """Return the open connections of a rospy.Subscriber, without the pending ones."""
+    return [link for link in list(subscriber.impl.connections) if link.header and link.socket]
 
 
 def renew(subscriber: Any, old: Any) -> None:
-    """Replace one connection of a rospy.Subscriber; what waits in it to be read is lost."""
+    """Replace a connection of a rospy.Subscriber; its unread messages are lost."""
     address = [TCPROS, *old.dest_address]
     # rospy drops the old connection to the same publisher.
     get_tcpros_handler().create_transport(subscriber.resolved_name, old.endpoint_id, address)
@@ -97,14 +97,14 @@ def is_connected(subscriber: Any, old: Any) -> bool:
 
 
 def _greet_in_time(self: Any, sock: socket.socket, client_addr: Any) -> None:
-    """In place of TCPROSServer's: greet each peer in another thread, which ends in time."""
+    """Replace TCPROSServer's: greet each peer in another thread, with a timeout."""
 
     def greet() -> None:
-        # Not the socket's own timeout, which restarts with every byte and stays set.
+        # Not the timeout of the socket, which restarts with every byte and remains set.
         too_late = threading.Timer(GREETING_S, _cut, [sock])
         too_late.daemon = True
         too_late.start()
-        with contextlib.suppress(OSError):  # the peer has left meanwhile
+        with contextlib.suppress(OSError):  # the peer has disconnected
             _greet(self, sock, client_addr)
         too_late.cancel()
 
@@ -112,7 +112,7 @@ def _greet_in_time(self: Any, sock: socket.socket, client_addr: Any) -> None:
 
 
 def _connect_in_turn(self: Any, topic: str, uri: str) -> Any:
-    """In place of ROSHandler's: a second thread finds the connection that the first has made."""
+    """Replace ROSHandler's: a second thread finds the connection of the first."""
     with _turns_lock:
         turn = _turns.setdefault((topic, uri), threading.Lock())
     with turn:
@@ -125,9 +125,9 @@ def _cut(sock: socket.socket) -> None:
 
 
 def _read_messages(self: Any, buffer: Any, messages: list[Any], _sock: object) -> None:
-    """In place of TCPROSSub's: report what cannot be read, and restart with an empty buffer.
+    """Replace TCPROSSub's: report an unreadable message, and restart with an empty buffer.
 
-    TransportException makes rospy close the connection and make another one.
+    On a TransportException, rospy closes the connection and opens a new one.
     """
     try:
         deserialize_messages(buffer, messages, self.recv_data_class, queue_size=self.queue_size)
@@ -135,7 +135,7 @@ def _read_messages(self: Any, buffer: Any, messages: list[Any], _sock: object) -
             self.incomplete_since = None
         else:
             _check_arrival(self, buffer)
-    except Exception as error:  # malformed bytes make message classes raise anything
+    except Exception as error:  # malformed bytes may raise anything
         del messages[:]
         buffer.seek(0)
         buffer.truncate()
@@ -149,7 +149,7 @@ def _read_messages(self: Any, buffer: Any, messages: list[Any], _sock: object) -
 
 
 def _check_arrival(self: Any, buffer: Any) -> None:
-    """Raise ValueError if the message that has started does not come to an end."""
+    """Raise ValueError if the current message does not arrive completely."""
     now = time.monotonic()
     if getattr(self, "incomplete_since", None) is None:
         self.incomplete_since = now
@@ -159,4 +159,4 @@ def _check_arrival(self: Any, buffer: Any) -> None:
         is_slow = len(arrived) < SLOWEST_ARRIVAL * taken_s
         (length,) = _LENGTH.unpack_from(arrived) if len(arrived) >= _LENGTH.size else (0,)
     if is_slow and taken_s > LONGEST_ARRIVAL_S:
-        raise ValueError(f"it claims to have {length} bytes, which do not come")
+        raise ValueError(f"it declares {length} bytes, which do not arrive")

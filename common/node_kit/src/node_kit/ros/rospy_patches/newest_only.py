@@ -1,4 +1,4 @@
-"""Sends messages over a socket without waiting for the other side (pure: no ROS, no clock)."""
+"""Sends messages over a socket without waiting for the other side."""
 
 from __future__ import annotations
 
@@ -7,29 +7,29 @@ import socket
 import threading
 from typing import Callable
 
-# Linux resends what is not acknowledged after 0.2 s or more, then after twice that, and so on. A
-# packet lost on a radio link is resent once; a second time means no answer for some 0.6 s,
-# as long as a TurtleBot obeys a velocity.
+# Linux resends an unacknowledged packet after at least 0.2 s, then after twice that, and so on. A
+# packet that is lost on a radio link is resent once. A second time means no answer for about 0.6 s,
+# the time for which a TurtleBot obeys a velocity.
 CUT_AFTER_RESENDS = 2
 # struct tcp_info of linux/tcp.h begins with these bytes: tcpi_state, tcpi_ca_state (4: packets were
-# lost), tcpi_retransmits. Four bytes are asked for, since QEMU's emulation of a processor knows
-# options of that length only, and leaves what was in memory in any other.
+# lost), tcpi_retransmits. Four bytes are requested, because QEMU's user mode
+# supports options of that length only, and returns uninitialised memory for any other.
 _INFO_BYTES = 4
 _STATE_AT, _CONGESTION_AT, _RESENDS_AT = 0, 1, 2
 _STATES = range(1, 13)  # TCP_ESTABLISHED to TCP_NEW_SYN_RECV, linux/tcp_states.h
-_LOSS = 4  # TCP_CA_Loss: so it is whenever something was resent because no answer came
+_LOSS = 4  # TCP_CA_Loss: a packet was resent because it was not acknowledged
 
 
 class NewestOnly:
-    """One connection on which write() returns at once.
+    """A connection on which write() returns at once.
 
-    What the kernel does not take is kept, and of several such messages only the newest: an old
-    velocity is worth nothing. A thread that lives only as long as the other side is behind sends
-    it later. A message that has started is always finished before the next one.
+    It keeps the newest message that the kernel does not accept: an old velocity is worthless. A
+    thread, which exists only while the other side is behind, sends it later. A message that was
+    sent in part is always completed first.
 
-    With a stop message: when the network is cut, the kernel keeps what it has taken and delivers it
-    when the network is back, all at once. So that this ends with a stop, a cut connection gets a
-    last stop and then nothing; once it is whole again, nothing before free() is called.
+    With a stop message: when the network is cut, the kernel keeps the messages that it has accepted
+    and delivers them all at once later. So that these end with a stop, a cut connection gets a last
+    stop and then nothing, even after the network is back, until free() is called.
     """
 
     def __init__(
@@ -42,25 +42,25 @@ class NewestOnly:
     ) -> None:
         """Take over a TCP socket.
 
-        stop: the message to stop, or None if a late message does no harm. report: called with True
-        when the connection is cut, with False when it is in use again. buffer_bytes: the size of
-        the kernel's buffer, which the kernel doubles. held: send nothing before free() is called.
+        stop: the message that stops a robot, or None if late messages are harmless. report: called
+        with True when the connection is cut, and with False when it is in use again. buffer_bytes:
+        for the kernel's buffer, which the kernel doubles. held: send nothing before free().
         """
         self._socket = connected_socket
         self._stop = stop
         self._report = report
         self._lock = threading.Lock()
-        self._behind = False  # the thread runs
-        self._begun = b""  # the rest of a message of which the kernel has taken a part
+        self._behind = False  # whether the thread runs
+        self._begun = b""  # the rest of a message that was sent in part
         self._newest = b""  # the message to send after that
         self.held = held
-        # A small message goes out at once instead of waiting for the answer to the last one.
+        # Send a small message at once, without waiting for the acknowledgement of the last one.
         connected_socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         if buffer_bytes:
             connected_socket.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, buffer_bytes)
 
     def write(self, message: bytes) -> None:
-        """Send the message now, or as soon as the kernel takes it. Raises OSError if broken."""
+        """Send the message now, or as soon as the kernel accepts it. Raises OSError if closed."""
         with self._lock:
             if self._stop:
                 if self.held:
@@ -80,7 +80,7 @@ class NewestOnly:
         threading.Thread(target=self._catch_up, daemon=True).start()
 
     def free(self) -> None:
-        """Use a held connection again, if it is whole: all was seen released."""
+        """Use a held connection again, if the network is back: everything was released."""
         with self._lock:
             if self.held and not self._is_cut():
                 self.held = False
@@ -98,7 +98,7 @@ class NewestOnly:
                 with self._lock:
                     self._send_some()
         except (OSError, ValueError):
-            # The other side is gone, or the connection was closed here: the next write() raises.
+            # The connection was closed at one of its ends: the next write() raises.
             with self._lock:
                 self._behind = False
 
@@ -113,7 +113,7 @@ class NewestOnly:
             self._behind = False
 
     def _send(self, data: bytes) -> int:
-        """Return the number of bytes that the kernel has taken."""
+        """Return the number of bytes that the kernel has accepted."""
         try:
             return self._socket.send(data, socket.MSG_DONTWAIT)
         except BlockingIOError:
@@ -121,9 +121,9 @@ class NewestOnly:
 
 
 def resends(connected_socket: socket.socket) -> int:
-    """Return how often Linux has resent, in vain so far, what the other side has not acknowledged.
+    """Return how often Linux has resent the packet that the other side has not yet acknowledged.
 
-    0 if what comes back cannot be right: a meaningless answer must not stop a robot.
+    0 if the kernel's reply is implausible: a meaningless reply must not stop a robot.
     """
     info = connected_socket.getsockopt(socket.IPPROTO_TCP, socket.TCP_INFO, _INFO_BYTES)
     if len(info) < _INFO_BYTES or info[_STATE_AT] not in _STATES or info[_CONGESTION_AT] != _LOSS:

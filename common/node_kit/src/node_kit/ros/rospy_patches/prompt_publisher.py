@@ -1,8 +1,8 @@
 """Publishes from the caller's thread, and never waits for a subscriber.
 
-rospy offers one or the other: with queue_size=None it sends from the thread that publishes, which
-then waits for any subscriber that does not read; with a queue one thread for each subscriber sends,
-which takes longer. Here rospy finds and greets the subscribers, and NewestOnly sends.
+rospy offers only one of the two: with queue_size=None, the publishing thread sends, and waits for
+any subscriber that does not read; with a queue, one thread for each subscriber sends, which takes
+longer. Here rospy finds and greets the subscribers, and NewestOnly sends.
 """
 
 from __future__ import annotations
@@ -23,14 +23,14 @@ Peers = Dict[Any, NewestOnly]  # by rospy's connection
 
 
 class PromptPublisher(rospy.SubscribeListener):
-    """Publishes messages of any type; a subscriber that is behind gets the newest only."""
+    """Publishes messages of any type; a subscriber that is behind gets only the newest."""
 
     def __init__(
         self, name: str, message_class: type, headers: dict[str, str] | None = None
     ) -> None:
         """Take the name of the topic, relative, so that it can be remapped. Never latched.
 
-        headers: what subscribers find in the header of the connection, besides ROS's own fields.
+        headers: fields for the header of the connection, in addition to those of ROS.
         """
         super().__init__()
         self._peers: Peers = {}
@@ -39,27 +39,29 @@ class PromptPublisher(rospy.SubscribeListener):
         self._publisher = rospy.Publisher(
             name, message_class, queue_size=1, latch=False, headers=headers
         )
-        self._publisher.impl.set_queue_size(None)  # no threads; given late, it brings no warning
+        self._publisher.impl.set_queue_size(
+            None
+        )  # no threads; set afterwards, this causes no warning
         self._publisher.impl.add_subscriber_listener(self)
-        self._update_peers()  # those that subscribed before the listener was added
+        self._update_peers()  # nodes that subscribed before the listener was added
 
     @property
     def name(self) -> str:
-        """The topic, as it was remapped."""
+        """The resolved name of the topic."""
         return self._publisher.resolved_name
 
     @property
     def listeners(self) -> int:
-        """How many subscribers are connected."""
+        """The number of connected subscribers."""
         return len(self._peers)
 
     @property
     def names(self) -> set[str]:
-        """The names of the nodes that are connected."""
+        """The names of the connected nodes."""
         return {connection.endpoint_id for connection in self._peers}
 
     def publish(self, message: Any) -> None:
-        """Send a message; one thread at a time."""
+        """Send a message; call this from one thread at a time."""
         self._sequence += 1
         if self._peers:
             self._buffer.seek(0)
@@ -68,36 +70,36 @@ class PromptPublisher(rospy.SubscribeListener):
             self.send(self._buffer.getvalue())
 
     def send(self, data: bytes) -> None:
-        """Send the bytes of a message with its length before it."""
+        """Send the bytes of a message, which begin with its length."""
         for connection, peer in self._peers.items():
             try:
                 peer.write(data)
             except OSError:
-                connection.close()  # rospy takes it off its list and calls peer_unsubscribe()
+                connection.close()  # rospy then removes it and calls peer_unsubscribe()
 
     def end(self) -> None:
         """Close all connections and unregister."""
         self._publisher.unregister()
 
-    def peer_subscribe(self, *_: object) -> None:  # rospy calls it, and the next
+    def peer_subscribe(self, *_: object) -> None:  # called by rospy, as is the next
         self._update_peers()
 
     def peer_unsubscribe(self, *_: object) -> None:
         self._update_peers()
 
     def _update_peers(self) -> None:
-        # A new dict, because send() may be going through the old one.
+        # A new dict, because send() may be iterating over the old one.
         self._peers = {
             connection: self._peers.get(connection) or self._peer(connection)
             for connection in self._publisher.impl.connections
-            if connection.socket  # not closed meanwhile
+            if connection.socket  # not yet closed
         }
 
     def _peer(self, connection: Any) -> NewestOnly:
         return NewestOnly(connection.socket)
 
 
-# A field in the header of connections on which a person's hands drive, hold-to-run style.
+# A field in the header of connections through which a person drives, hold-to-run style.
 _HOLD_TO_RUN = "hold_to_run"
 
 
@@ -107,11 +109,11 @@ def is_hold_to_run(message: Any) -> bool:
 
 
 # A Twist on the wire, little-endian: the number of bytes that follow (uint32), then linear x, y, z
-# and angular x, y, z (float64). Packed here, because rospy's way takes several times as long.
+# and angular x, y, z (float64). Packed here, as rospy takes several times as long.
 _TWIST = struct.Struct("<I6d")
 _TWIST_BYTES = _TWIST.size - 4
 _STOP = _TWIST.pack(_TWIST_BYTES, *ZERO)
-# Enough for some velocities. More would only keep old ones for a subscriber that does not read.
+# Enough for a few velocities. More would only keep old ones for a subscriber that does not read.
 _BUFFER_BYTES = 8192
 UNTIL_RELEASED = (
     "It gets nothing more until it can be reached and the dead-man button and the sticks are "
@@ -120,20 +122,20 @@ UNTIL_RELEASED = (
 
 
 class VelocityPublisher(PromptPublisher):
-    """Publishes geometry_msgs/Twist; a robot that was lost is not driven on when it is back.
+    """Publishes geometry_msgs/Twist; a robot that was lost stays stopped when it is back.
 
-    A subscriber whose network was cut gets no velocity before all is released; nor does one
-    that connects in the middle of a motion, such as a robot that was restarted.
+    A subscriber gets no velocity until everything is released if its network was cut, or if it
+    connects during a motion, as a restarted robot does.
     """
 
     def __init__(self, name: str, warn: Callable[[str], object], hold_to_run: bool = False) -> None:
-        """Take warn(line), called when a subscriber is held or free again; it must not wait.
+        """Take warn(line), called when a subscriber is held or in use again; it must not block.
 
-        hold_to_run: tell a multiplexer that a person's hands drive, who can release the stick, and
-        that no two velocities of a motion are more than SILENCE_S apart.
+        hold_to_run: declare to a multiplexer that a person drives, who can release the stick, and
+        that successive velocities of a motion are at most SILENCE_S apart.
         """
         self._warn = warn
-        self._holds_new = False  # a new subscriber does not take part in the present motion
+        self._holds_new = False  # a new subscriber does not join the current motion
         super().__init__(name, Twist, {_HOLD_TO_RUN: "1"} if hold_to_run else None)
 
     def publish(
@@ -141,8 +143,8 @@ class VelocityPublisher(PromptPublisher):
     ) -> None:
         """Send a velocity: linear x, y, z [m/s] and angular x, y, z [rad/s], frame of the base.
 
-        None sends nothing. released: all was seen released, so lost subscribers are driven again.
-        hold_new: subscribers that connect from now on are held, if this is a motion.
+        None sends nothing. released: everything was released, so lost subscribers are driven again.
+        hold_new: hold subscribers that connect from now on, if this is a motion.
         """
         if released:
             self._free()

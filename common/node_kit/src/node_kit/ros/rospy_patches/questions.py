@@ -1,4 +1,4 @@
-"""Adds a question to those that a node answers by XML-RPC, which no list of ROS shows."""
+"""Adds a method to the XML-RPC interface of a node, which no ROS tool lists."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from rospy.impl.masterslave import ROSHandler
 
 
 def answer(question: str, reply: Callable[..., Any]) -> None:
-    """Have this node answer ros_api.call(its address, question, ...) with reply(...)."""
+    """Answer ros_api.call(address of this node, question, ...) with reply(...)."""
 
     def handle(_handler: Any, _caller: str, *arguments: Any) -> tuple[int, str, Any]:
         return 1, "", reply(*arguments)
