@@ -14,7 +14,7 @@ ALL_SAFETY = [*JOY2TWIST, "_joy_timeout:=0.5", "_vigilance_timeout:=3.0"]
 NODES = {"": [*ALL_SAFETY, "_log_rate:=0"], ", axes displayed": ALL_SAFETY}
 BARE = [str(Path(__file__).with_name("bare_relay.py"))]
 ROUNDS = 9
-PARTS = ("median", "99 of 100", "processor time a message")
+PARTS = ("median", "99 of 100", "processor time per message")
 
 
 @pytest.mark.parametrize(
