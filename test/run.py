@@ -16,17 +16,11 @@ CACHES = Path(os.environ["TUTORIAL_RESULTS"]) / "pytest"
 PYTEST = ["/usr/bin/python3", "-m", "pytest"]
 JOBS = int(os.environ.get("TUTORIAL_JOBS", "2"))  # tests at a time
 NUMBER_OF_INTERRUPT = 130
-TOGETHER = ("launch", "ros", "system")  # they mostly wait, so they run at the same time
+TOGETHER = "launch ros system"  # they mostly wait, so they run at the same time
 ALL = "all"  # the cache of ./tutorial test
 BRIDGE = "--bridge"  # option of the faults
 MUTATE = CACHES.parent / "mutation/bin/python"  # with the lowest priority, as it takes hours
-OPTIONS = {  # more at a time where they wait more than they work
-    "launch": ("-n", JOBS),
-    "ros": ("-n", 2 * JOBS),
-    "exercises": ("-n", 4 * JOBS),
-    "system": ("-n", JOBS + 2, "--dist", "loadgroup"),
-    "browser": ("-n", JOBS, "--dist", "loadfile"),
-}
+BY_GROUP = ("--dist", "loadgroup")
 
 
 def interrupt(number, _):
@@ -45,43 +39,26 @@ def run(*command):
         raise
 
 
-def folders(*kinds, package="*"):
+def folders(kinds, package="*"):
     """Return the folders of some kinds of tests, of one package or of all, from the repository."""
-    paths = [path for kind in kinds for path in sorted(TESTS.glob(f"{package}/{kind}"))]
+    paths = [path for kind in kinds.split() for path in sorted(TESTS.glob(f"{package}/{kind}"))]
     return [path.relative_to(TESTS.parent) for path in paths]
 
 
-def tests(where, given, *options, cache):
-    """Run pytest on folders, or on what is named of them; it notes in a cache what fails."""
+def tests(kinds, given, *options, package="*", cache=""):
+    """Run pytest on the folders of some kinds, or on what is named in them; it notes what fails."""
     is_named = any(Path(argument).parts[:1] == ("test",) for argument in given)
-    noted = ["-o", f"cache_dir={CACHES / cache}"]
-    named = [] if is_named else where
-    return run(*PYTEST, "-p", "no:benchmark", *noted, *options, *named, *given)
-
-
-def tests_of_kind(kind, given):
-    return tests(folders(kind), given, *OPTIONS.get(kind, ()), cache=kind)
-
-
-def unit(given):
-    """Run several at a time; with arguments in turn, so that -s shows what they print."""
-    return tests_of_kind("unit", given or ["-n", str(JOBS)])
-
-
-def tests_of_package(package, given):
-    """Run what is quick about a package."""
-    where = folders("unit", *TOGETHER, package=package)
-    quick = ["-n", 2 * JOBS, "--dist", "loadgroup", "-m", "not night and not long"]
-    return tests(where, given, *quick, cache=package)
+    where = [] if is_named else folders(kinds, package)
+    noted = ["-o", f"cache_dir={CACHES / (cache or kinds)}"]
+    return run(*PYTEST, "-p", "no:benchmark", *noted, *options, *where, *given)
 
 
 def run_all(_):
     """Run unit tests, then the others at once."""
     shutil.rmtree(CACHES / ALL, ignore_errors=True)  # a killed run may have left some
     options = os.environ.get("TUTORIAL_UNIT", f"-n {JOBS}").split()  # .ci/run sets it
-    failed = tests(folders("unit"), options, cache=ALL)
-    together = ["-n", 5 * JOBS, "--dist", "loadgroup"]
-    return tests(folders(*TOGETHER), [], *together, cache=ALL) or failed
+    failed = tests("unit", options, cache=ALL)
+    return tests(TOGETHER, [], "-n", 5 * JOBS, *BY_GROUP, cache=ALL) or failed
 
 
 def again(given):
@@ -89,8 +66,14 @@ def again(given):
     if not (CACHES / ALL).exists():
         sys.exit("tutorial: test again: first run ./tutorial test to its end")
     # Distributed as before, so that a test of a group has the same name, and nothing else runs.
-    only = ["--last-failed", "--last-failed-no-failures", "none", "-n", "1", "--dist", "loadgroup"]
-    return tests(folders("unit", *TOGETHER), given, *only, cache=ALL)
+    only = ["--last-failed", "--last-failed-no-failures", "none", "-n", "1", *BY_GROUP]
+    return tests(f"unit {TOGETHER}", given, *only, cache=ALL)
+
+
+def quick(package, given):
+    """Run what is quick about a package."""
+    options = ["-n", 2 * JOBS, *BY_GROUP, "-m", "not night and not long"]
+    return tests(f"unit {TOGETHER}", given, *options, package=package, cache=package)
 
 
 def faults(arguments):
@@ -98,23 +81,27 @@ def faults(arguments):
     if BRIDGE not in arguments:
         return run("/usr/bin/python3", "-m", "tutorial_faults.live.program", *arguments)
     rest = [argument for argument in arguments if argument != BRIDGE]
-    named = "test/ros2_bridge/ros2/test_faults.py"
-    return tests_of_kind("ros2", ["-q", "-s", named, "-k", "random", *rest])
+    file = "test/ros2_bridge/ros2/test_faults.py"
+    return tests("ros2", ["-q", "-s", file, "-k", "random", *rest])
 
 
-def bench(given):
-    where = folders("benchmark", package="".join(given[:1]) or "*")
-    return run(*PYTEST, "-qs", *where, *given[1:])
-
-
-COMMANDS = {
+KINDS = {
     "": run_all,
-    "unit": unit,
+    # Several at a time; with arguments in turn, so that -s shows what they print.
+    "unit": lambda given: tests("unit", given or ["-n", str(JOBS)]),
+    "launch": lambda given: tests("launch", given, "-n", JOBS),
+    # More at a time: they wait more than they work.
+    "ros": lambda given: tests("ros", given, "-n", 2 * JOBS),
+    "exercises": lambda given: tests("exercises", given, "-n", 4 * JOBS),
+    "system": lambda given: tests("system", given, "-n", JOBS + 2, *BY_GROUP),
     "again": again,
+    "kernel": lambda given: tests("kernel", given),
+    "ros2": lambda given: tests("ros2", given),
+    "browser": lambda given: tests("browser", given, "-n", JOBS, "--dist", "loadfile"),
     "containers": lambda given: run(TESTS / "check_containers", *given),
     "faults": faults,
     "mutation": lambda given: run("nice", "-n", "19", MUTATE, "test/suite/mutation/run.py", *given),
-    "bench": bench,
+    "bench": lambda given: run(*PYTEST, "-qs", *folders("benchmark", *given[:1]), *given[1:]),
 }
 
 
@@ -122,14 +109,10 @@ def main():
     """Run one kind, or all; exit code 1 if a test failed."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, interrupt)
-    libraries = [str(TESTS / "support"), os.environ.get("PYTHONPATH", "")]
-    os.environ["PYTHONPATH"] = ":".join(libraries)
+    os.environ["PYTHONPATH"] = f"{TESTS}/support:{os.environ.get('PYTHONPATH', '')}"
     what, *arguments = sys.argv[1:] or [""]
     try:
-        if what in COMMANDS:
-            code = COMMANDS[what](arguments)
-        else:
-            code = (tests_of_kind if folders(what) else tests_of_package)(what, arguments)
+        code = KINDS[what](arguments) if what in KINDS else quick(what, arguments)
     except KeyboardInterrupt:
         shutil.rmtree(CACHES / ALL, ignore_errors=True)  # what failed is not known
         print("tutorial: test: interrupted", file=sys.stderr)
