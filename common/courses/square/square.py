@@ -4,7 +4,16 @@ import math
 from dataclasses import dataclass
 from typing import Tuple
 
-from tutorial_check import Ran, Sample, SimulatedRobot, Wrong, check, crash, has_moved, program_of
+from tutorial_check import (
+    PoseSample,
+    Ran,
+    SimulatedTurtleBot,
+    Wrong,
+    check,
+    crash,
+    has_moved,
+    program_of,
+)
 
 CORNERS = [(1, 0), (1, 1), (0, 1), (0, 0)]  # [m], to the left; to the right the y are negative
 NEAR_M = 0.1
@@ -16,13 +25,13 @@ class Drive:
     """What is written down: the program, and the path of the robot."""
 
     program: Ran
-    path: Tuple[Sample, ...]
+    path: Tuple[PoseSample, ...]
 
 
 def drive(workspace, script) -> Drive:
     """Record a drive."""
     with workspace.ros_session() as ros:
-        robot = SimulatedRobot(ros)
+        robot = SimulatedTurtleBot(ros)
         program = ros.start("square", script)
         path = robot.drive(program, longest_s=LONGEST_S)
     return Drive(program.ran, path)

@@ -15,7 +15,7 @@ from tutorial_check.checking.package_files import File, Script
 from tutorial_check.checking.results import Wrong
 from tutorial_check.errors import CannotCheck, CutShort
 from tutorial_check.recording import client_node
-from tutorial_check.recording.client import Answer, Client, Seen, Transform
+from tutorial_check.recording.client import Client, FrameTransform, Seen, ServiceAnswer
 from tutorial_check.recording.launch_file_reader import facts_of
 from tutorial_check.recording.launch_files import Launch
 from tutorial_testing.waiting import wait_for
@@ -52,7 +52,7 @@ def ros(monkeypatch):
     for name, value in (("wait_for_service", print), ("get_param", lambda *both: both)):
         monkeypatch.setattr(client_node.rospy, name, value)
     monkeypatch.setattr(client_node.rospy.Time, "now", lambda: client_node.rospy.Time(7, 0))
-    monkeypatch.setattr(client_node.Node, "services", lambda _: ["/there"])
+    monkeypatch.setattr(client_node.ClientNode, "services", lambda _: ["/there"])
     program = SimpleNamespace(ended=False, output="", rests=lambda: True)
 
     def start(command, environment, stdin):
@@ -62,7 +62,7 @@ def ros(monkeypatch):
             for text in line.makefile():
                 node.answer(text)
 
-        node = client_node.Node(line)
+        node = client_node.ClientNode(line)
 
         threading.Thread(target=serve, daemon=True).start()
         return program
@@ -91,14 +91,14 @@ def test_services_parameters_and_types(ros):
     client = Client(ros)
     client.serve("/there", "std_srvs/SetBool", {"success": True, "message": "m"})
     answer = client.ask("/there", "std_srvs/SetBool", {"data": True})
-    assert answer == Answer({"success": True, "message": "m"})
+    assert answer == ServiceAnswer({"success": True, "message": "m"})
     seen = client.seen(SimpleNamespace(ran="p"), "/there", answers=[7])
     assert seen == Seen("p", {"/there": ({"data": True},)}, (7,), {"/t": "T"})
     assert client.parameter("/p") == ["/p", None]
     assert client.fields("std_srvs/Trigger") == ("---", "bool success", "string message")
 
 
-@pytest.mark.parametrize("answers", [Answer({}), [Answer({})], {"first": 1}], ids=str)
+@pytest.mark.parametrize("answers", [ServiceAnswer({}), [ServiceAnswer({})], {"first": 1}], ids=str)
 def test_what_is_no_list_of_plain_values_is_refused(ros, answers):
     with pytest.raises(CannotCheck, match=r"test_course_kit.py:\d+: answers= takes a list"):
         Client(ros).seen(SimpleNamespace(ran="p"), answers=answers)
@@ -128,16 +128,16 @@ def test_it_is_said_whose_mistake_a_type_is(ros, kind, values, why):
 )
 def test_a_service_without_a_response(ros, monkeypatch, name, why):
     hangs = threading.Event()
-    monkeypatch.setattr(client_node.Node, "ask", lambda *_: hangs.wait())
+    monkeypatch.setattr(client_node.ClientNode, "ask", lambda *_: hangs.wait())
     client = Client(ros)
     threading.Timer(0.2, hangs.set).start()
-    assert client.ask(name, "std_srvs/Empty", seconds=0.0) == Answer(None, why)
+    assert client.ask(name, "std_srvs/Empty", seconds=0.0) == ServiceAnswer(None, why)
 
 
 def test_a_transform(ros, monkeypatch):
     found = iter([None, [[1, 2, 0], [0, 0, 0, 1]]])
-    monkeypatch.setattr(client_node.Node, "lookup", lambda *_: next(found))
-    assert Client(ros).lookup("a", "b") == Transform((1, 2, 0), (0, 0, 0, 1))
+    monkeypatch.setattr(client_node.ClientNode, "lookup", lambda *_: next(found))
+    assert Client(ros).lookup("a", "b") == FrameTransform((1, 2, 0), (0, 0, 0, 1))
 
 
 LAUNCH = '<launch>\n  <node pkg="turtlesim" type="mimic" name="m"/>\n</launch>\n'

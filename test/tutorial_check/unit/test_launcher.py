@@ -8,7 +8,7 @@ from types import SimpleNamespace
 import pytest
 
 from tutorial_check.checking.checks import Check
-from tutorial_check.errors import CannotCheck
+from tutorial_check.errors import CannotCheck, Ended
 from tutorial_check.examining import judging
 from tutorial_check.examining.ask_once import AskOnce
 from tutorial_check.recording import worker_process
@@ -76,7 +76,7 @@ def test_what_was_found_before_a_worker_answered_nonsense(examine, monkeypatch, 
 
 def test_what_was_recorded_before_the_worker_ended(examine):
     def end(outcome, _):
-        raise worker_process.Ended("no room")
+        raise Ended("no room")
 
     (asked,) = examine([READY, SEEN], "", end)[0].recordings
     assert asked["recording"] == {"number": 1}
@@ -125,7 +125,7 @@ def test_two_workers_record_each_thing_once():
         def ask(question):
             asked.append((name, question.recorder))
             if ends:
-                raise worker_process.Ended
+                raise Ended
             return Reply(name)
 
         return AskOnce(ask, shared)
@@ -134,7 +134,7 @@ def test_two_workers_record_each_thing_once():
     assert other(Question("talk")).recording == "other"
     assert one(Question("talk")).recording == "other"
     assert one(Question("talk")).recording == "one"  # Who asks again wants another recording.
-    with pytest.raises(worker_process.Ended):
+    with pytest.raises(Ended):
         worker("last", ends=True)(Question("drive"))
     one(Question("drive"))
     talk, drive = [("other", "talk"), ("one", "talk")], [("last", "drive"), ("one", "drive")]

@@ -9,7 +9,7 @@ from typing import Iterable, Mapping, NamedTuple, Sequence, Tuple
 
 from ..task import AXES, HANDOUT, JoystickTask
 
-Sample = Tuple[Sequence[float], Sequence[float]]  # (axes, six values of the Twist)
+JoySample = Tuple[Sequence[float], Sequence[float]]  # (axes, six values of the Twist)
 
 FIELDS = ("linear.x", "linear.y", "linear.z", "angular.x", "angular.y", "angular.z")
 LINEAR, ANGULAR = 0, 5  # the two fields that a robot in the plane obeys
@@ -54,7 +54,7 @@ def factor_of(values: Sequence[float], inputs: Sequence[float]) -> float | None:
     return None
 
 
-def rule_of(index: int, samples: Sequence[Sample]) -> Rule | None:
+def rule_of(index: int, samples: Sequence[JoySample]) -> Rule | None:
     values = [twist[index] for _, twist in samples]
     for axis in range(AXES):
         factor = factor_of(values, [axes[axis] for axes, _ in samples])
@@ -70,8 +70,8 @@ class Evidence:
     factors: those that are asked for, by the index of the field; without one any is right.
     """
 
-    samples: list[Sample]
-    again: list[Sample] = field(default_factory=list)
+    samples: list[JoySample]
+    again: list[JoySample] = field(default_factory=list)
     at_rest: Sequence[float] | None = None
     factors: Mapping[int, float] = field(default_factory=dict)
     task: JoystickTask = HANDOUT  # for names
@@ -81,7 +81,7 @@ class Evidence:
         self.rules = {index: rule_of(index, self.samples) for index in range(6)}
         self.moving = [i for i in range(6) if any(abs(twist[i]) > SMALL for twist in twists)]
         self.strange = [index for index in self.moving if index not in RIGHT]  # should stay 0
-        self.fields = [Field(self, index, axis) for index, axis in RIGHT.items()]
+        self.fields = [TwistField(self, index, axis) for index, axis in RIGHT.items()]
 
     @property
     def is_right(self) -> bool:
@@ -91,7 +91,7 @@ class Evidence:
         return all(field.is_followed for field in self.fields)
 
 
-class Field:
+class TwistField:
     """One field of the Twists, beside the axis that it should follow."""
 
     def __init__(self, evidence: Evidence, index: int, axis: int) -> None:
@@ -227,7 +227,7 @@ def _rises(values: Sequence[float]) -> bool:
     return all(after >= before - SMALL for before, after in zip(values, values[1:]))
 
 
-def no_number(samples: Iterable[Sample]) -> tuple[str, float] | None:
+def no_number(samples: Iterable[JoySample]) -> tuple[str, float] | None:
     """Return the first field with a value that is infinite or no number, and that value."""
     values = ((name, value) for _, twist in samples for name, value in zip(FIELDS, twist))
     return next((pair for pair in values if not math.isfinite(pair[1])), None)

@@ -8,13 +8,13 @@ from __future__ import annotations
 from tutorial_check import Note, Wrong, first_of
 
 from ..task import JoystickTask
-from .evidence import ANGULAR, FIELDS, LINEAR, Evidence, Field, Sample, no_number
+from .evidence import ANGULAR, FIELDS, LINEAR, Evidence, JoySample, TwistField, no_number
 
 # {axis: where the robot goes for a value above 0, and below it}
 SIDES = {0: ("left", "right"), 1: ("forwards", "backwards")}
 
 
-def not_a_number(samples: list[Sample]) -> Wrong | None:
+def not_a_number(samples: list[JoySample]) -> Wrong | None:
     odd = no_number(samples)
     if odd is None:
         return None
@@ -45,12 +45,12 @@ def other_field_moves(evidence: Evidence) -> Wrong | None:
     return Wrong("", _strange(evidence, evidence.strange[0]), hint=hint)
 
 
-def another_factor(field: Field) -> Wrong | None:
+def another_factor(field: TwistField) -> Wrong | None:
     is_positive = (field.own_factor or 0.0) > 0
     return _odd(field, f"= {_product(field)}") if is_positive else None
 
 
-def wrong_sign(field: Field) -> Wrong | None:
+def wrong_sign(field: TwistField) -> Wrong | None:
     if field.own_factor is None:
         return None
     above, below = SIDES[field.axis]
@@ -59,11 +59,11 @@ def wrong_sign(field: Field) -> Wrong | None:
     return _odd(field, f"= {_product(field)}: the sign is wrong", hint)
 
 
-def another_axis(field: Field) -> Wrong | None:
+def another_axis(field: TwistField) -> Wrong | None:
     return _odd(field, _followed(field.evidence, field.index)) if field.rule else None
 
 
-def another_field_follows(field: Field) -> Wrong | None:
+def another_field_follows(field: TwistField) -> Wrong | None:
     evidence = field.evidence
     followed = {index: rule.axis for index, rule in evidence.rules.items() if rule}
     others = [index for index in evidence.strange if followed.get(index) == field.axis]
@@ -73,11 +73,11 @@ def another_field_follows(field: Field) -> Wrong | None:
     return Wrong("", f"{_strange(evidence, others[0])}, {field.name} stays 0", hint=hint)
 
 
-def always_zero(field: Field) -> Wrong | None:
+def always_zero(field: TwistField) -> Wrong | None:
     return None if field.moves else _odd(field, "is always 0")
 
 
-def two_axes_in_one(field: Field) -> Wrong | None:
+def two_axes_in_one(field: TwistField) -> Wrong | None:
     if not field.mixture:
         return None
     products = (_task(field).product(rule.factor, rule.axis) for rule in field.mixture)
@@ -85,18 +85,18 @@ def two_axes_in_one(field: Field) -> Wrong | None:
     return _odd(field, f"= {mixture}: two axes in one")
 
 
-def one_message_late(field: Field) -> Wrong | None:
+def one_message_late(field: TwistField) -> Wrong | None:
     hint = "first put the values into the message, then publish it"
     seen = "follows the Joy before: each Twist is one message late"
     return _odd(field, seen, hint) if field.is_late else None
 
 
-def adds_up(field: Field) -> Wrong | None:
+def adds_up(field: TwistField) -> Wrong | None:
     seen = "depends on earlier Joys: it grows while the stick is held"
     return _odd(field, seen, only_this_joy(field.name)) if field.adds_up else None
 
 
-def another_answer(field: Field) -> Wrong | None:
+def another_answer(field: TwistField) -> Wrong | None:
     if not field.other_answer:
         return None
     earlier, now = field.other_answer
@@ -104,54 +104,54 @@ def another_answer(field: Field) -> Wrong | None:
     return _odd(field, seen, only_this_joy(field.name))
 
 
-def sign_lost(field: Field) -> Wrong | None:
+def sign_lost(field: TwistField) -> Wrong | None:
     hint = f"{_rule(field)}, without abs or a square"
     seen = f"has lost the sign of {_axis(field)}"
     return _odd(field, seen, hint) if field.has_lost_its_sign else None
 
 
-def sign_of_the_other_axis(field: Field) -> Wrong | None:
+def sign_of_the_other_axis(field: TwistField) -> Wrong | None:
     other = _task(field).names.axes[1 - field.axis]
     hint = f"{_rule(field)}, whatever the other axis is"
     seen = f"changes sign when {other} is negative"
     return _odd(field, seen, hint) if field.changes_sign else None
 
 
-def always_the_same(field: Field) -> Wrong | None:
+def always_the_same(field: TwistField) -> Wrong | None:
     is_constant = len({round(value, 6) for value in field.values}) == 1
     return _odd(field, f"is always {field.values[0]:.2f}") if is_constant else None
 
 
-def whole_numbers(field: Field) -> Wrong | None:
+def whole_numbers(field: TwistField) -> Wrong | None:
     hint = f"{_rule(field)}, without int() or round()"
     return _odd(field, "has whole numbers only", hint) if field.is_whole else None
 
 
-def one_side_left_out(field: Field) -> Wrong | None:
+def one_side_left_out(field: TwistField) -> Wrong | None:
     side = field.side_left_out
     hint = f"{_rule(field)}, of either sign"
     return _odd(field, f"is 0 wherever {_axis(field)} is {side} 0", hint) if side else None
 
 
-def offset_added(field: Field) -> Wrong | None:
+def offset_added(field: TwistField) -> Wrong | None:
     if field.offset is None:
         return None
     return _odd(field, f"= {_axis(field)} + {field.offset:.2f}: released, the robot still moves")
 
 
-def moves_at_rest(field: Field) -> Wrong | None:
+def moves_at_rest(field: TwistField) -> Wrong | None:
     seen = f"is {field.at_rest:.2f} at rest, all axes 0: the robot never stands still"
     return _odd(field, seen) if field.moves_at_rest else None
 
 
-def steps(field: Field) -> Wrong | None:
+def steps(field: TwistField) -> Wrong | None:
     values = ", ".join(f"{value:.2f}" for value in field.steps[:3])
     seen = f"has steps, as {values}: it does not follow {_axis(field)} between them"
     hint = f"{_rule(field)}, without round(), and not one speed for many positions"
     return _odd(field, seen, hint) if values else None
 
 
-def no_constant_factor(field: Field) -> Wrong | None:
+def no_constant_factor(field: TwistField) -> Wrong | None:
     is_right = field.is_curve and not field.wanted
     return None if is_right else _odd(field, f"is no constant times {_axis(field)}")
 
@@ -189,23 +189,23 @@ def only_this_joy(name: str) -> str:
     return f"{name} comes from this Joy alone: no +=, no mean, nothing kept"
 
 
-def _odd(field: Field, seen: str, hint: str = "") -> Wrong:
+def _odd(field: TwistField, seen: str, hint: str = "") -> Wrong:
     return Wrong("", f"{field.name} {seen}", hint=hint or _rule(field))
 
 
-def _task(field: Field) -> JoystickTask:
+def _task(field: TwistField) -> JoystickTask:
     return field.evidence.task
 
 
-def _axis(field: Field) -> str:
+def _axis(field: TwistField) -> str:
     return _task(field).names.axes[field.axis]
 
 
-def _rule(field: Field) -> str:
+def _rule(field: TwistField) -> str:
     return f"{field.name} = {_task(field).answers.rules[field.axis]}"
 
 
-def _product(field: Field) -> str:
+def _product(field: TwistField) -> str:
     return _task(field).product(field.own_factor or 0.0, field.axis)
 
 

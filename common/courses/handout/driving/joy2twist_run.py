@@ -17,7 +17,7 @@ SOON_S = 0.05  # from Joy to Twist
 NAP_S = 0.3  # for one Twist: a correct program never takes this long
 
 Twist = Tuple[float, ...]
-Sample = Tuple[Tuple[float, ...], Twist]
+JoySample = Tuple[Tuple[float, ...], Twist]
 
 
 @dataclass(frozen=True)
@@ -37,8 +37,8 @@ class NumberedJoys:
     """What it answered to the numbered Joys, one at a time."""
 
     sent: int = 0
-    samples: Tuple[Sample, ...] = ()
-    first_samples: Tuple[Sample, ...] = ()  # from an earlier pass
+    samples: Tuple[JoySample, ...] = ()
+    first_samples: Tuple[JoySample, ...] = ()  # from an earlier pass
     missing: int = 0
     extra: int = 0  # Twists besides the answers
     came: int = 0  # Twists in all

@@ -6,10 +6,10 @@ from functools import cached_property
 from typing import Iterable, Iterator, NamedTuple, Sequence, Tuple
 
 from ..task import HANDOUT, LB, Joy, JoystickTask
-from .evidence import FIELDS, RIGHT, SMALL, Evidence, Field, Sample, is_near, no_number
+from .evidence import FIELDS, RIGHT, SMALL, Evidence, JoySample, TwistField, is_near, no_number
 from .joys import pressed
 
-Answer = Tuple[Joy, Sequence[float]]  # and the six values of its Twist
+ProbeAnswer = Tuple[Joy, Sequence[float]]  # and the six values of its Twist
 
 SLOWEST = 0.25  # an axis below this may be in a dead zone, and is no measure of a factor
 
@@ -62,10 +62,12 @@ class ProbeReply(NamedTuple):
 class Replies:
     """The answers to the probes of a program that answers the numbered Joys by the right rule."""
 
-    def __init__(self, evidence: Evidence, answers: Iterable[Answer], needs_button: bool) -> None:
+    def __init__(
+        self, evidence: Evidence, answers: Iterable[ProbeAnswer], needs_button: bool
+    ) -> None:
         """needs_button: LB must be held to drive."""
         self.evidence, self.answers, self.needs_button = evidence, [*answers], needs_button
-        self.samples: list[Sample] = [(axes, twist) for (axes, _), twist in self.answers]
+        self.samples: list[JoySample] = [(axes, twist) for (axes, _), twist in self.answers]
 
     @property
     def is_right(self) -> bool:
@@ -90,7 +92,7 @@ class Replies:
             before = twist
 
     @property
-    def _held(self) -> list[Sample]:
+    def _held(self) -> list[JoySample]:
         """The answers to Joys with LB alone, at rest or beyond a dead zone."""
         return [
             (axes, twist)
@@ -99,7 +101,7 @@ class Replies:
         ]
 
     @property
-    def still_alone(self) -> Field | None:
+    def still_alone(self) -> TwistField | None:
         """The first field that is 0 when its axis alone is moved."""
         still = {tuple(map(bool, axes[:2])) for axes, twist in self._held if not any(twist)}
         alone = {field: tuple(i == field.axis for i in (0, 1)) for field in self.evidence.fields}

@@ -13,21 +13,21 @@ from .record import loaded
 
 @check("C13", "joy2twist.py can be run", "4.3", needs="C12", look="rosrun {n.package} joy2twist.py",
        timeless=True)  # fmt: skip
-def file(submission: Submission) -> Note | str:
+def is_runnable(submission: Submission) -> Note | str:
     main = main_script(submission)
     for script in dict.fromkeys((find_script(submission, PACKAGE, NAME), main)):
         check_file(submission, PACKAGE, script)
         check_manifest(submission, script)
-    return Script(submission, PACKAGE, main).odd_node() or main
+    return Script(submission, PACKAGE, main).unusual_node_name() or main
 
 
-@check("C14", "it displays every Joy", "4.3", needs=file,
+@check("C14", "it displays every Joy", "4.3", needs=is_runnable,
        look="rosrun {n.package} joy2twist.py; rostopic echo {n.joy}")  # fmt: skip
 def displays(submission: Submission) -> Note | None:
     return behaviour.displays(submission)
 
 
-@check("C15", "{n.joy} in, {n.cmd_vel} out", "4.3", needs=file, look="rosnode info NODE")
+@check("C15", "{n.joy} in, {n.cmd_vel} out", "4.3", needs=is_runnable, look="rosnode info NODE")
 def topics(submission: Submission) -> Note | str:
     return behaviour.topics(submission)
 

@@ -76,7 +76,7 @@ def several_drivers(file: HandoutLaunch) -> Wrong | None:
 
 
 @dataclass(frozen=True)
-class Player:
+class BagPlayer:
     """The node of launch_bag that plays a recording."""
 
     file: HandoutLaunch
@@ -96,7 +96,7 @@ class Player:
         return self.file.at(*attribute("type", "play"))
 
 
-def short_hyphens(player: Player) -> Wrong | None:
+def short_hyphens(player: BagPlayer) -> Wrong | None:
     odd = (word for word in player.words if re.fullmatch(rf"[-–—]({LONG_OPTIONS})", word))
     for word in odd:
         seen, hint = f"{word}, which it does not", f"two plain hyphens: --{word[1:]}"
@@ -104,7 +104,7 @@ def short_hyphens(player: Player) -> Wrong | None:
     return None
 
 
-def no_recording(player: Player) -> Wrong | None:
+def no_recording(player: BagPlayer) -> Wrong | None:
     seen, hint = (
         f"args: {player.node['args'] or 'none'}",
         BAG_HINT.format(player.file.student_package),
@@ -113,7 +113,7 @@ def no_recording(player: Player) -> Wrong | None:
     return None if is_played else Wrong("rosbag play with the recording", seen, player.where, hint)
 
 
-def relative_path(player: Player) -> Wrong | None:
+def relative_path(player: BagPlayer) -> Wrong | None:
     if os.path.isabs(player.bag):
         return None
     hint = f"roslaunch starts rosbag in a folder of its own: $(find {player.file.student_package})"
@@ -121,7 +121,7 @@ def relative_path(player: Player) -> Wrong | None:
     return Wrong("a whole path to the recording", player.bag, player.where, hint)
 
 
-def lost_recording(player: Player) -> Wrong | None:
+def lost_recording(player: BagPlayer) -> Wrong | None:
     submission = player.file.submission
     if is_there(submission, player.bag) or str(submission.layout.root) in player.bag:
         return None
@@ -129,13 +129,13 @@ def lost_recording(player: Player) -> Wrong | None:
     return Wrong("a recording that exists", seen, player.where, hint)
 
 
-def player_of(submission: Submission) -> Player:
+def player_of(submission: Submission) -> BagPlayer:
     """Return what plays the recording in launch_bag, which can be played. Raises Wrong."""
     file = HandoutLaunch(submission, BAG)
     hint = BAG_HINT.format(file.student_package)
     node = file.must_start("rosbag play", file.of("player"), hint)
     words = [word for word in file.words_of(node) if not word.startswith("_")]
-    player = Player(file, node, words)
+    player = BagPlayer(file, node, words)
     must_pass((short_hyphens, no_recording, relative_path, lost_recording), player)
     if player.bag.startswith(f"{submission.source}/"):
         check_recording(submission, os.path.relpath(player.bag, submission.source))
@@ -158,11 +158,11 @@ def _check_items(file: HandoutLaunch) -> Note | None:
 
 @check("C21", "the two launch files can be read, and what they name is there", "5.1", needs="C12",
        look="roslaunch --nodes {n.package} launch_bag.launch", timeless=True)  # fmt: skip
-def files(submission: Submission) -> Note | str | None:
+def are_readable(submission: Submission) -> Note | str | None:
     return ", ".join(check_launch(submission, name).where for name in (BAG, STICK))
 
 
-@check("C22", "launch_bag starts the four items", "5.1", needs=files,
+@check("C22", "launch_bag starts the four items", "5.1", needs=are_readable,
        look="roslaunch --nodes {n.package} launch_bag.launch", timeless=True)  # fmt: skip
 def bag_nodes(submission: Submission) -> Note | str | None:
     file = HandoutLaunch(submission, BAG)
@@ -179,7 +179,7 @@ def bag_nodes(submission: Submission) -> Note | str | None:
     return Note(seen, player.where, "" if is_portable else hint)
 
 
-@check("C25", "launch_joy_node starts the four items", "5.1", needs=files,
+@check("C25", "launch_joy_node starts the four items", "5.1", needs=are_readable,
        look="roslaunch --nodes {n.package} launch_joy_node.launch", timeless=True)  # fmt: skip
 def stick_nodes(submission: Submission) -> Note | str | None:
     file = HandoutLaunch(submission, STICK)
@@ -200,7 +200,7 @@ def stick_nodes(submission: Submission) -> Note | str | None:
     return note
 
 
-def _bag_run(submission: Submission) -> tuple[Player, Plan, LaunchRun]:
+def _bag_run(submission: Submission) -> tuple[BagPlayer, Plan, LaunchRun]:
     """Return launch_bag and what came of it, with a recording of the checker's own."""
     player, source = player_of(submission), submission.source
     is_own, plan = player.bag.startswith(str(source)), plan_of(player.file)

@@ -93,7 +93,7 @@ def check_launch(submission: Submission, name: str) -> HandoutLaunch:
         wrong = name_with_a_gap(file)
         if not wrong:
             file.must_be_read()
-        wrong = wrong or first_of((unknown_word, tag_within_a_node, odd_node, lost_file), file)
+        wrong = wrong or first_of((unknown_word, tag_within_a_node, faulty_node, lost_file), file)
         if wrong:
             raise wrong
         return file
@@ -145,7 +145,7 @@ def tag_within_a_node(file: HandoutLaunch) -> Wrong | None:
     return Wrong(expected, f"<{tag[1]}> in it: ignored by roslaunch", where, hint)
 
 
-def odd_node(file: HandoutLaunch) -> Wrong | None:
+def faulty_node(file: HandoutLaunch) -> Wrong | None:
     """Find the first node whose program does not exist, or is none."""
     diagnoses = (type_with_a_folder, launch_file_as_node, not_located)
     return next(filter(None, (first_of(diagnoses, (file, node)) for node in file.nodes)), None)

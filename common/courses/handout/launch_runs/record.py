@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Callable, Dict, Tuple
 from tutorial_check import ODOM, CannotCheck, Launch, Ran, RosSession, Workspace
 
 if TYPE_CHECKING:  # judges need no gamepad
-    from tutorial_check import Gamepad
+    from tutorial_check import VirtualGamepad
 
 START_S = 20.0  # for all nodes of a launch on a busy machine
 UP_S = 6.0  # for what they are there for, once all of them are
@@ -89,7 +89,7 @@ class RunningLaunch(Launch):
         return [line for log in logs for line in log.splitlines()[-1:] if "INFO" not in line]
 
 
-def plug_in_for(workspace: Workspace, ros: RosSession, plan: Plan) -> Gamepad:
+def plug_in_for(workspace: Workspace, ros: RosSession, plan: Plan) -> VirtualGamepad:
     """Put a joystick where the joy_node of a launch file will look for it."""
     if plan.device and not workspace.order.in_namespaces:
         name = Path(plan.path).name
@@ -100,7 +100,9 @@ def plug_in_for(workspace: Workspace, ros: RosSession, plan: Plan) -> Gamepad:
     return gamepad
 
 
-def drives_forwards(ros: RosSession, gamepad: Gamepad, launch: RunningLaunch, *signs: str) -> bool:
+def drives_forwards(
+    ros: RosSession, gamepad: VirtualGamepad, launch: RunningLaunch, *signs: str
+) -> bool:
     """Push the stick forwards once signs, topics, have a message; return whether it moves."""
     plan = launch.plan
 

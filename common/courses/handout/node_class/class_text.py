@@ -113,7 +113,7 @@ def never_made(made: ClassProgram) -> Wrong | None:
 
 
 @dataclass(frozen=True)
-class Given:
+class GivenFunction:
     """What a call of ROS is given where it takes a function."""
 
     made: ClassProgram
@@ -131,20 +131,20 @@ class Given:
         return Wrong(f"{receiver} gets a method of the object", seen, self.made.at(self.line), hint)
 
 
-def method_without_self(given: Given) -> Wrong | None:
+def method_without_self(given: GivenFunction) -> Wrong | None:
     word = given.word
     if given.call != "Subscriber" or word not in given.made.node.methods:
         return None
     return given.wrong(f"{word} alone: within a class that is no name", f"self.{word}")
 
 
-def called_at_once(given: Given) -> Wrong | None:
+def called_at_once(given: GivenFunction) -> Wrong | None:
     is_called = given.name[-2:] == "()" and given.name[:-2] in given.made.facts.functions
     hint = f"without (): {given.word[:-2]}"
     return given.wrong(f"{given.word} is called at once", hint) if is_called else None
 
 
-def no_method(given: Given) -> Wrong | None:
+def no_method(given: GivenFunction) -> Wrong | None:
     name, facts = given.name, given.made.facts
     owners = (name in {*c.methods, *c.attributes} or c.bases for c in facts.classes)
     if given.word != f"self.{name}" or name[-2:] == "()" or any(owners):
@@ -162,7 +162,7 @@ def odd_method(made: ClassProgram) -> Wrong | None:
     words = [("on_shutdown", *word) for word in made.facts.given("on_shutdown", 0)]
     words += [("Subscriber", *word) for word in made.facts.given("Subscriber", 2)]
     diagnoses = (method_without_self, called_at_once, no_method)
-    wrongs = (first_of(diagnoses, Given(made, *word)) for word in words)
+    wrongs = (first_of(diagnoses, GivenFunction(made, *word)) for word in words)
     return next(filter(None, wrongs), None)
 
 

@@ -7,7 +7,7 @@ import statistics
 from dataclasses import dataclass
 from typing import Optional, Tuple
 
-from tutorial_check import ODOM, START_S, Ran, RosSession, SimulatedRobot, Workspace
+from tutorial_check import ODOM, START_S, Ran, RosSession, SimulatedTurtleBot, Workspace
 
 from ..driving.evidence import ANGULAR, LINEAR
 from ..driving.record import rest
@@ -37,7 +37,7 @@ def follow(workspace: Workspace, script: str) -> Follow:
         ros.peer.listen(CMD_VEL, "Twist")
         ros.peer.advertise(JOY, "Joy")
         program = ros.start(PACKAGE, script)
-        robot = SimulatedRobot(ros)
+        robot = SimulatedTurtleBot(ros)
         ready = ros.wait(lambda: program.ended or ros.peer.listeners(JOY), START_S)
         rest(ros, CMD_VEL)
         if ready:  # its Publisher may be made in the callback
@@ -52,7 +52,7 @@ def follow(workspace: Workspace, script: str) -> Follow:
     return Follow(program.ran, True, publishers, v, w, told_v, told_w)
 
 
-def _speeds(ros: RosSession, robot: SimulatedRobot) -> tuple[float, float]:
+def _speeds(ros: RosSession, robot: SimulatedTurtleBot) -> tuple[float, float]:
     """Return (speed [m/s], rate of turn [rad/s]) of the robot in a while of even driving."""
     before = ros.peer.count(ODOM)
     ros.wait(lambda: ros.peer.count(ODOM) >= before + SAMPLES, SAMPLES_S)
@@ -68,7 +68,7 @@ def agree(measured: float, wanted: float, field: int) -> bool:
 
 
 def _driven(
-    ros: RosSession, robot: SimulatedRobot, joy: object, field: int
+    ros: RosSession, robot: SimulatedTurtleBot, joy: object, field: int
 ) -> tuple[tuple[float, float], float | None]:
     """Return (the robot's speed and rate of turn, a field of the last Twist) in a drive."""
     before = ros.peer.count(CMD_VEL)

@@ -22,9 +22,9 @@ from . import record
 from .diagnoses import (
     GOES_ON,
     LOOP,
+    RATE_DIAGNOSES,
     Listened,
     Talked,
-    pace,
     receives_nothing,
     silent,
     twice_displayed,
@@ -50,15 +50,15 @@ def _talk(submission: Submission) -> Talk:
 
 @check("C5", "talker.py and listener.py can be run", "3.1", needs="C2",
        look="rosrun beginner_tutorials talker.py", timeless=True)  # fmt: skip
-def files(submission: Submission) -> Note | str:
+def are_runnable(submission: Submission) -> Note | str:
     programs = scripts(submission)
     for script in programs:
         check_file(submission, BEGINNER, script.where)
-    notes = (script.odd_node() for script in programs)
+    notes = (script.unusual_node_name() for script in programs)
     return next(filter(None, notes), ", ".join(script.where for script in programs))
 
 
-@check("C6", "the talker talks", "3.1", needs=files, look="rostopic hz /chatter")
+@check("C6", "the talker talks", "3.1", needs=are_runnable, look="rostopic hz /chatter")
 def talker(submission: Submission) -> Note | str:
     seen, script = _talk(submission), scripts(submission)[0]
     talked = Talked(seen, script, submission.task.values.get("rate"))
@@ -66,10 +66,10 @@ def talker(submission: Submission) -> Note | str:
         raise silent(talked)
     if seen.talker_ended:
         raise script.crash(seen.talker, GOES_ON, LOOP)
-    return must_pass(pace, talked) or f"{talked.rate:.1f} Hz"
+    return must_pass(RATE_DIAGNOSES, talked) or f"{talked.rate:.1f} Hz"
 
 
-@check("C7", "the listener displays what it receives", "3.1", needs=files,
+@check("C7", "the listener displays what it receives", "3.1", needs=are_runnable,
        look="rosrun beginner_tutorials listener.py")  # fmt: skip
 def listener(submission: Submission) -> Note | None:
     seen, script = _talk(submission), scripts(submission)[1]

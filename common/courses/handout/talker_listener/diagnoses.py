@@ -216,4 +216,4 @@ def twice_displayed(listen: Listened) -> Note | None:
     return Note(f"each text is displayed {min(listen.times)} times", where, hint)
 
 
-pace = (few_messages, no_sleep, unwanted_rate, same_text, other_rate)
+RATE_DIAGNOSES = (few_messages, no_sleep, unwanted_rate, same_text, other_rate)

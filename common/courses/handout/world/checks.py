@@ -9,7 +9,7 @@ from typing import Sequence
 
 from tutorial_check import (
     BUMPER,
-    Sample,
+    PoseSample,
     Script,
     Submission,
     Topics,
@@ -180,7 +180,7 @@ def wanders(submission: Submission) -> str:
     return f"{way_m:.1f} m"
 
 
-def longest_stand_s(samples: Sequence[Sample]) -> float:
+def longest_stand_s(samples: Sequence[PoseSample]) -> float:
     """Return how long [s] the robot stayed within STANDS_M of a place, at most."""
     longest_s, since = 0.0, samples[0]
     for sample in samples:

@@ -10,11 +10,11 @@ from tutorial_check import (
     BUMPER,
     TRUTH,
     Heard,
+    PoseSample,
     Program,
     Ran,
     RosSession,
-    Sample,
-    SimulatedRobot,
+    SimulatedTurtleBot,
     Topics,
     Workspace,
 )
@@ -45,7 +45,7 @@ class RoomDrive:
     """A program that drives the simulated robot in the room."""
 
     program: Ran
-    path: Tuple[Sample, ...]
+    path: Tuple[PoseSample, ...]
     bumps: Tuple[Heard, ...]  # bumper and state of each event
     ended_s: float  # when the last pose came, on the clock of the events
     last_twist: Optional[Tuple[float, ...]]
@@ -96,7 +96,7 @@ def wandering(workspace: Workspace, script: str) -> RoomDrive:
 
 def _driven(workspace: Workspace, script: str, *arguments: str) -> RoomDrive:
     with workspace.ros_session() as ros:
-        robot = SimulatedRobot(ros, "_world:=room", f"_initial_x:={START_X_M}")
+        robot = SimulatedTurtleBot(ros, "_world:=room", f"_initial_x:={START_X_M}")
         ros.peer.listen(CMD_VEL, "Twist")
         program = ros.start(BEGINNER, script, *arguments)
 

@@ -31,15 +31,15 @@ from tutorial_check.errors import MASTER_GONE, CannotCheck, CutShort
 from tutorial_check.processes.runner import GRACE_S
 from tutorial_check.processes.started_program import Program
 from tutorial_check.recording.build import built, own_built
-from tutorial_check.recording.client import Answer, Client, Seen, Transform
+from tutorial_check.recording.client import Client, FrameTransform, Seen, ServiceAnswer
 from tutorial_check.recording.launch_files import Launch, read_launch_files
 from tutorial_check.recording.ros_session import SETTLE_S, START_S, RosSession
-from tutorial_check.recording.simulated_robot import (
+from tutorial_check.recording.simulated_turtlebot import (
     BUMPER,
     ODOM,
     TRUTH,
-    Sample,
-    SimulatedRobot,
+    PoseSample,
+    SimulatedTurtleBot,
     has_moved,
 )
 from tutorial_check.recording.workspace import Workspace
@@ -53,17 +53,17 @@ from tutorial_check.submission.submission_files import SubmissionFiles
 from tutorial_check.submission.tracebacks import first_traceback, last_lines
 
 if TYPE_CHECKING:  # its module loads ROS
-    from tutorial_check.recording.virtual_gamepad import Gamepad as Gamepad
+    from tutorial_check.recording.virtual_gamepad import VirtualGamepad as VirtualGamepad
 
 __all__ = [
-    "BUMPER", "GAPS", "GRACE_S", "MASTER_GONE", "ODOM", "SETTLE_S", "START_S", "TRUTH", "Answer",
-    "Built", "CannotCheck", "ClassFacts", "Client", "CutShort", "File", "Heard", "HeardText",
-    "Launch", "LaunchFile", "LaunchNode", "Note", "Package", "Program", "PythonFacts", "Ran",
-    "RosSession", "Sample", "Script", "Seen", "SimulatedRobot", "Submission", "SubmissionFiles",
-    "Task", "Topics", "Transform", "Variant", "Workspace", "Wrong", "attribute", "build_error",
-    "build_output", "built", "cause_of", "check", "check_file", "cmake_of", "crash", "find_launch",
-    "find_script", "first_of", "first_traceback", "flipped_anonymous", "has_moved", "is_lacking",
-    "is_stand_in", "last_lines", "launch_file", "line_of", "meant", "missing_in",
+    "BUMPER", "GAPS", "GRACE_S", "MASTER_GONE", "ODOM", "SETTLE_S", "START_S", "TRUTH", "Built",
+    "CannotCheck", "ClassFacts", "Client", "CutShort", "File", "FrameTransform", "Heard",
+    "HeardText", "Launch", "LaunchFile", "LaunchNode", "Note", "Package", "PoseSample", "Program",
+    "PythonFacts", "Ran", "RosSession", "Script", "Seen", "ServiceAnswer", "SimulatedTurtleBot",
+    "Submission", "SubmissionFiles", "Task", "Topics", "Variant", "Workspace", "Wrong", "attribute",
+    "build_error", "build_output", "built", "cause_of", "check", "check_file", "cmake_of", "crash",
+    "find_launch", "find_script", "first_of", "first_traceback", "flipped_anonymous", "has_moved",
+    "is_lacking", "is_stand_in", "last_lines", "launch_file", "line_of", "meant", "missing_in",
     "must_be_launchable", "must_be_one_program", "must_be_unique", "must_build", "must_pass",
     "not_found", "own_built", "package_hint", "package_of", "packages_beside", "packages_of_ros",
     "place_of", "program_of", "put_file", "read_launch_files", "read_xml", "recorded", "shows",

@@ -1,4 +1,4 @@
-"""What keeps the checker from working, and what ends a recording early."""
+"""The checker's exceptions; only Wrong, a verdict, is beside the other verdicts in results."""
 
 from __future__ import annotations
 
@@ -12,24 +12,36 @@ MASTER_GONE, MULTIPLIES, CANNOT_START = "master gone", "multiplies", "cannot sta
 UNREADABLE, NO_TYPE = "unreadable package.xml", "no such type"
 
 
+class CheckerError(Exception):
+    """Base class of the checker's errors; str() is one line for the user."""
+
+
+class CannotCheck(CheckerError):
+    """The checker cannot work, for a reason that is not the student's fault."""
+
+
+class SchedulerGone(CannotCheck):
+    """The scheduler has ended, and no other student can be checked."""
+
+
 @dataclass
-class CutShort(Exception):
-    """Nothing more can be recorded. kind: one of those above. seen: more about it."""
+class CutShort(CheckerError):
+    """A recording has ended early. kind: one of the constants above. seen: details."""
 
     kind: str
     seen: str = ""
 
 
-class FileTooLarge(Exception):
-    """A text file of the student's is larger than any that is written by hand; its name."""
+class FileTooLarge(CheckerError):
+    """A student's text file is larger than any written by hand; its name."""
 
 
-class CannotCheck(Exception):
-    """The checker cannot work, through no fault of the student's; the text says why in one line."""
+class Ended(BaseException):
+    """The worker has ended, so checking must stop: `except Exception` does not catch this."""
 
 
 def fault(error: Exception) -> str:
-    """Return in one line why an exception keeps the checker from working; where, if it is a bug."""
+    """Return one line on why an exception stops the checker; for a bug, also where."""
     if isinstance(error, CannotCheck):
         return quotable(str(error))
     line = traceback.extract_tb(error.__traceback__)[-1]

@@ -83,11 +83,11 @@ class Script(File):
             raise Wrong(f"{self.name} ends without a traceback", trace.error, trace.where, hint)
         return None
 
-    def odd_node(self) -> Note | None:
+    def unusual_node_name(self) -> Note | None:
         """Return a Note on the name of its node, if ROS warns of that."""
-        if not self.facts.odd_node:
+        if not self.facts.unusual_node_name:
             return None
-        line, name = self.facts.odd_node
+        line, name = self.facts.unusual_node_name
         seen = f"the node is called {name!r}, of which ROS warns: not a legal ROS base name"
         right = re.sub(r"\W", "_", re.sub(r"\.py$", "", name))
         return Note(seen, self.at_line(line), f"letters, digits and _ only: {right!r}")

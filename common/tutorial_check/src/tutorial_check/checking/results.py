@@ -10,6 +10,7 @@ from tutorial_check.errors import (
     MASTER_GONE,
     MULTIPLIES,
     NO_TYPE,
+    CheckerError,
     CutShort,
     FileTooLarge,
 )
@@ -48,7 +49,7 @@ class Note:
 
 
 @dataclass(eq=False)
-class Wrong(Exception):
+class Wrong(CheckerError):
     """A check that does not hold. Raised by checks, which so end at the first thing wrong."""
 
     expected: str

@@ -23,7 +23,7 @@ from urllib.parse import urlsplit
 
 from tutorial_check.checking.results import Outcome
 from tutorial_check.course.definition import read_course
-from tutorial_check.errors import CannotCheck
+from tutorial_check.errors import CannotCheck, SchedulerGone
 from tutorial_check.examining.examination import examine
 from tutorial_check.report.memory import digest_of_checks
 from tutorial_check.sandbox import bubblewrap, landlock, privileges
@@ -46,10 +46,6 @@ NO_PAGES = {
 }
 LOCAL = ("--no-dashboard", "--dashboard-address", "127.0.0.1:0")
 INSISTS = "TUTORIAL_NOT_ISOLATED"  # variable of a worker of --not-isolated
-
-
-class Gone(CannotCheck):
-    """The scheduler is gone, and no other student can be checked."""
 
 
 def _dask() -> Any:
@@ -105,7 +101,7 @@ class Cluster:
             print(f"no worker yet; on each machine: ./tutorial worker {address}", flush=True)
 
     def examine(self, order: Order) -> list[Outcome]:
-        """Return the Outcomes of a submission, as judging.examine. Raises CannotCheck, or Gone."""
+        """Return the Outcomes of a submission. Raises CannotCheck, or SchedulerGone."""
         version = _version(order, order.course)
         parts = {"submission": order.workspace, f"course/{order.course.name}": order.course}
         about = _packed(parts), order, version
@@ -122,7 +118,7 @@ class Cluster:
                 if self._client.status == "running":
                     raise
             why = f"the scheduler at {self._address} is gone; call again, and it goes on from here"
-            raise Gone(why) from error
+            raise SchedulerGone(why) from error
 
     def close(self) -> None:
         """Give up what was not checked yet."""

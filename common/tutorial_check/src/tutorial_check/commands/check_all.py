@@ -12,9 +12,9 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 
 from node_kit.printable import printable
-from tutorial_check.cluster.dask_cluster import MOST_AT_ONCE, Cluster, Gone
+from tutorial_check.cluster.dask_cluster import MOST_AT_ONCE, Cluster
 from tutorial_check.course.tasks import variant_of
-from tutorial_check.errors import CannotCheck, fault
+from tutorial_check.errors import CannotCheck, SchedulerGone, fault
 from tutorial_check.examining.examination import examine
 from tutorial_check.recording.worker_process import no_more
 from tutorial_check.report.class_page import Student, table_csv, table_html
@@ -116,7 +116,7 @@ class ClassCheck:
                     verdict = student.trouble or summary(student.outcomes)
                     bar.write(printable(f"{student.name}: {verdict}, {remark}"))
                     self._show()
-            except (KeyboardInterrupt, Gone):  # the pool would go on to the last student
+            except (KeyboardInterrupt, SchedulerGone):  # the pool would go on to the last student
                 for check in checks:
                     check.cancel()
                 no_more.set()
@@ -146,7 +146,7 @@ class ClassCheck:
         remark = ""
         try:
             remark = self._outcomes_of(student)
-        except Gone:
+        except SchedulerGone:
             raise
         except Exception as error:
             student.trouble = fault(error)

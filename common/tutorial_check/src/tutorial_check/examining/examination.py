@@ -33,7 +33,7 @@ NOT_COMPILED = re.compile(SOLUTIONS)  # folder of a course
 PERIOD_S = 0.2  # How often to look at no_more.
 TOO_LONG = f"reading it takes more than {privileges.MOST_CPU_S} s"
 TOO_MUCH = f"reading it takes more than {privileges.MOST_MB} MB of memory"
-Answer = Any  # (an Outcome, a Result that came), the Outcomes at the end, or a CannotCheck
+Message = Any  # (an Outcome, a Result that came), the Outcomes at the end, or a CannotCheck
 
 
 def examine(
@@ -76,7 +76,7 @@ def _process() -> Any:
             process.wait()
 
 
-def _answer(process: subprocess.Popen[bytes], line: Connection) -> Answer:
+def _answer(process: subprocess.Popen[bytes], line: Connection) -> Message:
     """Return what comes next. Raises CannotCheck if nothing more comes."""
     try:
         while not line.poll(PERIOD_S):
@@ -115,7 +115,7 @@ def main() -> None:
         line.send((outcome, result))
 
     try:
-        answer: Answer = judging.examine(order, report, side_by_side)
+        answer: Message = judging.examine(order, report, side_by_side)
     except CannotCheck as error:
         answer = error
     except MemoryError:

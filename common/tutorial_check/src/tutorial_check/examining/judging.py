@@ -14,10 +14,10 @@ from tutorial_check.checking.results import Outcome, Result
 from tutorial_check.checking.submission import Submission
 from tutorial_check.course.definition import Course, read_course
 from tutorial_check.course.tasks import task_of
-from tutorial_check.errors import CannotCheck
+from tutorial_check.errors import CannotCheck, Ended
 from tutorial_check.examining.ask_once import AskOnce, Replies
 from tutorial_check.recording.launcher import sourced, started
-from tutorial_check.recording.worker_process import Ended, no_more
+from tutorial_check.recording.worker_process import no_more
 from tutorial_check.sandbox import bubblewrap
 from tutorial_check.submission.order import Ask, Order
 

@@ -24,7 +24,7 @@ SLOW_S = 15.0  # for what needs no program of the student's
 
 
 @dataclass(frozen=True)
-class Answer:
+class ServiceAnswer:
     """What came of a call of a service: the fields of the response, or why there is none."""
 
     values: Optional[Dict[str, Any]]
@@ -32,7 +32,7 @@ class Answer:
 
 
 @dataclass(frozen=True)
-class Transform:
+class FrameTransform:
     """Where the source is in the target frame, (x, y, z) [m], and its rotation, (x, y, z, w)."""
 
     translation: Tuple[float, ...]
@@ -81,14 +81,14 @@ class Client:
 
     def ask(
         self, service: str, kind: str, values: object = None, seconds: float = START_S
-    ) -> Answer:
+    ) -> ServiceAnswer:
         """Call a service once it is there; wait no longer than that for the response."""
         response = self._tell("ask", service, kind, values or {}, of=kind, seconds=seconds)
         if response:
-            return Answer(*response)
+            return ServiceAnswer(*response)
         known = self._tell("services")
         trouble = f"there is no service {service}; there are: {', '.join(known) or 'none'}"
-        return Answer(None, f"{service} does not respond" if service in known else trouble)
+        return ServiceAnswer(None, f"{service} does not respond" if service in known else trouble)
 
     def serve(self, service: str, kind: str, values: object) -> None:
         """Offer a service that always responds with these values; heard() has the requests."""
@@ -103,7 +103,9 @@ class Client:
 
     def seen(self, program: Program, *names: str, answers: Sequence[object] = ()) -> Seen:
         """Return what was seen until now. names: of topics and services; answers: plain values."""
-        if isinstance(answers, (dict, Answer)) or any(isinstance(it, Answer) for it in answers):
+        if isinstance(answers, (dict, ServiceAnswer)) or any(
+            isinstance(it, ServiceAnswer) for it in answers
+        ):
             raise _fault("answers= takes a list of plain values, as [answer.values]")
         heard = {name: tuple(values for *_, values in self.heard(name)) for name in names}
         return Seen(program.ran, heard, tuple(answers), self._ros.peer.types())
@@ -132,10 +134,12 @@ class Client:
         """Return the value of a parameter, or None."""
         return self._tell("parameter", name)
 
-    def lookup(self, target: str, source: str, seconds: float = START_S) -> Optional[Transform]:
+    def lookup(
+        self, target: str, source: str, seconds: float = START_S
+    ) -> Optional[FrameTransform]:
         """Return the newest transform, or None if there is none within that time."""
         newest = self._ros.wait(lambda: self._tell("lookup", target, source), seconds)
-        return Transform(*map(tuple, newest)) if newest else None
+        return FrameTransform(*map(tuple, newest)) if newest else None
 
     def transforms(self) -> Tuple[str, ...]:
         """Return "PARENT -> CHILD" of each transform that came since the first lookup()."""

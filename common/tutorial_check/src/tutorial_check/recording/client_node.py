@@ -69,7 +69,7 @@ def _fields_of(cls: Any) -> list[str]:
     return [f"{kind} {name}" for kind, name in zip(cls._slot_types, cls.__slots__)]
 
 
-class Node:
+class ClientNode:
     """Its methods are what a line may ask for."""
 
     def __init__(self, line: socket.socket) -> None:
@@ -187,7 +187,7 @@ def main() -> None:
     line = socket.socket(fileno=os.dup(0))
     connect_once()
     rospy.init_node(NAME, disable_signals=True, disable_rosout=True)
-    node = Node(line)
+    node = ClientNode(line)
     for text in line.makefile():
         threading.Thread(target=node.answer, args=[text], daemon=True).start()
     os._exit(0)  # whatever still waits

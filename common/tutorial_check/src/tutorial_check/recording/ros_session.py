@@ -17,7 +17,7 @@ from tutorial_check.recording.builder import Builder
 
 if TYPE_CHECKING:  # The module loads ROS.
     from tutorial_check.recording.peer import Echo, Peer
-    from tutorial_check.recording.virtual_gamepad import Gamepad
+    from tutorial_check.recording.virtual_gamepad import VirtualGamepad
 
 START_S = 8.0  # a node of the student's has this long to appear
 SETTLE_S = 0.5  # once connected, a thread of it has this long to attach its callback
@@ -72,13 +72,13 @@ class RosSession:
         joy = self._topics.get(peer.JOY, peer.JOY)
         return self.help(peer.Echo, joy, axis).remote, peer.ECHO
 
-    def plug_in(self, device: str = "/dev/input/js0") -> tuple[Gamepad, Path]:
+    def plug_in(self, device: str = "/dev/input/js0") -> tuple[VirtualGamepad, Path]:
         """Return a virtual F710 and its device, which is a FIFO elsewhere without namespaces."""
-        from tutorial_check.recording.virtual_gamepad import Gamepad  # noqa: PLC0415
+        from tutorial_check.recording.virtual_gamepad import VirtualGamepad  # noqa: PLC0415
 
         workspace = self.workspace
         path = Path(device) if workspace.order.in_namespaces else workspace.folder / "js0"
-        gamepad = self.help(Gamepad, str(path), workspace.task.joy).remote
+        gamepad = self.help(VirtualGamepad, str(path), workspace.task.joy).remote
         gamepad.connected()
         return gamepad, path
 

@@ -16,7 +16,7 @@ Position = Tuple[Tuple[float, ...], Tuple[int, ...]]  # (axes, buttons)
 PERIOD_S = 0.02  # how often it looks whether a driver has started to read
 
 
-class Gamepad:
+class VirtualGamepad:
     """Stick and LB are where they were last put."""
 
     def __init__(self, path: str, arranged: Callable[[Position], Position]) -> None:

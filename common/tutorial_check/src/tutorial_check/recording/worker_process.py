@@ -14,7 +14,7 @@ import threading
 import time
 
 from tutorial_check.data.json_data import as_json, from_json
-from tutorial_check.errors import CannotCheck
+from tutorial_check.errors import CannotCheck, Ended
 from tutorial_check.sandbox import bubblewrap, privileges
 from tutorial_check.submission.order import Order, Question, Reply
 
@@ -25,10 +25,6 @@ MOST_BYTES = 1 << 26  # of an answer; what the handout's programs are recorded t
 END_S = 10.0  # a worker whose result is not wanted has this long to end what it started
 # Set to end the workers of all threads, and those that have just started; each raises CannotCheck.
 no_more = threading.Event()
-
-
-class Ended(BaseException):
-    """The worker answers no more; the text says why. No check may go on."""
 
 
 class Worker:

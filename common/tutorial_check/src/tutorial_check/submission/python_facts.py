@@ -166,7 +166,7 @@ class PythonFacts:
         return {name: sorted(numbers) for name, numbers in lines.items()}
 
     @property
-    def odd_node(self) -> Place:
+    def unusual_node_name(self) -> Place:
         """(line, name) of an init_node of whose name ROS warns, as of joy2twist.py."""
         for node in self._of(ast.Call):
             if last_name(node) == "init_node" and node.args:

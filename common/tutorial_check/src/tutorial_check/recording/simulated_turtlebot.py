@@ -17,7 +17,7 @@ NEWEST = 50  # samples, of a second
 
 
 @dataclass(frozen=True)
-class Sample:
+class PoseSample:
     """Where the robot was: stamp [s], pose in the world [m, rad], velocity [m/s, rad/s]."""
 
     at_s: float
@@ -28,7 +28,7 @@ class Sample:
     w: float
 
 
-class SimulatedRobot:
+class SimulatedTurtleBot:
     """A robot that drives as /cmd_vel says, and what it did."""
 
     def __init__(self, ros: RosSession, *arguments: str) -> None:
@@ -43,7 +43,7 @@ class SimulatedRobot:
             raise CannotCheck(f"the simulated robot does not start: {robot.output[-200:]}")
 
     @property
-    def path(self) -> tuple[Sample, ...]:
+    def path(self) -> tuple[PoseSample, ...]:
         """All that it did so far, 50 samples a second."""
         return tuple(map(_sample, self._ros.peer.received(self._poses)))
 
@@ -59,7 +59,7 @@ class SimulatedRobot:
         """How often a bumper was pressed or released."""
         return int(self._ros.peer.count(BUMPER))
 
-    def drive(self, program: Program, longest_s: float = LONGEST_DRIVE_S) -> tuple[Sample, ...]:
+    def drive(self, program: Program, longest_s: float = LONGEST_DRIVE_S) -> tuple[PoseSample, ...]:
         """Return its path until it has moved and rests for a second, or for longest_s."""
         self._ros.wait(lambda: program.ended or self.moves, START_S)
         if self.moves:
@@ -67,10 +67,10 @@ class SimulatedRobot:
         return self.path
 
 
-def has_moved(path: Sequence[Sample]) -> bool:
+def has_moved(path: Sequence[PoseSample]) -> bool:
     return any(sample.v or sample.w for sample in path)
 
 
-def _sample(received: tuple[float, str, Sequence[float]]) -> Sample:
+def _sample(received: tuple[float, str, Sequence[float]]) -> PoseSample:
     at_s, x, y, sine, cosine, v, w = received[2]
-    return Sample(at_s, x, y, 2.0 * math.atan2(sine, cosine), v, w)
+    return PoseSample(at_s, x, y, 2.0 * math.atan2(sine, cosine), v, w)
