@@ -2,12 +2,12 @@
 
 import pytest
 
-from fake_turtlebot_sim.mux.arbitration import IDLE, TOGETHER_S, Arbiter, Publisher, Verdict
+from fake_turtlebot_sim.mux.arbitration import IDLE, TOGETHER_S, Arbiter, PublishingNode, Ruling
 from fake_turtlebot_sim.mux.parameters import Input
 
 INPUTS = (Input("navi", "navi", 1.0, 5), Input("safety", "safety", 0.2, 10),
           Input("teleop", "teleop", 1.0, 7))  # their order means nothing  # fmt: skip
-HERE, FAR = Publisher("/here"), Publisher("/far", is_remote=True)
+HERE, FAR = PublishingNode("/here"), PublishingNode("/far", is_remote=True)
 
 
 def test_the_highest_input_that_is_not_silent_drives():
@@ -32,10 +32,10 @@ class Running:
 
     def send(self, speed, now, sender=FAR):
         self.until(now)
-        verdict = self.arbiter.command("teleop", (speed,), now, sender)
-        if verdict is Verdict.OBEYED:
+        ruling = self.arbiter.command("teleop", (speed,), now, sender)
+        if ruling is Ruling.OBEYED:
             self.through.append((speed, now))
-        return verdict
+        return ruling
 
 
 def key(delay_s):
@@ -64,9 +64,9 @@ def test_a_program_is_obeyed_whose_network_is_whole(times):
 
 def test_of_two_that_waited_only_the_higher_drives():
     arbiter = Arbiter(INPUTS)
-    for now, verdict in ((0.0, Verdict.OBEYED), (5.0, Verdict.WAITS)):
+    for now, ruling in ((0.0, Ruling.OBEYED), (5.0, Ruling.WAITS)):
         for name, speed in (("navi", 0.2), ("teleop", 0.3), ("safety", 0.1)):
-            assert arbiter.command(name, (speed,), now, FAR) is verdict
+            assert arbiter.command(name, (speed,), now, FAR) is ruling
     assert [*arbiter.waited(5.0 + TOGETHER_S)] == [((0.1,), FAR)]
 
 
@@ -74,12 +74,12 @@ def test_of_this_host_none_is_late():
     """The safety controller sends what it must, when it must, and falls silent."""
     running = Running()
     for now in (0.0, 5.0, 5.001, 5.002):
-        assert running.send(0.1, now, HERE) is Verdict.OBEYED
+        assert running.send(0.1, now, HERE) is Ruling.OBEYED
 
 
 def test_what_one_sender_left_is_not_held_against_the_next():
     """A program that is ended in the middle of a motion and restarted drives at once."""
-    running, restarted = Running(), Publisher("/rostopic_2", is_remote=True)
-    assert running.send(0.2, 0.0) is running.send(0.2, 5.0, restarted) is Verdict.OBEYED
-    assert running.arbiter.command("teleop", (0.2,), 5.1, FAR) is Verdict.WAITS
+    running, restarted = Running(), PublishingNode("/rostopic_2", is_remote=True)
+    assert running.send(0.2, 0.0) is running.send(0.2, 5.0, restarted) is Ruling.OBEYED
+    assert running.arbiter.command("teleop", (0.2,), 5.1, FAR) is Ruling.WAITS
     assert running.arbiter.active(9.0) == IDLE  # what waits, or is late, keeps nobody active

@@ -8,7 +8,7 @@ import pytest
 from fake_turtlebot_sim.simulator import kobuki
 from fake_turtlebot_sim.simulator.parameters import SimulatorParameters
 from fake_turtlebot_sim.simulator.sensors import Sensed
-from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot, Verdict
+from fake_turtlebot_sim.simulator.simulated_robot import CommandResult, SimulatedRobot
 from kobuki_protocol import messages, robot_packets
 from tutorial_testing.processes import REPOSITORY
 
@@ -102,13 +102,13 @@ def test_without_power_a_robot_stands_and_with_it_waits_for_a_new_command():
     one = robot()
     one.command((0.5, 0.0), 0)
     one.switch_motors(False, SECOND)
-    assert one.command((0.5, 0.0), 2 * SECOND) is Verdict.POWERLESS
+    assert one.command((0.5, 0.0), 2 * SECOND) is CommandResult.POWERLESS
     one.advance(3 * SECOND)
     assert (one.state().x, one.is_moving) == (0.5, False)
     one.switch_motors(True, 4 * SECOND)
     one.advance(5 * SECOND)
     assert one.state().x == 0.5
-    assert one.command((0.5, 0.0), 5 * SECOND) is Verdict.ACCEPTED
+    assert one.command((0.5, 0.0), 5 * SECOND) is CommandResult.ACCEPTED
     one.advance(6 * SECOND)
     assert one.state().x == 1.0
 

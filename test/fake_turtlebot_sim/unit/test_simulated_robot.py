@@ -6,7 +6,7 @@ from math import hypot, inf, isfinite, nan
 import pytest
 
 from fake_turtlebot_sim.simulator.parameters import SimulatorParameters
-from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot, Verdict
+from fake_turtlebot_sim.simulator.simulated_robot import CommandResult, SimulatedRobot
 
 KOBUKI = SimulatorParameters()
 SECOND = 10**9  # [ns]
@@ -87,10 +87,10 @@ def test_a_ramp_takes_as_long_as_the_slower_part():
 def test_what_is_too_fast_is_limited_and_what_is_not_finite_feeds_no_timeout(bad):
     robot = SimulatedRobot(KOBUKI)
     for velocity in ((1e300, 0.0), (0.0, -4.0)):
-        assert robot.command(velocity, 0) is Verdict.LIMITED
-    assert robot.command((0.7, 0.0), 0) is Verdict.ACCEPTED
+        assert robot.command(velocity, 0) is CommandResult.LIMITED
+    assert robot.command((0.7, 0.0), 0) is CommandResult.ACCEPTED
     for now_ns in range(PERIOD, SECOND, PERIOD):
-        assert robot.command(bad, now_ns) is Verdict.REJECTED
+        assert robot.command(bad, now_ns) is CommandResult.REJECTED
     robot.advance(10 * SECOND)  # a jump of time moves no further than the timeout
     assert robot.state()[:4] == pytest.approx((0.42, 0.0, 0.0, 0.0))
 
@@ -100,6 +100,6 @@ def test_a_speed_without_a_limit_is_still_one_that_can_be_computed():
         max_linear_speed=0, max_angular_speed=0, max_linear_acceleration=1.0
     )
     robot = SimulatedRobot(no_limits)
-    assert robot.command((1e308, 1e308), 0) is Verdict.LIMITED
+    assert robot.command((1e308, 1e308), 0) is CommandResult.LIMITED
     robot.advance(SECOND // 10)
     assert all(map(isfinite, robot.state()))

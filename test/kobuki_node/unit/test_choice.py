@@ -2,7 +2,8 @@
 
 import pytest
 
-from kobuki_driver.choice import Given, choose
+from kobuki_driver.choice import BaseOptions as Options
+from kobuki_driver.choice import choose
 
 USB = "/dev/ttyUSB0"
 USUAL = "/dev/kobuki"  # as turtlebot_bringup's hook sets the variable
@@ -11,17 +12,17 @@ USUAL = "/dev/kobuki"  # as turtlebot_bringup's hook sets the variable
 @pytest.mark.parametrize(
     ("given", "port", "part"),
     [
-        (Given(), "", "as there is no /dev/kobuki; serialport:=PATH drives"),
-        (Given(port_variable=USUAL), "", "as there is no /dev/kobuki"),
-        (Given(has_usual=True), USUAL, "which is plugged in; simulation:=true simulates"),
-        (Given(port_variable=USB), USB, "at /dev/ttyUSB0, by TURTLEBOT_SERIAL_PORT"),
-        (Given(USB, has_usual=True), USB, "the real Kobuki at /dev/ttyUSB0; simulation:=true"),
-        (Given(USUAL, port_variable=USUAL), USUAL, "the real Kobuki at /dev/kobuki;"),
-        (Given(USB, "true"), "", "by simulation:=true; without it, serialport:=PATH"),
-        (Given(world="room", port_variable=USB, has_usual=True), "", "as a world is simulated"),
-        (Given(simulation_variable="true", has_usual=True), "", "by TURTLEBOT_SIMULATION=true"),
-        (Given(USB, simulation_variable="true"), USB, "the real Kobuki at"),
-        (Given("", "false", simulation_variable="true", has_usual=True), USUAL, "plugged in"),
+        (Options(), "", "as there is no /dev/kobuki; serialport:=PATH drives"),
+        (Options(port_variable=USUAL), "", "as there is no /dev/kobuki"),
+        (Options(has_usual=True), USUAL, "which is plugged in; simulation:=true simulates"),
+        (Options(port_variable=USB), USB, "at /dev/ttyUSB0, by TURTLEBOT_SERIAL_PORT"),
+        (Options(USB, has_usual=True), USB, "the real Kobuki at /dev/ttyUSB0; simulation:=true"),
+        (Options(USUAL, port_variable=USUAL), USUAL, "the real Kobuki at /dev/kobuki;"),
+        (Options(USB, "true"), "", "by simulation:=true; without it, serialport:=PATH"),
+        (Options(world="room", port_variable=USB, has_usual=True), "", "as a world is simulated"),
+        (Options(simulation_variable="true", has_usual=True), "", "by TURTLEBOT_SIMULATION=true"),
+        (Options(USB, simulation_variable="true"), USB, "the real Kobuki at"),
+        (Options("", "false", simulation_variable="true", has_usual=True), USUAL, "plugged in"),
     ],
 )  # fmt: skip
 def test_a_port_that_is_named_is_never_replaced(given, port, part):
@@ -33,8 +34,8 @@ def test_a_port_that_is_named_is_never_replaced(given, port, part):
 @pytest.mark.parametrize(
     ("given", "part"),
     [
-        (Given(USB, world="room"), "give one of them"),
-        (Given(simulation="yes"), "simulation:=yes: must be true or false"),
+        (Options(USB, world="room"), "give one of them"),
+        (Options(simulation="yes"), "simulation:=yes: must be true or false"),
     ],
 )
 def test_a_mistake_is_one_line(given, part):

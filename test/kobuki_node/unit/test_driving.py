@@ -4,7 +4,7 @@ from math import inf, nan
 
 import pytest
 
-from kobuki_driver.robot.driving import Driving, Verdict
+from kobuki_driver.robot.velocity_control import VelocityControl, VelocityResult
 
 AHEAD = (0.3, 0.5)
 REST = (0.0, 0.0)
@@ -12,16 +12,16 @@ REST = (0.0, 0.0)
 
 @pytest.fixture
 def driving():
-    made = Driving(timeout_s=0.6)
+    made = VelocityControl(timeout_s=0.6)
     made.switch_robot(is_online=True)
     return made
 
 
 def test_the_newest_command_drives(driving):
     assert driving.velocity(0.0) == REST
-    assert driving.command(AHEAD, 1.0) is Verdict.OBEYED
+    assert driving.command(AHEAD, 1.0) is VelocityResult.OBEYED
     assert driving.velocity(1.02) == AHEAD
-    assert driving.command((-0.1, 0.0), 1.1) is Verdict.OBEYED
+    assert driving.command((-0.1, 0.0), 1.1) is VelocityResult.OBEYED
     assert driving.velocity(1.1) == (-0.1, 0.0)
 
 
@@ -42,7 +42,7 @@ def test_a_zero_that_expires_is_worth_no_line(driving):
 @pytest.mark.parametrize("velocity", [(nan, 0.0), (0.0, inf), (-inf, nan)])
 def test_what_is_not_finite_is_ignored_and_feeds_no_timeout(driving, velocity):
     driving.command(AHEAD, 1.0)
-    assert driving.command(velocity, 1.5) is Verdict.NOT_FINITE
+    assert driving.command(velocity, 1.5) is VelocityResult.NOT_FINITE
     assert driving.velocity(1.55) == AHEAD
     assert driving.velocity(1.7) == REST
 
@@ -52,7 +52,7 @@ def test_a_robot_that_is_back_stands_until_the_next_command(driving, back):
     driving.command(AHEAD, 1.0)
     driving.switch_robot(is_online=False)
     assert driving.velocity(1.1) == REST
-    assert driving.command(AHEAD, 1.2) is Verdict.OFFLINE
+    assert driving.command(AHEAD, 1.2) is VelocityResult.OFFLINE
     driving.switch_robot(is_online=True)
     assert driving.velocity(1.3) == REST
     if back:
@@ -64,15 +64,15 @@ def test_without_power_a_command_is_ignored_and_with_it_the_next_one_drives(driv
     driving.command(AHEAD, 1.0)
     driving.switch_motors(False)
     assert driving.velocity(1.1) == REST
-    assert driving.command(AHEAD, 1.2) is Verdict.POWERLESS
+    assert driving.command(AHEAD, 1.2) is VelocityResult.POWERLESS
     driving.switch_motors(True)
     assert driving.velocity(1.3) == REST
-    assert driving.command(AHEAD, 1.4) is Verdict.OBEYED
+    assert driving.command(AHEAD, 1.4) is VelocityResult.OBEYED
     assert driving.velocity(1.4) == AHEAD
 
 
 def test_the_limiter_lets_a_velocity_grow_and_fall_gradually():
-    driving = Driving(timeout_s=0.6, is_limited=True)
+    driving = VelocityControl(timeout_s=0.6, is_limited=True)
     driving.switch_robot(is_online=True)
     driving.velocity(1.0)
     driving.command((0.3, 7.0), 1.0)

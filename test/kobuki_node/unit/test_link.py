@@ -3,9 +3,9 @@
 import pytest
 
 from kobuki_driver.link import port_advice
+from kobuki_driver.link.link_monitor import LinkEvent, LinkMonitor
 from kobuki_driver.link.port_advice import Port
-from kobuki_driver.link.watch import Finding, Watch
-from kobuki_driver.robot.introduction import Introduction
+from kobuki_driver.robot.identification import Identification
 from kobuki_protocol.commands import GetController, Request
 from kobuki_protocol.identity import Controller, FirmwareVersion, HardwareVersion, UniqueId
 
@@ -14,38 +14,38 @@ ARDUINO = Port("/dev/ttyACM0", description="Arduino Uno")
 
 
 def test_packets_make_it_online_and_a_tenth_of_a_second_without_them_offline():
-    watch = Watch(0.0)
-    assert watch.take(81, 1, 0, 0.02) == [Finding.ONLINE]
-    assert watch.take(81, 1, 0, 0.04) == []
-    assert watch.take(0, 0, 0, 0.14) == []
-    assert watch.take(0, 0, 0, 0.15) == [Finding.LOST]
-    assert watch.take(0, 0, 0, 5.0) == []
-    assert watch.take(81, 1, 0, 5.1) == [Finding.ONLINE]
+    monitor = LinkMonitor(0.0)
+    assert monitor.take(81, 1, 0, 0.02) == [LinkEvent.ONLINE]
+    assert monitor.take(81, 1, 0, 0.04) == []
+    assert monitor.take(0, 0, 0, 0.14) == []
+    assert monitor.take(0, 0, 0, 0.15) == [LinkEvent.LOST]
+    assert monitor.take(0, 0, 0, 5.0) == []
+    assert monitor.take(81, 1, 0, 5.1) == [LinkEvent.ONLINE]
 
 
 def test_a_driver_that_was_late_itself_does_not_lose_the_robot():
-    watch = Watch(0.0)
-    watch.take(81, 1, 0, 0.02)
-    assert watch.take(4000, 40, 0, 3.0) == []
-    assert watch.is_online
+    monitor = LinkMonitor(0.0)
+    monitor.take(81, 1, 0, 0.02)
+    assert monitor.take(4000, 40, 0, 3.0) == []
+    assert monitor.is_online
 
 
-@pytest.mark.parametrize(("count", "finding"), [(0, Finding.SILENT), (7, Finding.FOREIGN)])
-def test_no_packet_for_a_second_is_reported_once(count, finding):
-    watch = Watch(0.0)
-    assert watch.take(count, 0, 0, 0.99) == []
-    assert watch.take(count, 0, 0, 1.0) == [finding]
-    assert watch.take(count, 0, 0, 2.0) == []
-    assert not watch.was_online
-    assert watch.take(81, 1, 0, 3.0) == [Finding.ONLINE]
+@pytest.mark.parametrize(("count", "event"), [(0, LinkEvent.SILENT), (7, LinkEvent.FOREIGN)])
+def test_no_packet_for_a_second_is_reported_once(count, event):
+    monitor = LinkMonitor(0.0)
+    assert monitor.take(count, 0, 0, 0.99) == []
+    assert monitor.take(count, 0, 0, 1.0) == [event]
+    assert monitor.take(count, 0, 0, 2.0) == []
+    assert not monitor.was_online
+    assert monitor.take(81, 1, 0, 3.0) == [LinkEvent.ONLINE]
 
 
 def test_damaged_packets_are_reported_once_and_not_the_first_one():
-    watch = Watch(0.0)
-    watch.take(81, 1, 1, 0.02)
-    assert watch.take(81, 1, 4, 0.04) == []
-    assert watch.take(81, 1, 5, 0.06) == [Finding.DAMAGED]
-    assert watch.take(81, 1, 50, 0.08) == []
+    monitor = LinkMonitor(0.0)
+    monitor.take(81, 1, 1, 0.02)
+    assert monitor.take(81, 1, 4, 0.04) == []
+    assert monitor.take(81, 1, 5, 0.06) == [LinkEvent.DAMAGED]
+    assert monitor.take(81, 1, 50, 0.08) == []
 
 
 @pytest.mark.parametrize(
@@ -82,24 +82,24 @@ ANSWERS = [HardwareVersion(4, 0, 1), FirmwareVersion(0, 2, 1), UniqueId((1, 2, 3
 
 
 def test_a_robot_is_asked_until_it_has_answered():
-    introduction = Introduction()
-    introduction.begin(10.0)
-    assert introduction.questions(10.0) == [Request(), GetController()]
-    assert introduction.questions(10.05) == []
-    assert introduction.questions(10.11) == [Request(), GetController()]
-    assert introduction.take([*ANSWERS, None]) == ANSWERS
-    assert introduction.questions(10.22) == [GetController()]
-    introduction.take([Controller()])
-    assert introduction.questions(99.0) == []
-    introduction.begin(100.0)  # it was lost, and is back
-    assert introduction.questions(100.0) == [Request(), GetController()]
+    identification = Identification()
+    identification.begin(10.0)
+    assert identification.questions(10.0) == [Request(), GetController()]
+    assert identification.questions(10.05) == []
+    assert identification.questions(10.11) == [Request(), GetController()]
+    assert identification.take([*ANSWERS, None]) == ANSWERS
+    assert identification.questions(10.22) == [GetController()]
+    identification.take([Controller()])
+    assert identification.questions(99.0) == []
+    identification.begin(100.0)  # it was lost, and is back
+    assert identification.questions(100.0) == [Request(), GetController()]
 
 
 def test_a_robot_that_does_not_answer_is_asked_less_often():
-    introduction = Introduction()
-    introduction.begin(0.0)
+    identification = Identification()
+    identification.begin(0.0)
     times = [0.02 * k for k in range(1000)]
-    assert len([now for now in times if introduction.questions(now)]) <= 25
+    assert len([now for now in times if identification.questions(now)]) <= 25
 
 
 @pytest.mark.parametrize(
@@ -112,16 +112,16 @@ def test_a_robot_that_does_not_answer_is_asked_less_often():
     ],
 )
 def test_another_major_version_is_not_driven(firmware, drives, part):
-    introduction = Introduction()
-    introduction.begin(0.0)
-    assert not introduction.may_drive(0.5)  # it may be any
-    introduction.take([firmware])
-    assert introduction.may_drive(0.5) is drives
-    assert (part or "") in introduction.objection()
-    assert bool(introduction.objection()) is bool(part)
+    identification = Identification()
+    identification.begin(0.0)
+    assert not identification.may_drive(0.5)  # it may be any
+    identification.take([firmware])
+    assert identification.may_drive(0.5) is drives
+    assert (part or "") in identification.objection()
+    assert bool(identification.objection()) is bool(part)
 
 
 def test_one_that_does_not_say_its_version_is_driven_after_two_seconds():
-    introduction = Introduction()
-    introduction.begin(0.0)
-    assert introduction.may_drive(2.0)
+    identification = Identification()
+    identification.begin(0.0)
+    assert identification.may_drive(2.0)

@@ -9,7 +9,7 @@ from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, rule
 
-from fake_turtlebot_sim.mux.arbitration import Publisher
+from fake_turtlebot_sim.mux.arbitration import PublishingNode
 from fake_turtlebot_sim.mux.parameters import Input
 from tutorial_faults.arbiter_world import ZERO, ArbiterWorld, Command
 from tutorial_faults.teleoperation_world import LEFT, Message, TeleoperationWorld
@@ -174,7 +174,7 @@ class Mux(Rules):
     )
     def command(self, number, who, is_stick, velocity, times, pause):
         name = self.names[number % len(self.names)]
-        sender = Publisher(f"{who} on {name}", is_stick, is_remote=True)
+        sender = PublishingNode(f"{who} on {name}", is_stick, is_remote=True)
         for again in range(times):
             self.world.take(pause if again else 0.0)
             self.world.take(Command(name, velocity, sender))

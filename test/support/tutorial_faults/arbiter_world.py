@@ -1,9 +1,9 @@
-"""The rules of the multiplexer (Arbiter, Sender), judged by (c) to (f), asked as the node asks."""
+"""The multiplexer (Arbiter, BacklogFilter), judged by (c) to (f), asked as the node asks."""
 
 import math
 from typing import Any, NamedTuple
 
-from fake_turtlebot_sim.mux.arbitration import Arbiter, Verdict
+from fake_turtlebot_sim.mux.arbitration import Arbiter, Ruling
 from tutorial_faults.worlds import TICK, World, beyond, moves
 
 ZERO = (0.0,) * 6
@@ -110,21 +110,21 @@ class ArbiterWorld(World):
 
     def _command(self, command):
         name, velocity, sender = command
-        verdict = self._arbiter.command(name, velocity, self.now, sender)
+        ruling = self._arbiter.command(name, velocity, self.now, sender)
         if not all(map(math.isfinite, velocity)):
-            if verdict is not Verdict.REJECTED:
+            if ruling is not Ruling.REJECTED:
                 yield "c", "a command that is not finite is not rejected"
             return
         self._waiting.pop(sender, None)
-        if verdict is Verdict.WAITS:
+        if ruling is Ruling.WAITS:
             self._waiting[sender] = command
         lateness = self._lateness.setdefault(sender, Lateness(sender.is_stick))
         if lateness.take(velocity, self.now):
-            if verdict is Verdict.OBEYED:
+            if ruling is Ruling.OBEYED:
                 yield "f", f"a late command of {sender} is obeyed"
             return
         self._spoke_s[name] = self.now
-        if verdict is Verdict.OBEYED:
+        if ruling is Ruling.OBEYED:
             yield from self._through(command)
         elif self._is_highest(name):
             yield "e", f"{name} is the highest that sends, and not obeyed"

@@ -10,7 +10,7 @@ from math import degrees, radians
 from struct import Struct
 from typing import Any, ClassVar, Iterable, Tuple, Union
 
-from kobuki_protocol.part import Part
+from kobuki_protocol.packed_part import PackedPart
 
 PERIOD_S = 0.02  # between two packets
 DIGIT_DEG_PER_S = 0.00875  # of the gyro L3G4200D (its data sheet, at 250 deg/s)
@@ -26,7 +26,7 @@ def int16(value: float) -> int:
 
 
 @dataclass(frozen=True)
-class Core(Part):
+class Core(PackedPart):
     """The basic sensors. Bits: right 1, center 2, left 4; of wheels right 1, left 2."""
 
     ID: ClassVar[int] = 1
@@ -46,7 +46,7 @@ class Core(Part):
 
 
 @dataclass(frozen=True)
-class DockInfrared(Part):
+class DockInfrared(PackedPart):
     """What the three receivers see of a docking station: the bits of kobuki_msgs/DockInfraRed."""
 
     ID: ClassVar[int] = 3
@@ -57,7 +57,7 @@ class DockInfrared(Part):
 
 
 @dataclass(frozen=True)
-class Inertia(Part):
+class Inertia(PackedPart):
     """The heading that the Kobuki works out from its gyro, 0 where it was switched on."""
 
     ID: ClassVar[int] = 4
@@ -82,7 +82,7 @@ class Inertia(Part):
 
 
 @dataclass(frozen=True)
-class Cliff(Part):
+class Cliff(PackedPart):
     """The voltages of the cliff sensors, 0 to 4095: the farther the floor, the less."""
 
     ID: ClassVar[int] = 5
@@ -93,7 +93,7 @@ class Cliff(Part):
 
 
 @dataclass(frozen=True)
-class Current(Part):
+class Current(PackedPart):
     """The currents of the two motors [10 mA]."""
 
     ID: ClassVar[int] = 6

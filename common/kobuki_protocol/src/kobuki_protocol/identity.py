@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from struct import Struct
 from typing import ClassVar
 
-from kobuki_protocol.part import Version
+from kobuki_protocol.packed_part import Version
 
 DRIVEN_MAJOR = 1  # another major version of the firmware has another protocol
 # How the first firmware wrote its version, in two bytes (firmware.hpp): patch, minor, major.

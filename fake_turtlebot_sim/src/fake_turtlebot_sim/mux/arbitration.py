@@ -19,7 +19,7 @@ IDLE = "idle"  # what is active when no input is
 TOGETHER_S = 0.02
 
 
-class Verdict(Enum):
+class Ruling(Enum):
     """What becomes of a command."""
 
     OBEYED = "goes through"
@@ -29,7 +29,7 @@ class Verdict(Enum):
     LATE = "what a broken network had kept is ignored; a stick that is held must be released once"
 
 
-class Publisher(NamedTuple):
+class PublishingNode(NamedTuple):
     """A node that publishes on an input."""
 
     name: str = ""
@@ -37,10 +37,10 @@ class Publisher(NamedTuple):
     is_remote: bool = False  # on another host, and so behind a network that may break
 
 
-HERE = Publisher()
+HERE = PublishingNode()
 
 
-class Sender:
+class BacklogFilter:
     """Separates the commands that a broken network kept from those of a slow sender.
 
     When a cable is pulled, TCP keeps what is sent meanwhile and delivers all of it once the cable
@@ -49,7 +49,7 @@ class Sender:
     SILENCE_S first.
     """
 
-    def __init__(self, publisher: Publisher) -> None:
+    def __init__(self, publisher: PublishingNode) -> None:
         self._is_stick = publisher.is_stick
         self._may_be_late = publisher.is_stick or publisher.is_remote
         self.heard_s = self.doubt_s = -inf  # the last command; the first one after a silence
@@ -57,8 +57,8 @@ class Sender:
         self.moves = False  # the last command was not zero (node_kit.rules.released)
         self.waiting: Velocity | None = None  # the first command after a silence
 
-    def judge(self, velocity: Velocity, now: float) -> Verdict:
-        """Return the Verdict on a velocity that came now [s]; a zero is always OBEYED."""
+    def judge(self, velocity: Velocity, now: float) -> Ruling:
+        """Return the Ruling on a velocity that came now [s]; a zero is always OBEYED."""
         since_s, moved = now - self.heard_s, self.moves
         is_first = moved and since_s > SILENCE_S and self._may_be_late
         self.heard_s, self.moves, self.waiting = now, any(velocity), None
@@ -69,15 +69,15 @@ class Sender:
             self.late_until_s = max(self.late_until_s, self.doubt_s + SETTLING_S)
         if not self.moves:
             self.rests_since_s = now if moved else self.rests_since_s
-            return Verdict.OBEYED
+            return Ruling.OBEYED
         if not moved and now - self.rests_since_s >= SILENCE_S:
             self.late_until_s = -inf
         if now < self.late_until_s:
-            return Verdict.LATE
+            return Ruling.LATE
         if is_first:
             self.waiting = velocity
-            return Verdict.WAITS
-        return Verdict.OBEYED
+            return Ruling.WAITS
+        return Ruling.OBEYED
 
 
 class Arbiter:
@@ -87,31 +87,35 @@ class Arbiter:
         """Take parameters.Inputs, whose names and priorities differ."""
         self._inputs = {i.name: i for i in sorted(inputs, key=lambda i: i.priority, reverse=True)}
         self._expiry_s = dict.fromkeys(self._inputs, -inf)
-        self._senders: dict[tuple[str, Publisher], Sender] = {}  # the first: name of the input
+        self._senders: dict[
+            tuple[str, PublishingNode], BacklogFilter
+        ] = {}  # the first: name of the input
         self._drives = False  # whether the last command that went through was not zero
 
     def command(
-        self, name: str, velocity: Velocity, now: float, sender: Publisher = HERE
-    ) -> Verdict:
-        """Return the Verdict on a velocity (numbers, whatever their units) that came now [s].
+        self, name: str, velocity: Velocity, now: float, sender: PublishingNode = HERE
+    ) -> Ruling:
+        """Return the Ruling on a velocity (numbers, whatever their units) that came now [s].
 
         sender: each of the publishers of one input may be late by itself.
         """
         if not all(map(isfinite, velocity)):
-            return Verdict.REJECTED  # and the timeout runs on
-        verdict = self._senders.setdefault((name, sender), Sender(sender)).judge(velocity, now)
-        if verdict is not Verdict.OBEYED:
-            return verdict  # and the timeout runs on
+            return Ruling.REJECTED  # and the timeout runs on
+        ruling = self._senders.setdefault((name, sender), BacklogFilter(sender)).judge(
+            velocity, now
+        )
+        if ruling is not Ruling.OBEYED:
+            return ruling  # and the timeout runs on
         return self._obey(name, velocity, now)
 
-    def _obey(self, name: str, velocity: Velocity, now: float) -> Verdict:
+    def _obey(self, name: str, velocity: Velocity, now: float) -> Ruling:
         self._expiry_s[name] = now + self._inputs[name].timeout
         if self.active(now) != name:
-            return Verdict.OUTRANKED
+            return Ruling.OUTRANKED
         self._drives = any(velocity)
-        return Verdict.OBEYED
+        return Ruling.OBEYED
 
-    def waited(self, now: float) -> Iterator[tuple[Velocity, Publisher]]:
+    def waited(self, now: float) -> Iterator[tuple[Velocity, PublishingNode]]:
         """Yield each command, with its sender, that waited for TOGETHER_S and goes through now.
 
         The highest input first, so that none goes through for a moment below another.
@@ -122,7 +126,7 @@ class Arbiter:
         ):
             if one.waiting is not None and now >= one.heard_s + TOGETHER_S:
                 velocity, one.waiting = one.waiting, None
-                if self._obey(name, velocity, now) is Verdict.OBEYED:
+                if self._obey(name, velocity, now) is Ruling.OBEYED:
                     yield velocity, sender
 
     def active(self, now: float) -> str:

@@ -10,7 +10,7 @@ import rospy
 from geometry_msgs.msg import Twist
 from std_msgs.msg import String
 
-from fake_turtlebot_sim.mux.arbitration import IDLE, Arbiter, Publisher, Verdict
+from fake_turtlebot_sim.mux.arbitration import IDLE, Arbiter, PublishingNode, Ruling
 from fake_turtlebot_sim.mux.parameters import MuxParameters, parse_mux_parameters
 from node_kit.ros.lifecycle.start import run
 from node_kit.ros.log import Log
@@ -68,27 +68,27 @@ class CmdVelMux:
         velocity: Velocity = (linear.x, linear.y, linear.z, angular.x, angular.y, angular.z)
         subscriber = self._subscribers.get(name)  # None while it is being made
         is_far = bool(subscriber) and is_remote(subscriber, twist)
-        sender = Publisher(sender_of(twist), is_hold_to_run(twist), is_far)
+        sender = PublishingNode(sender_of(twist), is_hold_to_run(twist), is_far)
         with self._lock:
             now = time.monotonic()
             self._notice_suspension()
             if self._fresh.is_old(twist):
                 return
-            verdict = self._arbiter.command(name, velocity, now, sender)
+            ruling = self._arbiter.command(name, velocity, now, sender)
             active = self._arbiter.active(now)
-            if verdict is Verdict.OBEYED:
+            if ruling is Ruling.OBEYED:
                 self._drive(velocity, sender)
-            elif verdict is Verdict.LATE and active == name:
+            elif ruling is Ruling.LATE and active == name:
                 self._drive(ZERO, sender)  # the first of them may have gone through
-            elif verdict is Verdict.WAITS:
+            elif ruling is Ruling.WAITS:
                 self._wake.set()
             self._report(active)
-        if verdict in (Verdict.REJECTED, Verdict.LATE):
-            line = f"{name}: {verdict.value}"
+        if ruling in (Ruling.REJECTED, Ruling.LATE):
+            line = f"{name}: {ruling.value}"
             if self._may_warn.ready(line, now):
                 self._log.warn(line)
 
-    def _drive(self, velocity: Velocity, sender: Publisher) -> None:
+    def _drive(self, velocity: Velocity, sender: PublishingNode) -> None:
         """Publish; a stick that is held does not move a robot that was lost, a program does."""
         if not self._has_ended:
             is_stick = sender.is_stick

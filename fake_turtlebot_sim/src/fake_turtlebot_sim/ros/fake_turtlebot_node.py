@@ -13,7 +13,7 @@ from std_srvs.srv import Empty, EmptyResponse
 from tf2_msgs.msg import TFMessage
 
 from fake_turtlebot_sim.ros.robot_topics import RobotTopics
-from fake_turtlebot_sim.ros.ros_clock import Instant, Motion
+from fake_turtlebot_sim.ros.ros_clock import Instant, MotionLock
 from fake_turtlebot_sim.ros.world_topics import WorldTopics
 from fake_turtlebot_sim.simulator.clock import PhaseLock
 from fake_turtlebot_sim.simulator.parameters import SimulatorParameters, parse_parameters
@@ -52,7 +52,7 @@ class FakeTurtlebot:
         if world and world.grid and not world.start and None in parameters.given_poses().values():
             x, y, _ = world.start_pose
             log.info(f"the map has no start: took the free place nearest to (0, 0), ({x:g}, {y:g})")
-        self._motion = Motion()
+        self._motion = MotionLock()
         self._period_ns = parameters.period_ns()
         self._rate = parameters.rate
         # Absolute, as every listener of tf2 subscribes to it; one message for all robots.

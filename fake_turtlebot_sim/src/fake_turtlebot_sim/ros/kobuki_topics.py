@@ -9,7 +9,7 @@ from kobuki_msgs import msg
 from sensor_msgs.msg import Imu
 from std_msgs.msg import Int16MultiArray, String
 
-from fake_turtlebot_sim.ros.ros_clock import Motion
+from fake_turtlebot_sim.ros.ros_clock import MotionLock
 from fake_turtlebot_sim.simulator.differential_drive import wrap_angle
 from fake_turtlebot_sim.simulator.kobuki import sensors, with_gyro
 from fake_turtlebot_sim.simulator.parameters import SimulatorParameters
@@ -41,7 +41,7 @@ class KobukiTopics:
         prefix: str,
         robot: SimulatedRobot,
         parameters: SimulatorParameters,
-        motion: Motion,
+        motion: MotionLock,
         log: Log,
     ) -> None:
         """Take the prefix of all names; in a world WorldTopics has the events of bumpers."""

@@ -12,11 +12,11 @@ from std_msgs.msg import Empty
 from std_srvs import srv
 
 from fake_turtlebot_sim.ros.kobuki_topics import KobukiTopics
-from fake_turtlebot_sim.ros.ros_clock import Instant, Motion
+from fake_turtlebot_sim.ros.ros_clock import Instant, MotionLock
 from fake_turtlebot_sim.simulator.differential_drive import Pose, composed
 from fake_turtlebot_sim.simulator.parameters import SimulatorParameters
 from fake_turtlebot_sim.simulator.ros_messages import RobotMessages, between_frames, pose_on_plane
-from fake_turtlebot_sim.simulator.simulated_robot import REST, SimulatedRobot, Verdict
+from fake_turtlebot_sim.simulator.simulated_robot import REST, CommandResult, SimulatedRobot
 from node_kit.ros.log import Log
 from node_kit.ros.rospy_patches.fresh_only import FreshOnly
 from node_kit.ros.rospy_patches.prompt_publisher import PromptPublisher
@@ -26,9 +26,14 @@ class RobotTopics:
     """A simulated robot and its topics, in the namespace of its name if it has one."""
 
     def __init__(
-        self, name: str, start_pose: Pose, parameters: SimulatorParameters, motion: Motion, log: Log
+        self,
+        name: str,
+        start_pose: Pose,
+        parameters: SimulatorParameters,
+        motion: MotionLock,
+        log: Log,
     ) -> None:
-        """Take the Motion of all robots."""
+        """Take the MotionLock of all robots."""
         prefix = f"{name}/" if name else ""
         self.name = name
         self._name = name or "the robot"
@@ -119,10 +124,10 @@ class RobotTopics:
             self._notice_suspension(now)
             if self._has_ended or self._fresh.is_old(twist):
                 return
-            verdict = self.robot.command((twist.linear.x, twist.angular.z), now.motion_ns)
-            self.rejected += verdict is Verdict.REJECTED
-        if verdict is not Verdict.ACCEPTED:
-            self._report_once(verdict.value, self._log.warn)
+            result = self.robot.command((twist.linear.x, twist.angular.z), now.motion_ns)
+            self.rejected += result is CommandResult.REJECTED
+        if result is not CommandResult.ACCEPTED:
+            self._report_once(result.value, self._log.warn)
 
     def _report_once(self, what: str, report: Callable[[str], object]) -> None:
         if what not in self._reported:

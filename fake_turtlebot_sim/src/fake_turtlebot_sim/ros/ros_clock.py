@@ -54,7 +54,7 @@ class Instant(NamedTuple):
     motion_ns: int  # never decreases
 
 
-class Motion:
+class MotionLock:
     """Guards the motion of all robots: a thread that holds it has them, and the present, alone."""
 
     def __init__(self) -> None:

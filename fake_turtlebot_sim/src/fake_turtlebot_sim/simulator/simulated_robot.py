@@ -43,7 +43,7 @@ def meet(robots: Sequence[SimulatedRobot], reach: float) -> None:
         robot.company = [robots[k] for k in row.nonzero()[0]]
 
 
-class Verdict(Enum):
+class CommandResult(Enum):
     """What becomes of a command."""
 
     ACCEPTED = "obeyed"
@@ -97,18 +97,18 @@ class SimulatedRobot:
         self._start_pose = start_pose if p.world else ORIGIN
         self.place(start_pose)
 
-    def command(self, velocity: Velocity, now_ns: int) -> Verdict:
-        """Obey the velocity (v [m/s], w [rad/s]) from now on; return the Verdict on it."""
+    def command(self, velocity: Velocity, now_ns: int) -> CommandResult:
+        """Obey the velocity (v [m/s], w [rad/s]) from now on; return the CommandResult on it."""
         if not all(map(isfinite, velocity)):
-            return Verdict.REJECTED  # and the timeout runs on
+            return CommandResult.REJECTED  # and the timeout runs on
         if not self._has_power:
-            return Verdict.POWERLESS
+            return CommandResult.POWERLESS
         self.advance(now_ns)
         p = self._parameters
         fastest = p.max_linear_speed or FASTEST, p.max_angular_speed or FASTEST
         self._target = limit(velocity, *fastest)
         self._expires_ns = self._time_ns + self._timeout_ns
-        return Verdict.ACCEPTED if self._target == velocity else Verdict.LIMITED
+        return CommandResult.ACCEPTED if self._target == velocity else CommandResult.LIMITED
 
     def switch_motors(self, is_on: bool, now_ns: int) -> None:
         """Stop and obey nothing while off; what was commanded before does not drive afterwards."""

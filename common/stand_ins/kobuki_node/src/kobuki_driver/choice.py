@@ -12,7 +12,7 @@ REAL = "serialport:=PATH drives a real Kobuki"
 
 
 @dataclass(frozen=True)
-class Given:
+class BaseOptions:
     """What was given: arguments of the launch file, variables, and what the computer has."""
 
     port: str = ""  # serialport:=
@@ -30,7 +30,7 @@ class Choice(NamedTuple):
     line: str
 
 
-def choose(given: Given) -> Choice:
+def choose(given: BaseOptions) -> Choice:
     """Return the Choice: by arguments, then by variables. Raises ValueError, one line.
 
     A port that is named is never replaced by a simulation.
@@ -40,7 +40,7 @@ def choose(given: Given) -> Choice:
     return _by_arguments(given) or _by_variables(given)
 
 
-def _by_arguments(given: Given) -> Choice | None:
+def _by_arguments(given: BaseOptions) -> Choice | None:
     if given.simulation == "true":
         return Choice("", f"a simulated Kobuki, by simulation:=true; without it, {REAL}")
     if given.world and given.port:
@@ -51,7 +51,7 @@ def _by_arguments(given: Given) -> Choice | None:
     return _real(given.port, "") if given.port else None
 
 
-def _by_variables(given: Given) -> Choice:
+def _by_variables(given: BaseOptions) -> Choice:
     if given.simulation_variable == "true" and not given.simulation:
         return Choice("", f"a simulated Kobuki, by {SIMULATION}=true; {REAL}")
     if given.port_variable not in ("", USUAL_PORT):

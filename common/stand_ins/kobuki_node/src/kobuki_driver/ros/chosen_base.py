@@ -10,7 +10,7 @@ from typing import Iterable
 import rosgraph
 
 from fake_turtlebot_sim.simulator.parameters import SimulatorParameters
-from kobuki_driver.choice import SIMULATION, USUAL_PORT, VARIABLE, Choice, Given, choose
+from kobuki_driver.choice import SIMULATION, USUAL_PORT, VARIABLE, BaseOptions, Choice, choose
 from kobuki_driver.parameters import KobukiParameters
 from node_kit.parameters.declaration import declared
 from node_kit.ros.graph.ros_api import call
@@ -39,7 +39,7 @@ def main() -> int:
 def _choice(port: str, simulation: str) -> Choice:
     world = call(rosgraph.get_master_uri(), "getParam", _own("world"))[1]
     return choose(
-        Given(
+        BaseOptions(
             port=port,
             simulation=simulation,
             world=str(world or ""),

@@ -14,9 +14,9 @@ from std_msgs.msg import Empty
 from kobuki_driver.io.serial_port import PortError, SerialPort
 from kobuki_driver.parameters import KobukiParameters, parse_parameters
 from kobuki_driver.robot.diagnostics import entries
-from kobuki_driver.robot.driving import Verdict
+from kobuki_driver.robot.velocity_control import VelocityResult
 from kobuki_driver.ros.base_topics import BaseTopics, DiagnosticTopic
-from kobuki_driver.ros.robot_line import RobotLine
+from kobuki_driver.ros.kobuki_link import KobukiLink
 from kobuki_protocol import command_messages
 from kobuki_protocol.battery import Battery
 from node_kit.ros.lifecycle.start import run
@@ -53,7 +53,7 @@ class KobukiNode:
         self._throttle = ThrottleEach(SAME_LINE_HZ)
         report_bad_messages(self._log.warn)
         topics = BaseTopics(parameters, frame_prefix())
-        self._line = RobotLine(parameters, topics, self._report)
+        self._line = KobukiLink(parameters, topics, self._report)
         self._diagnostics, self._diagnosed_s = DiagnosticTopic(), 0.0
         self._encoder = command_messages.CommandEncoder()
         self._fresh, self._velocity_lock = FreshOnly(), threading.Lock()
@@ -117,7 +117,7 @@ class KobukiNode:
         line = self._line
         battery = Battery.of(line.feedback.core, self._parameters.battery)
         self._diagnostics.publish(
-            entries(line.feedback, battery, line.is_online, line.driving.has_power)
+            entries(line.feedback, battery, line.is_online, line.control.has_power)
         )
 
     def _report(self, line: str, is_bad: bool = False) -> None:
@@ -135,9 +135,9 @@ class KobukiNode:
             self._notice_suspension()
             if self._ending.is_set() or self._fresh.is_old(twist):
                 return
-            verdict = self._line.command(velocity, time.monotonic())
-        if verdict is not Verdict.OBEYED:
-            self._report(f"commands/velocity: {verdict.value}", is_bad=True)
+            result = self._line.command(velocity, time.monotonic())
+        if result is not VelocityResult.OBEYED:
+            self._report(f"commands/velocity: {result.value}", is_bad=True)
 
     def _on_reset(self, _message: Any) -> None:
         self._line.reset_odometry()

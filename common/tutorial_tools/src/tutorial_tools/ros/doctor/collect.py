@@ -115,7 +115,7 @@ def this_machine() -> dict[str, Any]:
 def kobukis() -> list[Sample]:
     """Return what the ports of real robots show."""
     try:
-        from kobuki_driver.io.look import samples  # noqa: PLC0415 (needs python3-serial)
+        from kobuki_driver.io.port_samples import samples  # noqa: PLC0415 (needs python3-serial)
     except ImportError:
         missing = "python3-serial is not installed: sudo apt install python3-serial"
         return [Sample(USUAL_PORT, missing)] if os.path.exists(USUAL_PORT) else []

@@ -12,10 +12,10 @@ from kobuki_msgs.msg import RobotStateEvent
 from kobuki_driver.io.ports import ports
 from kobuki_driver.io.serial_port import PortError, SerialPort
 from kobuki_driver.link import port_advice
-from kobuki_driver.link.watch import Finding, Watch
+from kobuki_driver.link.link_monitor import LinkEvent, LinkMonitor
 from kobuki_driver.parameters import KobukiParameters
-from kobuki_driver.robot.driving import ZERO, Driving, Verdict
-from kobuki_driver.robot.introduction import Introduction
+from kobuki_driver.robot.identification import Identification
+from kobuki_driver.robot.velocity_control import ZERO, VelocityControl, VelocityResult
 from kobuki_driver.ros.base_topics import BaseTopics
 from kobuki_protocol import commands, messages, robot_packets
 from kobuki_protocol.base_control import Velocity, base_control
@@ -30,7 +30,7 @@ MOST_WAITING = 100  # commands, while the port is shut
 LAST_ZEROS = 3  # at the end: one may be damaged
 
 
-class RobotLine:
+class KobukiLink:
     """Serves the robot. The main thread reads and writes; callbacks only change what is wanted."""
 
     def __init__(
@@ -39,10 +39,10 @@ class RobotLine:
         """Begin without a port; report(line, is_bad) shows a line."""
         self._parameters, self._topics, self._report = parameters, topics, report
         self._lock = threading.Lock()
-        self.driving = Driving(parameters.cmd_vel_timeout, parameters.acceleration_limiter)
+        self.control = VelocityControl(parameters.cmd_vel_timeout, parameters.acceleration_limiter)
         self.feedback = Feedback()
         self._odometry = Odometry(parameters.use_imu_heading)
-        self._introduction = Introduction()
+        self._identification = Identification()
         self._waiting: deque[commands.Command] = deque(maxlen=MOST_WAITING)
         self._port: SerialPort | None = None
         self._topics.rare("events/robot_state", RobotStateEvent(RobotStateEvent.OFFLINE))
@@ -50,11 +50,11 @@ class RobotLine:
     @property
     def is_online(self) -> bool:
         """Return whether packets come."""
-        return self.driving.is_online
+        return self.control.is_online
 
     def open(self, port: SerialPort, now_s: float) -> None:
         """Take a port that was just opened."""
-        self._port, self._framer, self._watch = port, Framer(), Watch(now_s)
+        self._port, self._framer, self._monitor = port, Framer(), LinkMonitor(now_s)
 
     def close(self) -> None:
         """Take it that the port is closed."""
@@ -67,14 +67,14 @@ class RobotLine:
         packets = [(payload, robot_packets.parse(payload)) for payload in payloads]
         cores = sum(any(isinstance(part, Core) for part in parts) for _, parts in packets)
         damaged = self._framer.damaged
-        for finding in self._watch.take(len(data), cores, damaged, now_s):
-            self._tell(finding, now_s)
+        for event in self._monitor.take(len(data), cores, damaged, now_s):
+            self._tell(event, now_s)
         for payload, parts in packets:
             self._take_packet(parts, now_s, stamp)
             self._topics.stream(payload)
         if cores:
             self._topics.odometry(self._odometry.state, self._stamp(stamp))
-        return cores > 0 or (self._watch.was_online and not (data or self._watch.is_online))
+        return cores > 0 or (self._monitor.was_online and not (data or self._monitor.is_online))
 
     def _stamp(self, now: rospy.Time) -> rospy.Time:
         """Return when the robot made the packet, which may have waited in the port."""
@@ -89,11 +89,11 @@ class RobotLine:
             with self._lock:
                 self._odometry.update(now.core, now.inertia, now_s)
             self._topics.sensors(now, self._odometry.gyro_heading, self._stamp(stamp))
-        for answer in self._introduction.take(parts):
+        for answer in self._identification.take(parts):
             self._introduce(answer)
 
     def _introduce(self, answer: object) -> None:
-        known = self._introduction
+        known = self._identification
         if isinstance(answer, Controller):
             self._topics.rare("controller_info", messages.controller_info(answer))
         elif known.hardware and known.firmware and known.unique_id:
@@ -105,20 +105,20 @@ class RobotLine:
     def command_robot(self, now_s: float) -> None:
         """Send a base control, and what waits."""
         with self._lock:
-            if self.driving.expires(now_s):
+            if self.control.expires(now_s):
                 timeout_s = self._parameters.cmd_vel_timeout
                 self._report(
                     f"no velocity came for {timeout_s:.2f} s: the robot stops until the next one",
                     is_bad=True,
                 )
-            velocity = self.driving.velocity(now_s)
-            if not self._introduction.may_drive(now_s):
+            velocity = self.control.velocity(now_s)
+            if not self._identification.may_drive(now_s):
                 velocity = ZERO
             waiting = list(self._waiting)
             self._waiting.clear()
         self._write(base_control(*velocity))
         self._topics.control(velocity)
-        for command in (*waiting, *self._introduction.questions(now_s)):
+        for command in (*waiting, *self._identification.questions(now_s)):
             self._write(command)
 
     def _write(self, command: commands.Command) -> None:
@@ -131,52 +131,52 @@ class RobotLine:
         """Stop the robot, as the driver ends."""
         self.stop()
         try:
-            for _ in range(LAST_ZEROS if self._watch.was_online else 0):
+            for _ in range(LAST_ZEROS if self._monitor.was_online else 0):
                 self._write(base_control(*ZERO))
         except PortError:
             pass  # it has gone first
 
-    def _tell(self, finding: Finding, now_s: float) -> None:
-        path, watch = self._parameters.device_port, self._watch
-        if finding is Finding.ONLINE:
-            self._introduction.begin(now_s)
+    def _tell(self, event: LinkEvent, now_s: float) -> None:
+        path, monitor = self._parameters.device_port, self._monitor
+        if event is LinkEvent.ONLINE:
+            self._identification.begin(now_s)
             self._switch(is_online=True)
             self._report(port_advice.online(path))
-        elif finding is Finding.LOST:
+        elif event is LinkEvent.LOST:
             self._framer.reset()
             self._switch(is_online=False)
             self._report(port_advice.lost(path), is_bad=True)
-        elif finding is Finding.SILENT:
+        elif event is LinkEvent.SILENT:
             self._report(port_advice.silent(path), is_bad=True)
-        elif finding is Finding.FOREIGN:
-            self._report(port_advice.foreign(path, watch.count, ports()), is_bad=True)
+        elif event is LinkEvent.FOREIGN:
+            self._report(port_advice.foreign(path, monitor.count, ports()), is_bad=True)
         else:
-            self._report(port_advice.damaged(path, watch.damaged), is_bad=True)
+            self._report(port_advice.damaged(path, monitor.damaged), is_bad=True)
 
     def _switch(self, is_online: bool) -> None:
         if is_online == self.is_online:
             return
         with self._lock:
-            self.driving.switch_robot(is_online)
+            self.control.switch_robot(is_online)
             if not is_online:
                 self._odometry.rest()
         state = RobotStateEvent.ONLINE if is_online else RobotStateEvent.OFFLINE
         self._topics.rare("events/robot_state", RobotStateEvent(state))
 
-    def command(self, velocity: Velocity, now_s: float) -> Verdict:
+    def command(self, velocity: Velocity, now_s: float) -> VelocityResult:
         """Take a velocity from a callback, as the next ones."""
         with self._lock:
-            return self.driving.command(velocity, now_s)
+            return self.control.command(velocity, now_s)
 
     def stop(self) -> None:
         """Stand until the next velocity."""
         with self._lock:
-            self.driving.stop()
+            self.control.stop()
 
     def switch_motors(self, is_on: bool) -> None:
         """Obey velocities, or none."""
         with self._lock:
-            self.driving.switch_motors(is_on)
+            self.control.switch_motors(is_on)
 
     def reset_odometry(self) -> None:
         """Begin again at the origin."""

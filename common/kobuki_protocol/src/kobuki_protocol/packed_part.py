@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from struct import Struct
 from typing import ClassVar, TypeVar
 
-_Part = TypeVar("_Part", bound="Part")
+_Part = TypeVar("_Part", bound="PackedPart")
 
 
-class Part:
+class PackedPart:
     """The base of such parts, which are dataclasses."""
 
     LAYOUT: ClassVar[Struct]
@@ -25,7 +25,7 @@ class Part:
 
 
 @dataclass(frozen=True)
-class Version(Part):
+class Version(PackedPart):
     """A part with a version."""
 
     LAYOUT: ClassVar[Struct] = Struct("<3Bx")

@@ -8,8 +8,8 @@ from __future__ import annotations
 import signal
 import sys
 
-from fake_turtlebot_sim.io.serial_kobuki.beside import Beside
-from fake_turtlebot_sim.io.serial_kobuki.device import Device
+from fake_turtlebot_sim.io.serial_kobuki.observer_process import ObserverProcess
+from fake_turtlebot_sim.io.serial_kobuki.serial_kobuki import SerialKobuki
 from fake_turtlebot_sim.serial_kobuki.parameters import NODE_NAME, parse_parameters
 from node_kit.errors import StartError
 from node_kit.ros.lifecycle.start import private_parameters
@@ -27,7 +27,9 @@ def main() -> int:
     log = Log()
     try:
         parameters = parse_parameters(private_parameters(NODE_NAME))
-        device = Device(parameters, Beside(sys.argv[1:]), lambda line: log.put(show, line))
+        device = SerialKobuki(
+            parameters, ObserverProcess(sys.argv[1:]), lambda line: log.put(show, line)
+        )
     except (StartError, ValueError) as error:
         print(f"{NODE_NAME}: {error}", file=sys.stderr)
         return 1

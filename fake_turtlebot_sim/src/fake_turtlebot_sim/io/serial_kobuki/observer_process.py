@@ -17,7 +17,7 @@ OBSERVER = "fake_turtlebot_sim.ros.serial_kobuki_observer"
 READ_BYTES = 65536
 
 
-class Beside:
+class ObserverProcess:
     """The observer's process, and the two pipes to it."""
 
     def __init__(self, arguments: Sequence[str]) -> None:

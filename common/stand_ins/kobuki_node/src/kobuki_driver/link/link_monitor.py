@@ -9,7 +9,7 @@ PATIENCE_S = 1.0  # after the port was opened, before it is called silent
 MANY_DAMAGED = 5  # packets; the first one that is seen is mostly cut off
 
 
-class Finding(Enum):
+class LinkEvent(Enum):
     """What has just become true of the line."""
 
     ONLINE = "packets come"
@@ -19,7 +19,7 @@ class Finding(Enum):
     DAMAGED = "many packets are damaged"
 
 
-class Watch:
+class LinkMonitor:
     """Judges the line of one open port. Times are in seconds of one clock that never jumps."""
 
     def __init__(self, now_s: float) -> None:
@@ -29,14 +29,14 @@ class Watch:
         self.count = 0  # bytes
         self.damaged = 0  # packets
         self._packet_s: float | None = None  # when the last one came
-        self._reported: set[Finding] = set()
+        self._reported: set[LinkEvent] = set()
 
     @property
     def was_online(self) -> bool:
         """Return whether a packet has come since the port was opened."""
         return self._packet_s is not None
 
-    def take(self, count: int, packets: int, damaged: int, now_s: float) -> list[Finding]:
+    def take(self, count: int, packets: int, damaged: int, now_s: float) -> list[LinkEvent]:
         """Take what one read has brought: bytes and packets; damaged: since the port was opened."""
         self.count += count
         self.damaged = damaged
@@ -44,20 +44,20 @@ class Watch:
             self._packet_s = now_s
             if not self.is_online:
                 self.is_online = True
-                self._reported -= {Finding.SILENT, Finding.FOREIGN}
-                return [Finding.ONLINE]
-            return self._once(Finding.DAMAGED) if damaged >= MANY_DAMAGED else []
+                self._reported -= {LinkEvent.SILENT, LinkEvent.FOREIGN}
+                return [LinkEvent.ONLINE]
+            return self._once(LinkEvent.DAMAGED) if damaged >= MANY_DAMAGED else []
         if self._packet_s is None:
             if now_s - self.opened_s < PATIENCE_S:
                 return []
-            return self._once(Finding.FOREIGN if self.count else Finding.SILENT)
+            return self._once(LinkEvent.FOREIGN if self.count else LinkEvent.SILENT)
         if self.is_online and now_s - self._packet_s > OFFLINE_S:
             self.is_online = False
-            return [Finding.LOST]
+            return [LinkEvent.LOST]
         return []
 
-    def _once(self, finding: Finding) -> list[Finding]:
-        if finding in self._reported:
+    def _once(self, event: LinkEvent) -> list[LinkEvent]:
+        if event in self._reported:
             return []
-        self._reported.add(finding)
-        return [finding]
+        self._reported.add(event)
+        return [event]

@@ -14,7 +14,7 @@ SLOWING = 1.2
 LONGEST_STEP_S = 0.1  # of the limiter, after a gap
 
 
-class Verdict(Enum):
+class VelocityResult(Enum):
     """What becomes of a command."""
 
     OBEYED = "obeyed"
@@ -23,7 +23,7 @@ class Verdict(Enum):
     OFFLINE = "the Kobuki is offline; velocities are ignored until it is back"
 
 
-class Driving:
+class VelocityControl:
     """Obeys the newest velocity. Times are in seconds of one clock that never jumps."""
 
     def __init__(self, timeout_s: float, is_limited: bool = False) -> None:
@@ -35,16 +35,16 @@ class Driving:
         self.has_power = True
         self.is_online = False
 
-    def command(self, velocity: Velocity, now_s: float) -> Verdict:
+    def command(self, velocity: Velocity, now_s: float) -> VelocityResult:
         """Obey a velocity (v [m/s], w [rad/s]) from now on."""
         if not all(map(isfinite, velocity)):
-            return Verdict.NOT_FINITE  # and the timeout runs on
+            return VelocityResult.NOT_FINITE  # and the timeout runs on
         if not self.is_online:
-            return Verdict.OFFLINE
+            return VelocityResult.OFFLINE
         if not self.has_power:
-            return Verdict.POWERLESS
+            return VelocityResult.POWERLESS
         self._target, self._commanded_s = velocity, now_s
-        return Verdict.OBEYED
+        return VelocityResult.OBEYED
 
     def stop(self) -> None:
         """Stand until the next command."""

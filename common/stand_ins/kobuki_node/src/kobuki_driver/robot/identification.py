@@ -19,7 +19,7 @@ PATIENCE_S = 2.0  # After so long without an answer it is taken for one of the u
 ASK_LATER_S = 5.0  # between two questions, then
 
 
-class Introduction:
+class Identification:
     """Asks until the robot has answered, and judges its firmware."""
 
     def __init__(self) -> None:

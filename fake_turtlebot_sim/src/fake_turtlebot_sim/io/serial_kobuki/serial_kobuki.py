@@ -7,7 +7,7 @@ import time
 from functools import partial
 from typing import Callable
 
-from fake_turtlebot_sim.io.serial_kobuki.beside import Beside
+from fake_turtlebot_sim.io.serial_kobuki.observer_process import ObserverProcess
 from fake_turtlebot_sim.io.serial_kobuki.serial_line import SerialLine
 from fake_turtlebot_sim.serial_kobuki.damage import Damage
 from fake_turtlebot_sim.serial_kobuki.firmware import DOCK_CHARGING, Firmware
@@ -37,18 +37,18 @@ class Clock:
         return self._looked_ns - before > SUSPENDED_NS
 
 
-class Device:
+class SerialKobuki:
     """A Kobuki on a serial line."""
 
     def __init__(
         self,
         parameters: SerialKobukiParameters,
-        beside: Beside | None,
+        observer: ObserverProcess | None,
         report: Callable[[str], None],
     ) -> None:
-        """Plug it in. beside: what shows it to a master. Raises ValueError, one line."""
+        """Plug it in. observer: what shows it to a master. Raises ValueError, one line."""
         p = self._parameters = parameters
-        self._report, self._beside = report, beside
+        self._report, self._observer = report, observer
         robot = self._robot = SimulatedRobot(p.simulation(), p.start_pose())
         self._firmware = Firmware(robot, p.equipment())
         self._damage = Damage(p.drop, p.corrupt, p.stall, p.seed)
@@ -87,8 +87,8 @@ class Device:
         """Unplug it for good."""
         if self._line:
             self._line.unplug()
-        if self._beside:
-            self._beside.close()
+        if self._observer:
+            self._observer.close()
 
     def _cycle(self, now_ns: int) -> None:
         """Move to the present, send a packet, and show where the robot is."""
@@ -106,9 +106,9 @@ class Device:
         if self._line:
             self._line.write(self._damage.delay(self._damage.spoil(packet), now_s))
         self._look_at_robot()
-        if self._beside:
+        if self._observer:
             truth = self._robot.true_state()
-            self._beside.show({"stamp_ns": stamp_ns, "truth": truth[:5]})
+            self._observer.show({"stamp_ns": stamp_ns, "truth": truth[:5]})
 
     def _look_at_robot(self) -> None:
         if any(self._robot.sensed().wheels):
@@ -124,12 +124,12 @@ class Device:
     def _wait(self, longest_s: float) -> None:
         """Wait for a command or a wish, but not longer [s]; obey it."""
         sources = [self._line.descriptor] if self._line and self._line.is_open else []
-        sources += [self._beside.descriptor] if self._beside else []
+        sources += [self._observer.descriptor] if self._observer else []
         ready, _, _ = select.select(sources, [], [], max(0.0, longest_s))
         if self._line and self._line.descriptor in ready:
             self._read()
-        if self._beside and self._beside.descriptor in ready:
-            self._obey(self._beside)
+        if self._observer and self._observer.descriptor in ready:
+            self._obey(self._observer)
 
     def _read(self) -> None:
         """Obey what the driver has sent."""
@@ -143,13 +143,13 @@ class Device:
         if self._firmware.damaged:
             self._report_once("damaged commands come; they are ignored")
 
-    def _obey(self, beside: Beside) -> None:
-        for name, *values in beside.wishes():
+    def _obey(self, observer: ObserverProcess) -> None:
+        for name, *values in observer.wishes():
             self._robot.advance(self._clock.now_ns())
             self._try(self._wishes[name], *values)
-        if beside.has_ended:
-            self.is_ending = self.is_ending or beside.was_asked_to_end
-            self._beside = None
+        if observer.has_ended:
+            self.is_ending = self.is_ending or observer.was_asked_to_end
+            self._observer = None
 
     def _try(self, happen: Callable[..., None], *values: object) -> None:
         """Do what is asked for, if that is possible."""
