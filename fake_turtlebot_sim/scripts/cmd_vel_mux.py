@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Let one source of velocities drive: see fake_turtlebot_sim/ros/cmd_vel_mux_node.py."""
+"""Multiplex velocity commands: see fake_turtlebot_sim/ros/cmd_vel_mux_node.py."""
 
 import sys
 

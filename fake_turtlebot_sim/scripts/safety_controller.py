@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Back a bumped robot off: see fake_turtlebot_sim/ros/safety_controller_node.py."""
+"""Back a bumped robot away: see fake_turtlebot_sim/ros/safety_controller_node.py."""
 
 import sys
 

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Makes one gamepad look like another: see the class JoyRemap in gamepad/ros/joy_remap_node.py."""
+"""Make one gamepad look like another: see the class JoyRemap in gamepad/ros/joy_remap_node.py."""
 
 import sys
 

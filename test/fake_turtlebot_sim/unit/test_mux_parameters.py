@@ -43,7 +43,7 @@ def test_a_turtlebots_own_file_works_as_it_is():
         ({"subscribers": ["teleop"]}, ["entry 1: 'teleop'", "must be as in"]),
         (with_teleop(name="navi"), ["name: 'navi'", "twice"]),
         (with_teleop(priority=5), ["priority: 5", "twice"]),
-        (with_teleop(name="idle"), ["entry 1: name: 'idle'", "none is active"]),
+        (with_teleop(name="idle"), ["entry 1: name: 'idle'", "no input is active"]),
         (with_teleop(topic="input teleop"), ["entry 1: topic: 'input teleop'"]),
         (with_teleop(priority=-1), ["entry 1: priority: -1", "whole number"]),
         ({"subscribers": [TELEOP], "publisher": ""}, ["~publisher: ''", "name of a topic"]),

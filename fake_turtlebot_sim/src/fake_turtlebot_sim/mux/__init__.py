@@ -1,1 +1,1 @@
-"""The multiplexer of velocities."""
+"""The rules of the velocity multiplexer, cmd_vel_mux."""

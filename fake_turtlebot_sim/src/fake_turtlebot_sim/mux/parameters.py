@@ -18,21 +18,21 @@ _TOPIC = text(
     lambda value: re.fullmatch(r"/?[A-Za-z]\w*(/\w+)*", value, re.ASCII),
 )
 _NAME = text(
-    f"a name, and not {IDLE}, which means that none is active",
+    f"a name other than {IDLE}, which means that no input is active",
     lambda value: value.strip() and value != IDLE,
 )
 
 
 @dataclass(frozen=True)
 class Input:
-    """A source of commands: one entry of ~subscribers."""
+    """An entry of ~subscribers: a topic of commands, with its priority."""
 
-    name: str = parameter(MISSING, _NAME, "what `~active` calls it")
+    name: str = parameter(MISSING, _NAME, "its name on `~active`")
     topic: str = parameter(MISSING, _TOPIC, "below the node's name, unless it begins with `/`")
     timeout: float = parameter(
         MISSING,
         number(0.02, 60.0, "s"),
-        "so long after its last command the input is active no more",
+        "how long the input stays active after its last command",
     )
     priority: int = parameter(
         MISSING,
@@ -47,7 +47,7 @@ def _inputs(value: Any) -> tuple[Input, ...]:
         raise ValueError(f"must be a list of inputs, {EXAMPLE}")
     inputs = tuple(_input(number, entry) for number, entry in enumerate(value, start=1))
     for key in ("name", "topic", "priority"):
-        values = [getattr(one, key) for one in inputs]
+        values = [getattr(item, key) for item in inputs]
         twice = next((v for k, v in enumerate(values) if v in values[:k]), None)
         if twice is not None:
             raise ValueError(f"{key}: {twice!r}: is listed twice; must be unique")
@@ -63,7 +63,7 @@ def _input(position: int, entry: Any) -> Input:
 
 @dataclass(frozen=True)
 class MuxParameters:
-    """What can be set, with the defaults; README.md and config/cmd_vel_mux.yaml explain each."""
+    """The parameters with their defaults; see README.md and config/cmd_vel_mux.yaml."""
 
     subscribers: tuple[Input, ...] = parameter(MISSING, _inputs, "list of inputs")
     publisher: str = parameter("output", _TOPIC, "of the commands that go through")
@@ -73,6 +73,6 @@ def parse_mux_parameters(given: Mapping[str, Any]) -> MuxParameters:
     """Return the checked parameters, with defaults filled in. Raises ValueError, one line."""
     parameters = MuxParameters(**checked(MuxParameters, given, example=EXAMPLE))
     publisher = parameters.publisher
-    if publisher in [one.topic for one in parameters.subscribers]:
+    if publisher in [item.topic for item in parameters.subscribers]:
         raise ValueError(f"~publisher: {publisher!r}: must not be the topic of an input")
     return parameters

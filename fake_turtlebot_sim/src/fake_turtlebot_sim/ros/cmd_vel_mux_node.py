@@ -1,4 +1,4 @@
-"""The node cmd_vel_mux: ROS on one side, an Arbiter on the other, and no arithmetic in between."""
+"""The node cmd_vel_mux: ROS around the rules in mux/."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ from node_kit.rules.throttle import ThrottleEach
 
 NODE_NAME = "cmd_vel_mux"
 SHUTDOWN_CHECK_S = 0.1  # how long a shutdown may go unnoticed
-WARNING_PERIOD_S = 10.0  # how often the same is reported of an input, at most
-BURST = 100  # commands read at once, at most: that several come together shows that they are late
+WARNING_PERIOD_S = 10.0  # between two equal warnings about an input, at least
+BURST = 100  # queued commands: only those that arrive together are known to be late
 
 
 class CmdVelMux:
@@ -35,7 +35,7 @@ class CmdVelMux:
     """
 
     def __init__(self, parameters: MuxParameters) -> None:
-        """Take MuxParameters; from now on commands go through."""
+        """Subscribe to the inputs; from now on commands go through."""
         self._arbiter = Arbiter(parameters.subscribers)
         self._log = Log()
         report_bad_messages(self._log.warn)
@@ -45,41 +45,41 @@ class CmdVelMux:
         self._fresh = FreshOnly()
         self._wake = threading.Event()  # set when a command waits
         self._output = VelocityPublisher(_in_own_namespace(parameters.publisher), self._log.warn)
-        # A state, unlike a velocity, may be latched; the queue holds a burst of changes.
+        # A state may be latched, unlike a velocity; the queue holds a burst of changes.
         self._active = rospy.Publisher("~active", String, queue_size=10, latch=True)
         self._last_active = ""
         rospy.on_shutdown(self._end)
         self._look()
         self._subscribers: dict[str, Any] = {}
-        for one in parameters.subscribers:
-            self._subscribers[one.name] = subscriber = rospy.Subscriber(
-                _in_own_namespace(one.topic), Twist, self._on_command, callback_args=one.name,
+        for source in parameters.subscribers:
+            self._subscribers[source.name] = subscriber = rospy.Subscriber(
+                _in_own_namespace(source.topic), Twist, self._on_command, callback_args=source.name,
                 queue_size=BURST, tcp_nodelay=True,
             )  # fmt: skip
             self._fresh.watch(subscriber)
 
     def spin(self) -> None:
-        """Notice inputs that fall silent, until shut down. The clock is one that nobody can set."""
+        """Notice inputs that fall silent, by the monotonic clock, until shut down."""
         while not rospy.is_shutdown():
             self._wake.wait(min(self._look(), SHUTDOWN_CHECK_S))
 
     def _on_command(self, twist: Any, name: str) -> None:
         linear, angular = twist.linear, twist.angular
         velocity: Velocity = (linear.x, linear.y, linear.z, angular.x, angular.y, angular.z)
-        subscriber = self._subscribers.get(name)  # None while it is being made
+        subscriber = self._subscribers.get(name)  # None until its constructor returns
         is_far = bool(subscriber) and is_remote(subscriber, twist)
-        sender = PublishingNode(sender_of(twist), is_hold_to_run(twist), is_far)
+        node = PublishingNode(sender_of(twist), is_hold_to_run(twist), is_far)
         with self._lock:
             now = time.monotonic()
             self._notice_suspension()
             if self._fresh.is_old(twist):
                 return
-            ruling = self._arbiter.command(name, velocity, now, sender)
+            ruling = self._arbiter.command(name, velocity, now, node)
             active = self._arbiter.active(now)
             if ruling is Ruling.OBEYED:
-                self._drive(velocity, sender)
+                self._drive(velocity, node)
             elif ruling is Ruling.LATE and active == name:
-                self._drive(ZERO, sender)  # the first of them may have gone through
+                self._drive(ZERO, node)  # the first late command may have gone through
             elif ruling is Ruling.WAITS:
                 self._wake.set()
             self._report(active)
@@ -88,26 +88,26 @@ class CmdVelMux:
             if self._may_warn.ready(line, now):
                 self._log.warn(line)
 
-    def _drive(self, velocity: Velocity, sender: PublishingNode) -> None:
-        """Publish; a stick that is held does not move a robot that was lost, a program does."""
+    def _drive(self, velocity: Velocity, node: PublishingNode) -> None:
+        """Publish; a program moves a robot that has reconnected, a held stick does not."""
         if not self._has_ended:
-            is_stick = sender.is_stick
+            is_stick = node.is_stick
             self._output.publish(velocity, velocity == ZERO or not is_stick, is_stick)
 
     def _notice_suspension(self) -> None:
-        """Stop the robot if this process was suspended: what is in its sockets is old."""
+        """Stop the robot if this process was suspended: the messages in its sockets are old."""
         if self._fresh.notice():
             self._output.publish(ZERO)
-            self._log.warn("This node was suspended. What was sent meanwhile is not obeyed.")
+            self._log.warn("This node was suspended. Commands sent meanwhile are ignored.")
 
     def _look(self) -> float:
-        """Act on silence; return for how long [s] nothing will be due."""
+        """Act on silence; return the time [s] until the next action may be due."""
         self._wake.clear()
         with self._lock:
             now = time.monotonic()
             self._notice_suspension()
-            for velocity, sender in self._arbiter.waited(now):
-                self._drive(velocity, sender)
+            for velocity, node in self._arbiter.waited(now):
+                self._drive(velocity, node)
             if self._arbiter.must_stop(now) and not self._has_ended:
                 self._output.publish(ZERO)
             self._report(self._arbiter.active(now))
@@ -120,7 +120,7 @@ class CmdVelMux:
 
     def _end(self) -> None:
         with self._lock:
-            self._output.publish(ZERO)  # nobody will send one later
+            self._output.publish(ZERO)  # no later command stops the robot
             self._report(IDLE)
             self._has_ended = True
 
