@@ -110,7 +110,7 @@ def test_gains_are_taken_and_given_back():
 
 def test_firmware_before_1_2_takes_no_gains():
     firmware = kobuki(Equipment(firmware=FirmwareVersion(4, 1, 1)))
-    assert firmware.receive(SET_GAINS, 0) == ["gains: firmware 1.1.4 does not take any"]
+    assert firmware.receive(SET_GAINS, 0) == ["gains: firmware 1.1.4 does not accept any"]
 
 
 def test_outputs_and_sounds_are_reported_when_they_change():

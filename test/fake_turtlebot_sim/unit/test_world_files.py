@@ -9,9 +9,10 @@ import PIL
 import pytest
 from PIL import Image
 
+from fake_turtlebot_sim.errors import WorldError
 from fake_turtlebot_sim.simulator.parameters import parse_parameters
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
-from fake_turtlebot_sim.simulator.world_files import WorldError, read_world
+from fake_turtlebot_sim.simulator.world_files import read_world
 from fake_turtlebot_sim.simulator.world_messages import world_map, world_markers
 from tutorial_testing.hostile import end_of
 

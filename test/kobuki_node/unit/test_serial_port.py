@@ -6,8 +6,9 @@ import tty
 
 import pytest
 
+from kobuki_driver.errors import PortError
 from kobuki_driver.io import serial_port
-from kobuki_driver.io.serial_port import PortError, SerialPort
+from kobuki_driver.io.serial_port import SerialPort
 
 
 @pytest.fixture

@@ -17,6 +17,7 @@ from genpy import Time
 from rosbags.rosbag1 import Reader, Writer
 from tf2_msgs.msg import TFMessage
 
+from fake_turtlebot_sim.errors import ReplayError
 from fake_turtlebot_sim.simulator.differential_drive import Velocity
 from fake_turtlebot_sim.simulator.parameters import SimulatorParameters
 from fake_turtlebot_sim.simulator.ros_messages import RobotMessages
@@ -24,10 +25,6 @@ from fake_turtlebot_sim.simulator.simulated_robot import RobotState, SimulatedRo
 
 LONGEST_SILENCE_S = 1000.0  # between two commands
 Commands = List[Tuple[int, Optional[Velocity]]]  # times [ns]; None: a message not to be obeyed
-
-
-class ReplayError(Exception):
-    """What the user can fix; the text says how, in one line."""
 
 
 @dataclass

@@ -11,7 +11,7 @@ import rospy
 from nav_msgs.msg import MapMetaData, OccupancyGrid
 from nav_msgs.srv import GetMap, GetMapResponse, LoadMap, LoadMapResponse
 
-from fake_turtlebot_sim.simulator.grid_map import WorldError
+from fake_turtlebot_sim.errors import WorldError
 from fake_turtlebot_sim.simulator.world_files import read_grid
 from fake_turtlebot_sim.simulator.world_messages import grid_message
 

@@ -1,4 +1,4 @@
-"""The node safety_controller: ROS on one side, a Reaction on the other."""
+"""The node safety_controller: ROS around the rules in safety/."""
 
 from __future__ import annotations
 
@@ -19,20 +19,20 @@ from node_kit.ros.rospy_patches.connections import has_sender, report_bad_messag
 from node_kit.ros.rospy_patches.prompt_publisher import PromptPublisher
 
 NODE_NAME = "kobuki_safety_controller"
-PERIOD_S = 0.1  # as on the Kobuki; the mux waits for 0.2 s
+PERIOD_S = 0.1  # as on the Kobuki; the input's timeout in the mux is 0.2 s
 
 
 class SafetyController:
-    """Drives a bumped robot back, over the mux input that wins against all others.
+    """Backs a bumped robot away, through the mux input with the highest priority.
 
     Subscribers: ~events/bumper (kobuki_msgs/BumperEvent), ~events/cliff (CliffEvent),
         ~events/wheel_drop (WheelDropEvent), ~enable, ~disable, ~reset (std_msgs/Empty)
-    Publishers: ~cmd_vel (geometry_msgs/Twist), while a sensor is active and for nothing else
+    Publishers: ~cmd_vel (geometry_msgs/Twist), only while a sensor is active
     Parameters: ~time_to_extend_bump_cliff_events 0 s
     """
 
     def __init__(self, parameters: SafetyParameters) -> None:
-        """Take the parameters; from now on events count."""
+        """Subscribe; from now on the node reacts to events."""
         report_bad_messages(Log().warn)
         self._reaction = Reaction(parameters.time_to_extend_bump_cliff_events)
         self._is_enabled = True
@@ -49,11 +49,11 @@ class SafetyController:
             rospy.Subscriber(f"~{topic}", Empty, self._on_empty, callback_args=topic, queue_size=1)
 
     def spin(self) -> None:
-        """Publish again and again while a sensor is active, until shut down."""
+        """Publish repeatedly while a sensor is active, until shut down."""
         while not rospy.is_shutdown():
             with self._lock:
                 if not any(map(has_sender, self._sensors)):
-                    self._reaction.reset()  # a base that has exited releases no sensor
+                    self._reaction.reset()  # a base that has exited sends no release
                 self._publish()
             time.sleep(PERIOD_S)
 

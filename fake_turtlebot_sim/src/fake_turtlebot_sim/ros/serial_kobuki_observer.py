@@ -1,8 +1,8 @@
-"""The node of serial_kobuki: publishes where the robot truly is, and takes what people ask for.
+"""The node of serial_kobuki: publishes the robot's true pose, and passes requests to the device.
 
-It is a process of its own, as long as the device lives: it waits for a master, and begins again
-when another one is there. Its standard input has the states of the device, a line of JSON each; it
-writes the wishes to the descriptor that is its first argument.
+It is a separate process, which runs as long as the device does, waits for a master, and starts
+again with each new one. It reads the states of the device from standard input, one line of JSON
+each, and writes requests to the file descriptor given as its first argument.
 """
 
 from __future__ import annotations
@@ -34,8 +34,8 @@ from node_kit.ros.rospy_patches.prompt_publisher import PromptPublisher
 from node_kit.rules.answer import Answer
 
 ARGUMENTS = sys.argv[1:]
-LOOK_S = 1.0  # how often the master is looked for
-# Services of a robot that is switched, in std_srvs/SetBool: name and what it answers.
+LOOK_S = 1.0  # between two looks for a master
+# Services of type std_srvs/SetBool: name, and the answers to false and true.
 SWITCHES = {
     "switch_on": ("off", "on"),
     "plug_in": ("the cable is out", "the cable is in"),
@@ -44,22 +44,22 @@ SWITCHES = {
 }
 
 
-class Wishes:
-    """The way to the device."""
+class RequestWriter:
+    """Sends requests to the device."""
 
     def __init__(self, descriptor: int) -> None:
         self._descriptor = descriptor
 
     def send(self, name: str, *values: Any) -> None:
-        """Send the name of a wish and its values."""
+        """Send a request: its name and its values."""
         os.write(self._descriptor, json.dumps([name, *values]).encode() + b"\n")
 
 
-class States:
-    """The newest state of the device, read in a thread; its end is that of the device."""
+class StateReader:
+    """Reads the states of the device in a thread, until the device exits."""
 
     def __init__(self) -> None:
-        self.hear: Callable[[dict[str, Any]], None] = lambda state: None
+        self.receive: Callable[[dict[str, Any]], None] = lambda state: None
         self.end: Callable[[], object] = lambda: os._exit(0)
         threading.Thread(target=self._read, daemon=True).start()
 
@@ -68,8 +68,8 @@ class States:
             try:
                 state = json.loads(line)
             except ValueError:
-                continue  # the rest of a line of which the beginning was read before
-            self.hear(state)
+                continue  # the rest of a line that another process began to read
+            self.receive(state)
         self.end()
 
 
@@ -82,9 +82,11 @@ class Observer:
         (std_srvs/SetBool)
     """
 
-    def __init__(self, parameters: SerialKobukiParameters, states: States, wishes: Wishes) -> None:
-        """Publish what arrives from now on."""
-        self._wishes = wishes
+    def __init__(
+        self, parameters: SerialKobukiParameters, states: StateReader, requests: RequestWriter
+    ) -> None:
+        """Publish each state from now on."""
+        self._requests = requests
         self._message = Odometry()
         self._message.header.frame_id = "map" if parameters.world else "odom"
         self._message.child_frame_id = "base_footprint"
@@ -93,10 +95,10 @@ class Observer:
         for name in ("reset", "reboot"):
             rospy.Service(f"~{name}", srv.Empty, lambda _, name=name: self._on_empty(name))
         for name in SWITCHES:
-            rospy.Service(f"~{name}", srv.SetBool, lambda ask, name=name: self._on_set(name, ask))
-        states.hear = self._hear
+            rospy.Service(f"~{name}", srv.SetBool, lambda r, name=name: self._on_set(name, r))
+        states.receive = self._publish
 
-    def _hear(self, state: dict[str, Any]) -> None:
+    def _publish(self, state: dict[str, Any]) -> None:
         if not self._truth.listeners:
             return
         x, y, yaw, v, w = state["truth"]
@@ -106,19 +108,19 @@ class Observer:
         self._truth.publish(self._message)
 
     def _on_press(self, event: ButtonEvent) -> None:
-        self._wishes.send("press", event.button, event.state == ButtonEvent.PRESSED)
+        self._requests.send("press", event.button, event.state == ButtonEvent.PRESSED)
 
     def _on_empty(self, name: str) -> Any:
-        self._wishes.send(name)
+        self._requests.send(name)
         return srv.EmptyResponse()
 
     def _on_set(self, name: str, request: Any) -> Any:
-        self._wishes.send(name, request.data)
+        self._requests.send(name, request.data)
         return srv.SetBoolResponse(True, SWITCHES[name][request.data])
 
 
-def begin_again_with_master(uri: str, process: int) -> None:
-    """Start this program again once another master answers: none is told of the old one's nodes."""
+def restart_with_master(uri: str, process: int) -> None:
+    """Start this program again once another master answers, which does not know this node."""
     while True:
         time.sleep(LOOK_S)
         answer, now = call(uri, "getPid")
@@ -127,18 +129,18 @@ def begin_again_with_master(uri: str, process: int) -> None:
 
 
 def main() -> int:
-    """Wait for a master, and be its node until it is another one; return the exit code."""
-    wishes, states = Wishes(int(sys.argv.pop(1))), States()
+    """Wait for a master and run as its node; return the exit code."""
+    requests, states = RequestWriter(int(sys.argv.pop(1))), StateReader()
     uri = rosgraph.get_master_uri()
     while True:
         answer, process = call(uri, "getPid")
         if answer is Answer.WELL:
             break
         time.sleep(LOOK_S)
-    threading.Thread(target=begin_again_with_master, args=(uri, process), daemon=True).start()
+    threading.Thread(target=restart_with_master, args=(uri, process), daemon=True).start()
 
     def observe(parameters: SerialKobukiParameters) -> None:
-        Observer(parameters, states, wishes)
+        Observer(parameters, states, requests)
         states.end = lambda: rospy.signal_shutdown("the device is gone")
         rospy.spin()
 

@@ -1,1 +1,1 @@
-"""Backs a bumped robot off: the node safety_controller."""
+"""The rules of the safety controller, which backs a bumped robot away."""

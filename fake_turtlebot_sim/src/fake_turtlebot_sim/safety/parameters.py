@@ -10,10 +10,12 @@ from node_kit.parameters.declaration import checked, number, parameter
 
 @dataclass(frozen=True)
 class SafetyParameters:
-    """What can be set."""
+    """The parameters with their defaults."""
 
     time_to_extend_bump_cliff_events: float = parameter(
-        0.0, number(0.0, 10.0, "s"), "how long the robot backs off at least, from the last press"
+        0.0,
+        number(0.0, 10.0, "s"),
+        "least time for which the robot backs away, from the last press",
     )
 
 

@@ -1,1 +1,1 @@
-"""A Kobuki on a pseudo terminal: the firmware's side of the serial protocol, for its drivers."""
+"""The rules of a Kobuki on a serial line: firmware, damage, parameters."""

@@ -1,8 +1,8 @@
-"""A Kobuki's firmware: bytes of the driver in, packets of the sensors out (pure).
+"""A Kobuki's firmware: takes the driver's bytes and returns packets of sensor values.
 
-Time enters as a whole number of nanoseconds that never decreases, as for the simulated robot, which
-has the wheels. The facts are those of kobuki_driver's appendix "Protocol Specification"; a comment
-says what is assumed because no source has it.
+Times are whole numbers of nanoseconds that never decrease, as for the simulated robot, which has
+the wheels. The facts are those of kobuki_driver's appendix "Protocol Specification"; a comment
+marks what is assumed because no source states it.
 """
 
 from __future__ import annotations
@@ -20,18 +20,18 @@ from kobuki_protocol.feedback import Feedback
 from kobuki_protocol.framing import Framer
 from kobuki_protocol.robot_packets import RobotPart, build
 
-BOOT_NS = 2_000_000_000  # from power on to the first packet: assumed
+BOOT_NS = 2_000_000_000  # from power-on to the first packet: assumed
 HARDWARE = identity.HardwareVersion(patch=4, minor=0, major=1)
 FIRMWARE = identity.FirmwareVersion(patch=0, minor=2, major=1)
 UNIQUE_ID = identity.UniqueId((1, 2, 3))
 BUTTONS = 3
 DOCK_CHARGING = 6  # charger in the core packet
-GAINS_FROM = (1, 2, 0)  # the firmware that takes gains
+GAINS_FROM = (1, 2, 0)  # the first firmware that accepts gains
 
 
 @dataclass(frozen=True)
 class Equipment:
-    """What is built in: versions and number, the battery [0.1 V] and what charges it."""
+    """The hardware: versions, unique id, battery [0.1 V] and charger."""
 
     hardware: identity.HardwareVersion = HARDWARE
     firmware: identity.FirmwareVersion = FIRMWARE
@@ -42,7 +42,7 @@ class Equipment:
 
 @dataclass(frozen=True)
 class Zeros:
-    """What a Kobuki counts from: the time, wheels and heading at which it was switched on."""
+    """The values at switch-on, from which a Kobuki counts."""
 
     now_ns: int
     left: int  # [ticks]
@@ -51,10 +51,10 @@ class Zeros:
 
 
 class Firmware:
-    """The state between two commands; the robot obeys the newest one until its own timeout."""
+    """The firmware's state; the robot obeys the newest command until its own timeout."""
 
     def __init__(self, robot: SimulatedRobot, equipment: Equipment = Equipment()) -> None:
-        """Begin switched on, at the time 0."""
+        """Start switched on, at the time 0."""
         self.robot, self._equipment = robot, equipment
         self.charger = equipment.charger
         self._pressed = [False] * BUTTONS
@@ -67,36 +67,36 @@ class Firmware:
         core = sensors(now_ns, self.robot, self._pressed).core
         yaw = self.robot.true_pose[2]
         self._zeros = Zeros(now_ns, core.left_encoder, core.right_encoder, yaw)
-        self._outputs = commands.Outputs()  # assumed: as the driver begins
+        self._outputs = commands.Outputs()  # assumed: those that the driver starts with
         self._controller = identity.Controller()
         self._answers: list[RobotPart] = []
 
     def switch(self, is_on: bool, now_ns: int) -> None:
-        """Switch the robot on or off: its wheels stop, and it forgets what it was told."""
+        """Switch the robot on or off: its wheels stop, and it forgets all settings."""
         self.robot.command(REST, now_ns)
         self._is_on = is_on
         self._boot(now_ns + BOOT_NS)
 
     def runs(self, now_ns: int) -> bool:
-        """Return whether it is switched on and has booted."""
+        """Return whether the robot is switched on and has booted."""
         return self._is_on and now_ns >= self._ready_ns
 
     def press(self, button: int, is_pressed: bool) -> None:
-        """Hold or release a button, 0 to 2; there are no others."""
+        """Press or release a button, 0 to 2; other numbers have no effect."""
         if 0 <= button < BUTTONS:
             self._pressed[button] = is_pressed
 
     @property
     def damaged(self) -> int:
-        """Return how many damaged packets have come since it was switched on."""
+        """Return how many damaged packets have arrived since the robot was switched on."""
         return self._framer.damaged
 
     def receive(self, data: bytes, now_ns: int) -> list[str]:
-        """Obey the commands that the next bytes complete; return lines about what changed."""
+        """Obey the commands that these bytes complete; return lines about what has changed."""
         if not self.runs(now_ns):
             return []
-        received = [one for payload in self._framer.feed(data) for one in commands.parse(payload)]
-        return [line for command in received for line in self._obey(command, now_ns)]
+        received = map(commands.parse, self._framer.feed(data))
+        return [line for group in received for part in group for line in self._obey(part, now_ns)]
 
     def _obey(self, command: commands.Command, now_ns: int) -> list[str]:
         if isinstance(command, commands.BaseControl):
@@ -105,7 +105,7 @@ class Firmware:
             before, self._outputs = self._outputs, command
             return changes(before, command)
         elif isinstance(command, commands.Request):
-            self._answers += self._asked_for(command.flags)
+            self._answers += self._identity(command.flags)
         elif isinstance(command, commands.GetController):
             self._answers.append(self._controller)
         elif isinstance(command, commands.SetController):
@@ -117,7 +117,7 @@ class Firmware:
             return [f"sound: note {command.note} for {command.duration} ms"]
         return []
 
-    def _asked_for(self, flags: int) -> list[RobotPart]:
+    def _identity(self, flags: int) -> list[RobotPart]:
         parts: list[tuple[int, RobotPart]] = [
             (commands.Request.HARDWARE, self._equipment.hardware),
             (commands.Request.FIRMWARE, self._equipment.firmware),
@@ -128,13 +128,13 @@ class Firmware:
     def _set_controller(self, wanted: identity.Controller) -> list[str]:
         version = self._equipment.firmware
         if (version.major, version.minor, version.patch) < GAINS_FROM:
-            return [f"gains: firmware {version} does not take any"]
+            return [f"gains: firmware {version} does not accept any"]
         self._controller = wanted
         p, i, d = (gain / 1000.0 for gain in wanted.gains)
         return [f"gains: {'own' if wanted.kind else 'factory'}, P {p:g}, I {i:g}, D {d:g}"]
 
     def feedback(self, now_ns: int) -> bytes:
-        """Return the packet of the sensors, with what was asked for; none while it is off."""
+        """Return the packet of the sensors and answers; empty while the robot is off."""
         if not self.runs(now_ns):
             return b""
         self.robot.advance(now_ns)

@@ -1,4 +1,4 @@
-"""Lines about the outputs that a driver sets: pins, supplies and LEDs (pure)."""
+"""Lines about the outputs that a driver sets: pins, power supplies and LEDs."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ SWITCHED = ("off", "on")
 
 
 def changes(before: Outputs, after: Outputs) -> list[str]:
-    """Return a line for each output that two commands set otherwise."""
+    """Return a line for each output that differs between two commands."""
     names = [*(f"digital output {pin}" for pin in range(PINS)), *(f"power {s}" for s in SUPPLIES)]
     lines = [
         f"{name}: {SWITCHED[after.bits >> bit & 1]}"

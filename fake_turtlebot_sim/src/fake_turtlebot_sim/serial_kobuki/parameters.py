@@ -25,7 +25,7 @@ _VERSION = text(
 
 @dataclass(frozen=True)
 class SerialKobukiParameters:
-    """What can be set, with the defaults; README.md has them as a table."""
+    """The parameters with their defaults; common/doc/SERIAL_KOBUKI.md has them as a table."""
 
     link: str = parameter("", text("a path, or empty"), "symlink to the pseudo terminal")
     world: World | None = simulated("world")
@@ -37,22 +37,26 @@ class SerialKobukiParameters:
     track_ratio: float = simulated("track_ratio")
     seed: int = parameter(0, whole_number(), "the same seed gives the same noise and damage")
     base_control_timeout: float = parameter(
-        0.6, number(0.02, 60.0, "s"), "after the last base control the firmware stops the wheels"
+        0.6,
+        number(0.02, 60.0, "s"),
+        "without a base control for so long, the firmware stops the wheels",
     )
     battery: float = parameter(16.4, number(0.0, 25.5, "V"))
     charger: str = parameter(
         "none", text("none, dock or adapter", CHARGERS.__contains__), "what charges the battery"
     )
-    drop: float = parameter(0.0, _SHARE, "share of the packets that are lost, both ways")
-    corrupt: float = parameter(0.0, _SHARE, "share of the packets with a wrong byte, both ways")
+    drop: float = parameter(0.0, _SHARE, "share of the packets that are lost, in both directions")
+    corrupt: float = parameter(
+        0.0, _SHARE, "share of the packets with a wrong byte, in both directions"
+    )
     stall: float = parameter(
         0.0,
         number(0.0, 9.0, "s"),
-        f"every {STALL_EVERY_S:g} s the line stalls so long, then all comes at once",
+        f"the line stalls this long every {STALL_EVERY_S:g} s; then everything arrives at once",
     )
-    other_firmware: str = parameter("", _VERSION, "version that is reported in place of 1.2.0")
+    other_firmware: str = parameter("", _VERSION, "version to report instead of 1.2.0")
     reboot_after: float = parameter(
-        0.0, number(0.0, 1e6, "s, or 0: never"), "the robot is switched off and on, once"
+        0.0, number(0.0, 1e6, "s, or 0: never"), "the robot is switched off and on again, once"
     )
     unplug_after: float = parameter(
         0.0, number(0.0, 1e6, "s, or 0: never"), "the cable is out for 2 s, once"
@@ -68,7 +72,7 @@ class SerialKobukiParameters:
         return SimulatorParameters(**given, cmd_vel_timeout=self.base_control_timeout)
 
     def equipment(self) -> Equipment:
-        """Return what is built into the Kobuki."""
+        """Return the hardware of the Kobuki."""
         charger, battery = CHARGERS[self.charger], round(10 * self.battery)
         if not self.other_firmware:
             return Equipment(battery=battery, charger=charger)
@@ -77,7 +81,7 @@ class SerialKobukiParameters:
         return Equipment(firmware=version, battery=battery, charger=charger)
 
     def start_pose(self) -> Pose:
-        """Return where the robot starts."""
+        """Return the start pose of the robot."""
         (pose,) = self.simulation().start_poses().values()
         return pose
 

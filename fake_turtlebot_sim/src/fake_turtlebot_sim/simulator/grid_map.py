@@ -16,6 +16,7 @@ from typing import Any, Mapping
 
 import numpy as np
 
+from fake_turtlebot_sim.errors import WorldError
 from fake_turtlebot_sim.simulator.differential_drive import Pose
 from fake_turtlebot_sim.simulator.map_images import read_pixels
 
@@ -24,10 +25,6 @@ LARGEST_IMAGE = 100_000_000  # bytes
 MOST_WALLS = 200_000  # pieces of outlines
 FARTHEST_M = 1e4  # from (0, 0): beyond, places round to more than a touch
 TRINARY, SCALE, RAW = MODES = ("trinary", "scale", "raw")
-
-
-class WorldError(ValueError):
-    """Why a file is no world: its line and what is allowed, in one line without the path."""
 
 
 @dataclass(frozen=True, eq=False)

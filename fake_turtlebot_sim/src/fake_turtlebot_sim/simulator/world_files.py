@@ -10,7 +10,8 @@ from typing import Any, Callable
 import numpy as np
 import yaml
 
-from fake_turtlebot_sim.simulator.grid_map import FARTHEST_M, Grid, WorldError, check_file, read_map
+from fake_turtlebot_sim.errors import WorldError
+from fake_turtlebot_sim.simulator.grid_map import FARTHEST_M, Grid, check_file, read_map
 from fake_turtlebot_sim.simulator.world import World
 from node_kit.parameters.declaration import is_number
 

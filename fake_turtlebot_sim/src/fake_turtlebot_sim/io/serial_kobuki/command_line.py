@@ -1,6 +1,6 @@
-"""serial_kobuki: a Kobuki on a pseudo terminal, for the driver of a real one.
+"""The command serial_kobuki: a Kobuki on a pseudo terminal, for the driver of a real one.
 
-It is a device, so it needs no master; while there is one, its node shows where the robot truly is.
+Like any device it needs no master; while there is one, its node publishes the robot's true pose.
 """
 
 from __future__ import annotations
@@ -17,13 +17,13 @@ from node_kit.ros.log import Log
 
 
 def show(lines: list[str]) -> None:
-    """Print lines for the user."""
+    """Print lines to the user."""
     for line in lines:
         print(f"{NODE_NAME}: {line}", flush=True)
 
 
 def main() -> int:
-    """Run until it is asked to end; return the exit code."""
+    """Run until a signal or the observer asks it to exit; return the exit code."""
     log = Log()
     try:
         parameters = parse_parameters(private_parameters(NODE_NAME))

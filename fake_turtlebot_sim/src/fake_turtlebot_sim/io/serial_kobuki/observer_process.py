@@ -1,7 +1,7 @@
-"""The process beside the device, which a master sees: a line of JSON for each state and each wish.
+"""The process that connects the device to ROS: one line of JSON for each state and each request.
 
-The device itself needs no master, and none can disturb it: a process of its own talks to ROS, and
-begins again when the master does (fake_turtlebot_sim.ros.serial_kobuki_observer).
+The device itself needs no master, and no master can disturb it. Its observer, a separate process,
+is a node, which starts again with each master (fake_turtlebot_sim.ros.serial_kobuki_observer).
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ READ_BYTES = 65536
 
 
 class ObserverProcess:
-    """The observer's process, and the two pipes to it."""
+    """The observer's process, and a pipe in each direction."""
 
     def __init__(self, arguments: Sequence[str]) -> None:
         """Start it with the arguments of this program's command line."""
@@ -41,16 +41,16 @@ class ObserverProcess:
 
     @property
     def descriptor(self) -> int:
-        """Return the file descriptor of the wishes, for select.poll()."""
+        """Return the file descriptor of the requests, for select()."""
         return self._up
 
     def show(self, state: dict[str, Any]) -> None:
-        """Send a state; it is dropped if the observer does not read."""
+        """Send a state; it is dropped while the observer does not read."""
         with suppress(OSError):
-            os.write(self._down, json.dumps(state).encode() + b"\n")  # whole, or not at all
+            os.write(self._down, json.dumps(state).encode() + b"\n")  # the whole line, or nothing
 
-    def wishes(self) -> Iterator[list[Any]]:
-        """Yield what arrived: the name of a wish and its values."""
+    def requests(self) -> Iterator[list[Any]]:
+        """Yield each request that has arrived: its name and its values."""
         with suppress(BlockingIOError):
             data = os.read(self._up, READ_BYTES)
             self.has_ended = not data
@@ -59,11 +59,11 @@ class ObserverProcess:
 
     @property
     def was_asked_to_end(self) -> bool:
-        """Return whether it has ended because a master or another node asked it to."""
+        """Return whether it has exited because a master or another node asked it to."""
         return self._process.wait() == 0
 
     def close(self) -> None:
-        """Let it end: its input does."""
+        """End its input, at which it exits."""
         os.close(self._down)
         with suppress(subprocess.TimeoutExpired):
             self._process.wait(2.0)

@@ -1,4 +1,4 @@
-"""The device: the firmware, the line and the process beside it, in real time."""
+"""A simulated Kobuki on a serial line, in real time."""
 
 from __future__ import annotations
 
@@ -17,28 +17,28 @@ from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
 
 HINT = "to drive it: roslaunch turtlebot_bringup minimal.launch serialport:="
 PERIOD_NS = 20_000_000
-SUSPENDED_NS = 500_000_000  # as late as that is no busy machine
-UNPLUGGED_S = 2.0  # by ~unplug_after
+SUSPENDED_NS = 500_000_000  # longer than a busy machine delays a process
+UNPLUGGED_S = 2.0  # with ~unplug_after
 
 
 class Clock:
-    """The time since the start [ns], and whether this process was suspended, which no robot is."""
+    """The time since the start, and whether this process was suspended, as no robot ever is."""
 
     def __init__(self) -> None:
         self._begin_ns = self._looked_ns = time.monotonic_ns()
 
     def now_ns(self) -> int:
-        """Return the time."""
+        """Return the time [ns]."""
         return time.monotonic_ns() - self._begin_ns
 
     def was_suspended(self) -> bool:
-        """Return whether so much time has passed since the last call; to be called all the time."""
+        """Return whether the process was suspended since the last call; call it in each cycle."""
         before, self._looked_ns = self._looked_ns, time.monotonic_ns()
         return self._looked_ns - before > SUSPENDED_NS
 
 
 class SerialKobuki:
-    """A Kobuki on a serial line."""
+    """The firmware and its robot, the serial line, and the observer."""
 
     def __init__(
         self,
@@ -46,20 +46,20 @@ class SerialKobuki:
         observer: ObserverProcess | None,
         report: Callable[[str], None],
     ) -> None:
-        """Plug it in. observer: what shows it to a master. Raises ValueError, one line."""
+        """Plug the robot in. observer: connects it to ROS. Raises ValueError, one line."""
         p = self._parameters = parameters
         self._report, self._observer = report, observer
         robot = self._robot = SimulatedRobot(p.simulation(), p.start_pose())
         self._firmware = Firmware(robot, p.equipment())
         self._damage = Damage(p.drop, p.corrupt, p.stall, p.seed)
-        self._reported: set[str] = set()  # lines that come once
-        self._plan: list[tuple[float, Callable[[], None]]] = []  # [s] and what happens then
+        self._reported: set[str] = set()  # lines that are reported once
+        self._plan: list[tuple[float, Callable[[], None]]] = []  # when [s], and what happens
         if p.reboot_after:
             self._plan.append((p.reboot_after, self._reboot))
         if p.unplug_after:
             self._plan.append((p.unplug_after, partial(self._plug_in, False)))
             self._plan.append((p.unplug_after + UNPLUGGED_S, partial(self._plug_in, True)))
-        self._wishes: dict[str, Callable[..., None]] = {
+        self._requests: dict[str, Callable[..., None]] = {
             "press": self._firmware.press,
             "reset": self._robot.reset,
             "reboot": self._reboot,
@@ -74,7 +74,7 @@ class SerialKobuki:
         self.is_ending = False
 
     def spin(self) -> None:
-        """Be a robot until is_ending."""
+        """Simulate the robot until is_ending."""
         schedule = PhaseLock(PERIOD_NS, self._clock.now_ns())
         while not self.is_ending:
             now_ns = self._clock.now_ns()
@@ -84,14 +84,14 @@ class SerialKobuki:
             self._wait((schedule.deadline_ns - self._clock.now_ns()) * 1e-9)
 
     def close(self) -> None:
-        """Unplug it for good."""
+        """Unplug the robot for good."""
         if self._line:
             self._line.unplug()
         if self._observer:
             self._observer.close()
 
     def _cycle(self, now_ns: int) -> None:
-        """Move to the present, send a packet, and show where the robot is."""
+        """Move to the present, send a packet, and show the observer the pose."""
         now_s = now_ns * 1e-9
         for at_s, happen in self._plan:
             if at_s <= now_s:
@@ -105,12 +105,12 @@ class SerialKobuki:
         packet = self._firmware.feedback(now_ns)
         if self._line:
             self._line.write(self._damage.delay(self._damage.spoil(packet), now_s))
-        self._look_at_robot()
+        self._report_fall()
         if self._observer:
             truth = self._robot.true_state()
             self._observer.show({"stamp_ns": stamp_ns, "truth": truth[:5]})
 
-    def _look_at_robot(self) -> None:
+    def _report_fall(self) -> None:
         if any(self._robot.sensed().wheels):
             x, y, _ = self._robot.true_pose
             what = f"fell over an edge at ({x:.2f}, {y:.2f}): lift it with the service reset"
@@ -122,7 +122,7 @@ class SerialKobuki:
             self._report(line)
 
     def _wait(self, longest_s: float) -> None:
-        """Wait for a command or a wish, but not longer [s]; obey it."""
+        """Wait for a command or a request, at most longest_s [s], and obey it."""
         sources = [self._line.descriptor] if self._line and self._line.is_open else []
         sources += [self._observer.descriptor] if self._observer else []
         ready, _, _ = select.select(sources, [], [], max(0.0, longest_s))
@@ -132,7 +132,7 @@ class SerialKobuki:
             self._obey(self._observer)
 
     def _read(self) -> None:
-        """Obey what the driver has sent."""
+        """Obey the commands of the driver."""
         if not self._line:
             return
         if self._clock.was_suspended():
@@ -141,18 +141,18 @@ class SerialKobuki:
         for line in self._firmware.receive(data, self._clock.now_ns()):
             self._report(line)
         if self._firmware.damaged:
-            self._report_once("damaged commands come; they are ignored")
+            self._report_once("damaged commands arrive; they are ignored")
 
     def _obey(self, observer: ObserverProcess) -> None:
-        for name, *values in observer.wishes():
+        for name, *values in observer.requests():
             self._robot.advance(self._clock.now_ns())
-            self._try(self._wishes[name], *values)
+            self._try(self._requests[name], *values)
         if observer.has_ended:
             self.is_ending = self.is_ending or observer.was_asked_to_end
             self._observer = None
 
     def _try(self, happen: Callable[..., None], *values: object) -> None:
-        """Do what is asked for, if that is possible."""
+        """Do what a request asks for, or report why it is impossible."""
         try:
             happen(*values)
         except ValueError as error:

@@ -1,4 +1,4 @@
-"""A serial line without a wire: a pseudo terminal, which a driver opens by its path or a link."""
+"""A pseudo terminal as a serial line, which a driver opens by its path or by a link."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ READ_BYTES = 4096
 
 
 class SerialLine:
-    """The robot's end of the line; what is sent while no driver has the other end open is lost."""
+    """The robot's end of the line; bytes sent while no driver has the other end open are lost."""
 
     def __init__(self, link: str = "") -> None:
-        """Plug it in; link: path of a symlink to it, or empty. Raises ValueError, one line."""
+        """Open the line; link: path of a symlink to it, or empty. Raises ValueError, one line."""
         self._master, slave = os.openpty()
         try:
-            tty.setraw(slave)  # it stays so
+            tty.setraw(slave)  # and it stays raw
             self.path = os.ttyname(slave)
         finally:
             os.close(slave)
@@ -47,7 +47,7 @@ class SerialLine:
 
     @property
     def descriptor(self) -> int:
-        """Return the file descriptor, for select.poll()."""
+        """Return the file descriptor, for select()."""
         return self._master
 
     @property
@@ -58,26 +58,26 @@ class SerialLine:
         return not poll.poll(0)
 
     def write(self, data: bytes) -> None:
-        """Send bytes; those for which a driver that does not read leaves no room are lost."""
+        """Send bytes; those that do not fit, while the driver does not read, are lost."""
         if not data or not self.is_open:
             return
         with suppress(OSError):
             os.write(self._master, data)
 
     def read(self) -> bytes:
-        """Return what the driver has sent, perhaps nothing."""
+        """Return what the driver has sent; empty if it sent nothing."""
         try:
             return os.read(self._master, READ_BYTES)
-        except OSError:  # nothing, or it is closed
+        except OSError:  # nothing has come, or the line is closed
             return b""
 
     def drain(self) -> None:
-        """Drop what the driver has sent so far."""
+        """Discard what the driver has sent so far."""
         while self.read():
             pass
 
     def unplug(self) -> None:
-        """Close the line for good: the driver's end fails, path and link are gone."""
+        """Close the line for good: the driver's end fails, the path and the link disappear."""
         os.close(self._master)
         with suppress(OSError):
             if self._link and os.readlink(self._link) == self.path:

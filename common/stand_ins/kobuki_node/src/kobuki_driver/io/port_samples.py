@@ -7,8 +7,9 @@ import time
 from pathlib import Path
 
 from kobuki_driver.choice import USUAL_PORT, VARIABLE
+from kobuki_driver.errors import PortError
 from kobuki_driver.io.ports import latency_timer_ms, ports
-from kobuki_driver.io.serial_port import PortError, SerialPort
+from kobuki_driver.io.serial_port import SerialPort
 from kobuki_driver.link.sample import Sample, Sampler
 from kobuki_driver.link.udev_rules import FOLDER, NAME
 from kobuki_protocol import commands

@@ -7,16 +7,13 @@ import os
 
 import serial
 
+from kobuki_driver.errors import PortError
 from kobuki_driver.io.ports import access, holder, ports
 from kobuki_driver.link import port_advice
 
 BAUD = 115200
 READ_S = 0.04  # two of the robot's periods
 WRITE_S = 0.05  # A port that takes nothing for so long has old commands in it: they are dropped.
-
-
-class PortError(Exception):
-    """The port cannot be used; the text says in one line why and what to do."""
 
 
 class SerialPort:

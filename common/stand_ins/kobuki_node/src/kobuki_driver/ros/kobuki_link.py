@@ -9,8 +9,9 @@ from typing import Any, Callable
 import rospy
 from kobuki_msgs.msg import RobotStateEvent
 
+from kobuki_driver.errors import PortError
 from kobuki_driver.io.ports import ports
-from kobuki_driver.io.serial_port import PortError, SerialPort
+from kobuki_driver.io.serial_port import SerialPort
 from kobuki_driver.link import port_advice
 from kobuki_driver.link.link_monitor import LinkEvent, LinkMonitor
 from kobuki_driver.parameters import KobukiParameters

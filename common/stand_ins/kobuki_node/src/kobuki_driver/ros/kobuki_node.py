@@ -11,7 +11,8 @@ from geometry_msgs.msg import Twist
 from kobuki_msgs import msg
 from std_msgs.msg import Empty
 
-from kobuki_driver.io.serial_port import PortError, SerialPort
+from kobuki_driver.errors import PortError
+from kobuki_driver.io.serial_port import SerialPort
 from kobuki_driver.parameters import KobukiParameters, parse_parameters
 from kobuki_driver.robot.diagnostics import entries
 from kobuki_driver.robot.velocity_control import VelocityResult
