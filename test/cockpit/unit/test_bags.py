@@ -10,10 +10,12 @@ import rosbag
 import rospy
 from sensor_msgs.msg import Joy
 
-from cockpit_server.clients import RefusedError
 from cockpit_server.driving.player import Player
-from cockpit_server.ros.sources import bags, recording
-from cockpit_server.ros.sources.recording import corners, read
+from cockpit_server.errors import RefusedError
+from cockpit_server.ros.tabs import bag_files, bags
+from cockpit_server.ros.tabs.bag_files import read
+from cockpit_server.tabs import recordings
+from cockpit_server.tabs.recordings import corners
 from gamepad.ros.bags import BagError
 from tutorial_testing.session_room import page as new_page
 
@@ -61,7 +63,7 @@ def page(monkeypatch, tmp_path):
             for second in range(1, 4):
                 values = axes if second == 2 else [0.25, 0.5]
                 bag.write("/joy", Joy(axes=values, buttons=[1]), rospy.Time(second))
-    monkeypatch.setattr(bags, "recordings", lambda _: {one.name: one for one in tmp_path.glob("*")})
+    monkeypatch.setattr(bags, "bag_files", lambda _: {bag.name: bag for bag in tmp_path.glob("*")})
     return Page()
 
 
@@ -87,7 +89,7 @@ def test_recording_plays_from_where_the_page_has_put_it_until_its_end(page):
 
 def test_recording_that_cannot_be_shown_is_refused_and_the_last_one_stays(page, monkeypatch):
     page.open("good.bag")
-    monkeypatch.setattr(recording, "encoded", lambda *_, **__: [].pop())
+    monkeypatch.setattr(bag_files, "encoded", lambda *_, **__: [].pop())
     page.say("bag_open", name="odd.bag")
     with pytest.raises(RefusedError, match="is being opened"):
         page.say("bag_open", name="odd.bag")
@@ -97,7 +99,7 @@ def test_recording_that_cannot_be_shown_is_refused_and_the_last_one_stays(page, 
 
 def test_recording_is_read_once_for_all_pages(page, monkeypatch):
     read_so_far = []
-    monkeypatch.setattr(recording, "read", lambda path: read_so_far.append(path.name) or read(path))
+    monkeypatch.setattr(bags, "read", lambda path: read_so_far.append(path.name) or read(path))
     for _ in range(3):
         for name in ("good.bag", "odd.bag"):
             page.open(name)
@@ -105,7 +107,7 @@ def test_recording_is_read_once_for_all_pages(page, monkeypatch):
 
 
 def test_messages_of_all_open_recordings_are_bounded(page, monkeypatch):
-    monkeypatch.setattr(recording, "MOST_MESSAGES", 5)  # room for one, with 3 messages each
+    monkeypatch.setattr(recordings, "MOST_MESSAGES", 5)  # room for one, with 3 messages each
     page.open("good.bag")
     page.bags.collect([page.client], 0.0)
     why = "other pages have long recordings open: close one of them"
@@ -126,8 +128,8 @@ def test_refused_file_is_named_without_its_folder(tmp_path):
 def test_viewers_are_offered_nothing_of_the_folder(tmp_path, monkeypatch):
     (tmp_path / "own.bag").write_text("no bag")
     monkeypatch.chdir(tmp_path)
-    assert set(recording.recordings(may_drive=True)) == {"joy.bag", "own.bag"}
-    assert set(recording.recordings(may_drive=False)) == {"joy.bag"}
+    assert set(bag_files.bag_files(may_drive=True)) == {"joy.bag", "own.bag"}
+    assert set(bag_files.bag_files(may_drive=False)) == {"joy.bag"}
 
 
 MESSAGES = [(0.0, "a", 0), (0.5, "b", 0), (1.0, "c", 0)]

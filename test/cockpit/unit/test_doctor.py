@@ -2,7 +2,8 @@
 
 import time
 
-from cockpit_server.ros.sources import doctor
+from cockpit_server.ros.tabs import doctor
+from cockpit_server.tabs.logs import doctor_line
 from tutorial_testing.session_room import look, page
 from tutorial_testing.waiting import wait_for
 
@@ -17,7 +18,7 @@ def test_doctor_that_cannot_run_is_reported_and_runs_again_but_for_viewers_not_a
         told = wait_for(lambda: [m for m in look(one, who)[0] if not m["running"]], "its end")
         return [(line["level"], line["subject"]) for line in told[0]["lines"]]
 
-    assert doctor.shown("unknown  joystick  none\n")["level"] == "note"
+    assert doctor_line("unknown  joystick  none\n")["level"] == "note"
     for _ in range(2):
         assert found(driver, 0.0) == [("wrong", "doctor")]
     assert len(runs) == 2

@@ -2,8 +2,8 @@
 
 import pytest
 
-from cockpit_server.clients import RefusedError
-from cockpit_server.driving.driver_session import Input, is_neutral, neutral_of
+from cockpit_server.driving.driver_session import PageInput, is_neutral, neutral_of
+from cockpit_server.errors import RefusedError
 from tutorial_testing.session_room import ANNA, BOB, DRIVE, REST, Room
 
 SILENT = "no input from the page for 0.2 s"
@@ -119,7 +119,7 @@ def sit(room):
 
 def hand(room, n, now, position=REST, *, t=None, beat=1, pad=None):
     """Say one input as it is. t: 1000 now, unless it was on its way for a while."""
-    message = Input(n, 1000 * now if t is None else t, beat, *position, pad)
+    message = PageInput(n, 1000 * now if t is None else t, beat, *position, pad)
     room.session.input(ANNA, message, now)
 
 

@@ -8,10 +8,12 @@ import pytest
 import rospy
 from roslib.message import get_message_class
 
-from cockpit_server.clients import LOOKS_ONLY, RefusedError
+from cockpit_server.errors import RefusedError
 from cockpit_server.graph import Graph
-from cockpit_server.ros.sources import forms
-from cockpit_server.ros.sources.publishing import Publishing
+from cockpit_server.pages import LOOKS_ONLY
+from cockpit_server.ros.tabs import forms
+from cockpit_server.ros.tabs.outlets import Outlets
+from cockpit_server.tabs.publishing import Publishing
 from node_kit.errors import ServiceError
 from tutorial_testing.session_room import Free, page
 
@@ -84,7 +86,7 @@ def test_hostile_parameter_is_one_line_or_a_value(monkeypatch, written):
 def test_who_may_publish_what(role, driver, topic, kind, why):
     graph = Graph(services={"/x/reset": {"/x"}}, types={"/x": "std_msgs/String"})
     (client, _), graphs, driving = page(role), SimpleNamespace(graph=graph), Free(driver)
-    source, publishing = forms.Forms(driving, None, graphs), Publishing(driving, graphs)
+    source, publishing = forms.Forms(driving, None, graphs), Publishing(driving, graphs, Outlets())
     with pytest.raises(RefusedError, match=f"^{why}"):
         publishing.on_publish(client, 0.0, topic=topic, type=kind, values={}, period=None)
     if kind == "std_msgs/String":
@@ -99,7 +101,7 @@ def test_a_service_that_never_answers_is_refused_to_its_page_alone(monkeypatch):
     started = []
     later = lambda target, daemon: SimpleNamespace(start=lambda: started.append(target))  # noqa: E731
     monkeypatch.setattr(forms.threading, "Thread", later)
-    monkeypatch.setattr(forms, "MOST_ASKED", 3)
+    monkeypatch.setattr(forms, "MOST_CALLS", 3)
     graph = Graph(services={"/reset": {"/x"}})
     driving = Free()
     driving.must_rest = lambda *_: None

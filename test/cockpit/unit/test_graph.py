@@ -4,7 +4,7 @@ import threading
 
 import pytest
 
-from cockpit_server.clients import RefusedError
+from cockpit_server.errors import RefusedError
 from cockpit_server.graph import JOY, ODOMETRY, Graph, without
 from cockpit_server.ros import graph_watch
 from node_kit.rules.answer import Answer

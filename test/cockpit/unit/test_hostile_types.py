@@ -8,10 +8,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from cockpit_server.clients import RefusedError
+from cockpit_server.errors import RefusedError
 from cockpit_server.graph import Graph
-from cockpit_server.ros.sources import forms, plots, topics
-from cockpit_server.ros.sources.publishing import Publishing
+from cockpit_server.ros.tabs import forms, plots
+from cockpit_server.ros.tabs.outlets import Outlets
+from cockpit_server.tabs import topics
+from cockpit_server.tabs.publishing import Publishing
 from tutorial_testing.session_room import Free, Room, Topics, look, page
 
 MODULES = st.sampled_from(["cockpit", "unittest.__main__", "antigravity", "this", "idlelib.idle"])
@@ -38,7 +40,7 @@ def judge(name):
     client, _ = one = page(fields=("/t/x",), field_list=True, topic="/t", rates=("/t",))
     form = {"topic": "/t", "type": name, "values": {}, "period": None}
     with pytest.raises(RefusedError, match="no topic of the type"):
-        Publishing(Free(), graphs).on_publish(client, 0.0, **form)
+        Publishing(Free(), graphs, Outlets()).on_publish(client, 0.0, **form)
     with pytest.raises(RefusedError, match="not installed"):
         forms.Forms(Free(), None, graphs).on_describe(client, 0.0, "message", name)
     for kind in (plots.Plots, topics.Topics):

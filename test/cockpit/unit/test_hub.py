@@ -1,28 +1,28 @@
 """What the hub sends and receives; a failure, a flood or a slow page does not hold up others."""
 
 import json
+import time
 from types import SimpleNamespace
 
 import pytest
 
 from cockpit_server.access import DRIVER, VIEWER
-from cockpit_server.clients import Source
-from cockpit_server.io import hub as hub_module
-from cockpit_server.io.hub import Hub
+from cockpit_server.hub import Hub
 from cockpit_server.limits import MOST_PAGES
+from cockpit_server.pages import TabSource
 from tutorial_testing.session_room import page
 
 
 class Made(Hub):
     """A hub of these sources, beside a driver that is a number."""
 
-    def __init__(self, *sources, tick=lambda now: None):
+    def __init__(self, *sources, tick=lambda now: None, clock=time):
         self.told, self.driver, self.closed = [], None, []
         driving = SimpleNamespace(
             tick=tick, beat=lambda now: None, gone=lambda client: None,
             is_driver=lambda client: client.number == self.driver,
         )  # fmt: skip
-        super().__init__({}, driving, sources, self.told.append)
+        super().__init__({}, driving, sources, self.told.append, clock)
 
     def opened(self, role=DRIVER):
         """(a page that has joined, what it is sent)."""
@@ -35,11 +35,11 @@ def broken(*_):
     raise KeyError("broken")
 
 
-class Broken(Source):
+class Broken(TabSource):
     collect = send_to = broken
 
 
-class Well(Source):
+class Well(TabSource):
     def send_to(self, client, now):
         client.send("well")
 
@@ -49,16 +49,15 @@ def kinds(sent):
 
 
 @pytest.fixture
-def clock(monkeypatch):
+def clock():
     """The time now, and how long the thread has worked [s]."""
     clock = SimpleNamespace(now=100.0, worked=0.0)
     clock.monotonic, clock.thread_time = (lambda: clock.now), (lambda: clock.worked)
-    monkeypatch.setattr(hub_module, "time", clock)
     return clock
 
 
 def test_failure_does_not_hold_up_other_sources_and_pages(clock):
-    hub = Made(Broken(), Well(), tick=broken)
+    hub = Made(Broken(), Well(), tick=broken, clock=clock)
     (unwritable, _), *others = [hub.opened() for _ in range(3)]
     unwritable.write = None
     for _ in range(2):
@@ -68,28 +67,28 @@ def test_failure_does_not_hold_up_other_sources_and_pages(clock):
     assert len(hub.told) == 3  # each once: driving, the source, and one for that page
 
 
-def test_page_waits_for_what_messages_cost_unless_it_drives(clock, monkeypatch):
-    hub = Made()
+def test_page_waits_for_what_messages_cost_unless_it_drives(clock):
+    hub = Made(clock=clock)
     (guest, _), (driver, _) = hub.opened(), hub.opened()
     hub.driver = driver.number
-    monkeypatch.setattr(clock, "thread_time", iter(range(9)).__next__)  # each takes a second
-    hub.hear(driver, "no message")
+    clock.thread_time = iter(range(9)).__next__  # Each message takes a second.
+    hub.receive(driver, "no message")
     assert hub.wait_s(guest) == 0.0
-    hub.hear(guest, "no message")
+    hub.receive(guest, "no message")
     assert (hub.wait_s(guest) > 1.0, hub.wait_s(driver)) == (True, 0.0)
 
 
 def test_page_waits_for_what_reading_its_messages_costs(clock):
-    hub = Made()
+    hub = Made(clock=clock)
     guest, _ = hub.opened()
     for _ in range(300):  # in no time
         wait_s = hub.wait_s(guest)
-        hub.hear(guest, "no message")
+        hub.receive(guest, "no message")
     assert 0.9 < wait_s < 1.1
 
 
 def test_a_page_that_is_behind_gets_the_newest_once_it_has_read(clock):
-    hub = Made(Well())
+    hub = Made(Well(), clock=clock)
     client, sent = hub.opened()
     for is_behind in (True, False):
         client.is_behind = lambda is_behind=is_behind: is_behind
@@ -119,7 +118,7 @@ def test_only_a_viewer_makes_room_and_only_for_a_driver():
 def test_a_malformed_message_is_refused():
     hub = Made()
     client, sent = hub.opened()
-    hub.hear(client, json.dumps({"kind": "watch", "none": 1}))
+    hub.receive(client, json.dumps({"kind": "watch", "none": 1}))
     assert sent[-1]["why"] == "watch has no field 'none'"
 
 

@@ -17,8 +17,7 @@ GRAPH = Graph(subscribers={"/ada/joy": {"/joy2twist"}}, types={"/ada/joy": JOY})
 
 @pytest.fixture
 def ours(monkeypatch):
-    """(Joysticks of the robot ada, their Topics); messages come from the node /other."""
-    monkeypatch.setattr(joysticks, "sender_of", lambda message: "/other")
+    """(Joysticks of the robot ada, their Topics)."""
     monkeypatch.setattr(joysticks, "later_once", lambda action: action())
     topics = Topics()
     return Joysticks(topics, SimpleNamespace(graph=GRAPH), "/cockpit"), topics

@@ -3,7 +3,7 @@
 import pytest
 from rosgraph_msgs.msg import Log
 
-from cockpit_server.ros.sources.logs import Logs, without_folders
+from cockpit_server.tabs.logs import Logs, without_folders
 from tutorial_testing.session_room import Topics, look, page
 
 

@@ -10,7 +10,7 @@ from std_msgs.msg import Float64, Header
 
 from cockpit_server.fields import numbers_of, parts_of, split, value_at
 from cockpit_server.graph import Graph
-from cockpit_server.ros.sources import plots
+from cockpit_server.ros.tabs import plots
 from tutorial_testing.session_room import Topics, look, page
 
 NOW = 1000.0

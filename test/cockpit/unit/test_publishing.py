@@ -7,10 +7,12 @@ from types import SimpleNamespace
 import pytest
 import rospy
 
-from cockpit_server.clients import RefusedError
+from cockpit_server.errors import RefusedError
 from cockpit_server.graph import JOY, Graph
-from cockpit_server.ros.sources import publishing
-from cockpit_server.ros.sources.publishing import VELOCITY, Outlet, Publishing
+from cockpit_server.ros.tabs import outlets
+from cockpit_server.ros.tabs.outlets import Outlet, Outlets
+from cockpit_server.tabs import publishing
+from cockpit_server.tabs.publishing import VELOCITY, Publishing
 from tutorial_testing.session_room import ANNA, BOB, Free, look, page
 
 TEXT = "std_msgs/String"
@@ -31,11 +33,12 @@ class Desk:
 
     def __init__(self, kind=VELOCITY, period=0.1):
         self.driving, self.now, self.published = Free(), 100.0, []
-        self.repeats = Publishing(self.driving, SimpleNamespace(graph=Graph()))
+        kept = Outlets()
+        self.repeats = Publishing(self.driving, SimpleNamespace(graph=Graph()), kept)
         publisher = SimpleNamespace(
             publish=lambda message: self.published.append((self.now, value_of(message)))
         )
-        self.repeats._outlets["/cmd_vel", kind] = Outlet(99.0, 99.0, None, publisher)
+        kept._outlets["/cmd_vel", kind] = Outlet(99.0, 99.0, None, publisher)
         self.anna, self.bob = page(number=ANNA), page(number=BOB)
         self.driving._pages.update({ANNA: self.anna[0], BOB: self.bob[0]})
         self.kind, self.period, self.n, self.network_s = kind, period, 0, 0.0
@@ -106,7 +109,7 @@ ENDS = {
 def test_each_end_of_a_motion_publishes_one_zero_in_time_and_nothing_more(end, period, kind):
     desk = Desk(kind, period)
     desk.pass_time(10.4)
-    moving = value_of(publishing.filled(publishing.message_class(kind), VALUES[kind]))
+    moving = value_of(outlets.filled(outlets.message_class(kind), VALUES[kind]))
     count = len(desk.published)
     assert desk.values == [moving] * count
     assert count >= (10.2 / period if period else 1) and desk.driving.session.driver == ANNA
@@ -197,7 +200,7 @@ def test_nothing_is_published_after_the_end_of_the_server():
 def test_the_first_message_waits_for_the_subscribers(monkeypatch):
     sent = []
     publisher = SimpleNamespace(publish=sent.append, names={"/a"})
-    monkeypatch.setattr(publishing, "PromptPublisher", lambda *_: publisher)
+    monkeypatch.setattr(outlets, "PromptPublisher", lambda *_: publisher)
     for wanted, counts in (({"/a"}, [1, 1, 1]), ({"/b"}, [1, 1, 2])):
         outlet = Outlet(0.0, 0.0, "message")
         outlet.open("/x", None)

@@ -5,8 +5,9 @@ from types import SimpleNamespace
 
 import pytest
 
-from cockpit_server.clients import LOOKS_ONLY, RefusedError
-from cockpit_server.ros.sources import recorder
+from cockpit_server.errors import RefusedError
+from cockpit_server.pages import LOOKS_ONLY
+from cockpit_server.ros.tabs import recorder
 from tutorial_testing.session_room import page
 from tutorial_testing.waiting import wait_for
 

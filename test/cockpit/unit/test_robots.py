@@ -8,8 +8,8 @@ from kobuki_msgs.msg import SensorState
 from nav_msgs.msg import Odometry
 
 from cockpit_server.graph import JOY, ODOMETRY, Graph, topic_of
-from cockpit_server.motion import Motion, covered
-from cockpit_server.ros.sources.robots import Robots, shown
+from cockpit_server.tabs.motion import Motion, covered
+from cockpit_server.tabs.robots import Robots, shown
 from tutorial_testing.session_room import Topics, look, page
 
 
@@ -115,25 +115,23 @@ def with_core():
         ((0, 0, 9, 0), ("0.0", "unknown (9)", "none", "none")),
     ],
 )
-def test_the_chosen_robot_shows_battery_charger_buttons_and_wheel_drops(monkeypatch, core, words):
-    monkeypatch.setattr("cockpit_server.ros.sources.robots.time.monotonic", lambda: 100.0)
+def test_the_chosen_robot_shows_battery_charger_buttons_and_wheel_drops(core, words):
     seen = with_core()
     look(seen.robots, seen.page, now=100.0)
     assert CORE.replace("ada", "bob") not in seen.handlers  # nobody looks at it
     buttons, drops, charger, battery = core
     message = SensorState(buttons=buttons, wheel_drop=drops, charger=charger, battery=battery)
-    seen.hear(CORE, message)
+    seen.hear(CORE, message, now=100.0)
     names = ("battery", "charger", "buttons", "wheel_drops")
     for now, expected in ((101.9, words), (102.0, (None,) * 4)):  # silent for 2 s, it is not known
         [[newest]] = look(seen.robots, seen.page, now=now)
         assert tuple(newest["robots"]["ada"].get(name) for name in names) == expected
 
 
-def test_malformed_sensors_show_nothing(monkeypatch):
-    monkeypatch.setattr("cockpit_server.ros.sources.robots.time.monotonic", lambda: 100.0)
+def test_malformed_sensors_show_nothing():
     seen = with_core()
     look(seen.robots, seen.page, now=100.0)
-    seen.hear(CORE, b"no sensors")
+    seen.hear(CORE, b"no sensors", now=100.0)
     [[newest]] = look(seen.robots, seen.page, now=100.0)
     assert newest["robots"]["ada"] == {}
 

@@ -5,11 +5,11 @@ import json
 import pytest
 
 import cockpit_server.ros.cockpit_node  # noqa: F401  which imports every source
-from cockpit_server.clients import Source
+from cockpit_server.pages import TabSource
 from cockpit_server.schema import Schema, check_lengths
 from tutorial_testing.socket_page import GOOD
 
-SOURCES = [one for one in Source.__subclasses__() if one.__module__.startswith("cockpit_server.")]
+SOURCES = [s for s in TabSource.__subclasses__() if s.__module__.startswith("cockpit_server.")]
 SCHEMA = Schema(SOURCES)
 LONG = "x" * 41
 

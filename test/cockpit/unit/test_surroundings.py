@@ -1,7 +1,6 @@
 """The map and the scan, as pages get them."""
 
 import base64
-import time
 from math import cos, inf, nan, pi
 from types import SimpleNamespace
 
@@ -13,7 +12,7 @@ from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
 from cockpit_server.graph import ODOMETRY, Graph
-from cockpit_server.ros.sources import surroundings
+from cockpit_server.tabs import map_and_scan
 from tutorial_testing.session_room import Topics, look, page, serialised
 
 TYPES = {
@@ -37,13 +36,13 @@ def scan(ranges, **fields):
 
 
 class Seen(Topics):
-    """The Surroundings of one robot, ada, and a page that looks at her."""
+    """The MapAndScan of one robot, ada, and a page that looks at her."""
 
     def __init__(self):
         super().__init__()
         published = {topic: {"/sim"} for topic in TYPES}
         self.graphs = SimpleNamespace(graph=Graph(publishers=published, types=TYPES))
-        self.source = surroundings.Surroundings(self, self.graphs)
+        self.source = map_and_scan.MapAndScan(self, self.graphs)
         self.page = page(floor=True, look="ada")
         self.look()
 
@@ -64,9 +63,9 @@ def test_a_page_gets_the_map_and_the_scan_when_they_change():
     assert base64.b64decode(got["map"]["cells"]) == b"\0\1\2"
     assert (got["scan"]["robot"], got["scan"]["points"]) == ("ada", [[1.9, 0.0]])
     assert seen.look() == {}
-    others = (TransformStamped(child_frame_id=f"link_{n}") for n in range(surroundings.MOST_FRAMES))
+    others = (TransformStamped(child_frame_id=f"link_{n}") for n in range(map_and_scan.MOST_FRAMES))
     seen.hear("/tf_static", TFMessage([*others]))  # only so many are kept, the newest
-    seen.hear("/ada/scan", scan([inf, 3.0, nan]))
+    seen.hear("/ada/scan", scan([inf, 3.0, nan]), now=0.2)
     assert seen.look()["scan"]["points"] == [[3.0, 0.0]]
     seen.graphs.graph = Graph()
     gone = seen.look()  # with their last publishers
@@ -78,29 +77,29 @@ def test_a_robot_without_a_map_has_a_scan_all_the_same():
     seen = Seen()
     seen.hear("/ada/scan", scan([2.0, inf, nan]))
     assert len(seen.look()["scan"]["points"]) == 1
-    assert seen.look(time.monotonic() + 1.0) == {}
-    assert seen.look(time.monotonic() + 3.0)["scan"]["points"] == []  # its scanner was killed
+    assert seen.look(1.0) == {}
+    assert seen.look(3.0)["scan"]["points"] == []  # its scanner was killed
 
 
 @pytest.mark.parametrize(
     "message", [String("no map"), grid(2, 2, [0]), grid(0, 0, []), grid(1, 1, [0], cell=nan)]
 )
 def test_a_malformed_map_is_left_out(message):
-    assert surroundings.map_shown(serialised(message)) == {}
+    assert map_and_scan.map_shown(serialised(message)) == {}
 
 
 def test_a_map_is_turned_as_its_origin_is():
     turned = grid(1, 1, [0])
     turned.info.origin.orientation.z = turned.info.origin.orientation.w = 0.5**0.5
-    assert surroundings.map_shown(serialised(turned))["yaw"] == pytest.approx(pi / 2)
+    assert map_and_scan.map_shown(serialised(turned))["yaw"] == pytest.approx(pi / 2)
 
 
 def test_a_large_map_gets_larger_cells_and_keeps_its_walls():
     data = [0] * (1001 * 1200)
     data[500 * 1200 + 600] = 100
-    shown = surroundings.map_shown(serialised(grid(1001, 1200, data)))
+    shown = map_and_scan.map_shown(serialised(grid(1001, 1200, data)))
     cells = base64.b64decode(shown["cells"])
-    assert len(cells) == shown["rows"] * shown["columns"] <= surroundings.MOST_CELLS
+    assert len(cells) == shown["rows"] * shown["columns"] <= map_and_scan.MOST_CELLS
     factor = shown["cell"] / 0.5
     at = cells.index(1)
     assert (at // shown["columns"], at % shown["columns"]) == (500 // factor, 600 // factor)
@@ -109,10 +108,10 @@ def test_a_large_map_gets_larger_cells_and_keeps_its_walls():
 
 def test_a_scan_as_points_on_the_robot():
     message = scan([1.0, 0.2, 20.0, -inf, 2.0], angle_min=-pi / 3, angle_increment=pi / 6)
-    first, last = surroundings.scan_points(serialised(message), {"ada/camera": (0.1, 0.0)})
+    first, last = map_and_scan.scan_points(serialised(message), {"ada/camera": (0.1, 0.0)})
     assert first == pytest.approx([0.1 + cos(pi / 3), -(3**0.5) / 2], abs=1e-3)
     assert last == pytest.approx([1.1, 3**0.5], abs=1e-3)
-    points = surroundings.scan_points(serialised(scan([1.0] * 10_000)), {})
-    assert len(points) <= surroundings.MOST_POINTS
-    assert surroundings.scan_points(b"none", {}) == []
-    assert surroundings.scan_points(serialised(scan([1.0], angle_min=nan)), {}) == []
+    points = map_and_scan.scan_points(serialised(scan([1.0] * 10_000)), {})
+    assert len(points) <= map_and_scan.MOST_POINTS
+    assert map_and_scan.scan_points(b"none", {}) == []
+    assert map_and_scan.scan_points(serialised(scan([1.0], angle_min=nan)), {}) == []

@@ -6,22 +6,22 @@ import pytest
 from std_msgs.msg import String
 
 from cockpit_server.graph import Graph
-from cockpit_server.ros.sources import topics
+from cockpit_server.messages import RawMessage
+from cockpit_server.tabs import topics
 from tutorial_testing.session_room import Topics, look, page, serialised
 
 
 @pytest.mark.parametrize("rate", [0.5, 3.0, 10.0, 1000.0])
-def test_rate_is_right_while_messages_come_and_0_once_they_do_not(monkeypatch, rate):
-    topic, message, looked_at = topics.Topic(), SimpleNamespace(data=bytes(100)), 0.0
-    monkeypatch.setattr(topics.time, "monotonic", lambda: now)
+def test_rate_is_right_while_messages_come_and_0_once_they_do_not(rate):
+    topic, measured_at = topics.MeasuredTopic(), 0.0
     for n in range(int(8 * rate) + 2):
         now = 50 + n / rate
-        topic.hear(message, "/x")
-        if now - looked_at > topics.PERIOD_S:
-            looked_at = now
-            topic.look("", now)
+        topic.add(RawMessage("/x", bytes(100), "/n", now))
+        if now - measured_at > topics.PERIOD_S:
+            measured_at = now
+            topic.measure("", now)
     assert (topic.rate, topic.bytes_per_s) == pytest.approx((rate, 100 * rate), rel=0.001)
-    topic.look("", now + max(2.0, 3 / rate) + 0.1)
+    topic.measure("", now + max(2.0, 3 / rate) + 0.1)
     assert topic.rate == 0
 
 

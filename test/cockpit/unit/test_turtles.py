@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import pytest
 
 from cockpit_server.graph import POSE, Graph
-from cockpit_server.ros.sources import turtles
+from cockpit_server.ros.tabs import turtles
 from node_kit.rules.answer import Answer
 from tutorial_testing.session_room import look, page
 
@@ -16,7 +16,7 @@ GRAPH = Graph(publishers={"/turtle1/pose": {"/sim"}}, types={"/turtle1/pose": PO
 def shown(monkeypatch):
     """A function: what the page is sent while the node gives an answer, or none is asked for."""
     source, now = turtles.Turtles(SimpleNamespace(graph=GRAPH)), [0.0]
-    monkeypatch.setattr(source._asker, "submit", lambda act, *given: act(*given))
+    monkeypatch.setattr(source._thread, "submit", lambda act, *given: act(*given))
     one = page(turtles=True)
 
     def shown(answer, value=None):

@@ -1,18 +1,18 @@
 """The driver and the pages around: who may drive, who stops it, and what pages are sent of it."""
 
-import time
 from types import SimpleNamespace
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 
 from cockpit_server.access import DRIVER, VIEWER
-from cockpit_server.clients import LOOKS_ONLY, RefusedError
+from cockpit_server.driving.joy2twist_reports import DEADMAN, SILENT, Joy2TwistReports
 from cockpit_server.driving.player import Player
 from cockpit_server.driving.reasons import NO_ROBOT, TURTLES, About, Report, sentence
 from cockpit_server.driving.who_drives import CONNECT_S, Driving
+from cockpit_server.errors import RefusedError
 from cockpit_server.graph import JOY, POSE, Graph
-from cockpit_server.ros.teleop import DEADMAN, SILENT, Teleop
+from cockpit_server.pages import LOOKS_ONLY
 from tutorial_testing.session_room import ANNA, BOB, DRIVE, REST, Topics, look, page
 
 ADA = {"robot": "ada", "mode": "D"}
@@ -23,20 +23,17 @@ class Made(Driving):
 
     def __init__(self, role=DRIVER):
         self.now, self.n = 100.0, 0
-        self.published, self.outdated, self.senders = [], [], ()
-        self.report, self.rival, self.is_heard = Report("armed", "", "4"), "", True
+        self.published, self.outdated = [], []
+        self.report, self.rival, self.is_connected = Report("armed", "", "4"), "", True
         self.anna, self.bob = page(role, ANNA, look="ada"), page(DRIVER, BOB, look="ada")
-        graphs = SimpleNamespace(
-            graph=Graph(subscribers={"/ada/joy": {"/joy2twist"}}, types={"/ada/joy": JOY}),
-            joystick_listeners=lambda _: {"/joy2twist"}, joysticks=lambda _: self.senders,
-        )  # fmt: skip
+        self.graph = Graph(subscribers={"/ada/joy": {"/joy2twist"}}, types={"/ada/joy": JOY})
         joysticks = SimpleNamespace(
             send=lambda *message: self.published.append(message), advertise=lambda _: None,
-            rival=lambda *_: self.rival, is_heard=lambda _: self.is_heard,
+            rival=lambda *_: self.rival, is_connected=lambda _: self.is_connected,
         )  # fmt: skip
-        teleop = SimpleNamespace(newest=lambda *_: self.report, outdate=self.outdated.append)
+        reports = SimpleNamespace(newest=lambda *_: self.report, outdate=self.outdated.append)
         pages = {ANNA: self.anna[0], BOB: self.bob[0]}
-        super().__init__(pages, graphs, joysticks, teleop, lambda *_: False)
+        super().__init__(pages, self, joysticks, reports, lambda *_: False)
 
     def hold(self, position):
         """Let Anna's page answer the next beat with this position."""
@@ -63,12 +60,14 @@ def driven():
 
 
 @pytest.mark.parametrize(
-    ("is_heard", "after_s", "drives"),
+    ("is_connected", "after_s", "drives"),
     [(False, CONNECT_S - 0.2, False), (True, 0.0, True), (False, CONNECT_S, True)],
 )
-def test_page_drives_once_all_subscribers_are_connected_or_after_a_while(is_heard, after_s, drives):
+def test_page_drives_once_all_subscribers_are_connected_or_after_a_while(
+    is_connected, after_s, drives
+):
     made = Made()
-    made.is_heard = is_heard
+    made.is_connected = is_connected
     made.on_drive(made.anna[0], made.now, **ADA)
     made.now += after_s
     made.hold(REST)
@@ -121,10 +120,10 @@ def test_page_is_told_beforehand_why_it_may_not_drive(role, robot, rival, driver
 @pytest.mark.parametrize(("nodes", "refusal"), [(set(), NO_ROBOT), ({"/sim"}, TURTLES)])
 def test_without_a_robot_the_page_says_what_is_running_and_resets_none(nodes, refusal):
     made, at = Made(), "/turtle1/pose"
-    made._graphs.graph = Graph(publishers={at: nodes}, services={"/reset": nodes}, types={at: POSE})
+    made.graph = Graph(publishers={at: nodes}, services={"/reset": nodes}, types={at: POSE})
     said = look(made, made.anna)[0][-1]
     assert (said["refusal"], said["no_reset"]) == (sentence(refusal), sentence(About().no_reset))
-    assert made._graphs.graph.why_no_reset("")  # Turtlesim's service resets turtles.
+    assert made.graph.why_no_reset("")  # Turtlesim's service resets turtles.
 
 
 def test_pages_are_sent_each_change_of_the_driver(driven):
@@ -164,7 +163,8 @@ def test_a_recording_is_published_until_its_end_or_until_its_page_is_cut(is_cut,
 
 def test_robot_is_not_reset_while_another_drives_it():
     made = Made()
-    made.report, made.senders = Report("driving"), ("/rosbag_play",)
+    made.report = Report("driving")
+    made.graph.publishers["/ada/joy"] = {"/rosbag_play"}
     made.session.why, made.session.stopped = "hidden", "ada"
     look(made, made.anna)
     assert made.session.stopped is None  # it stands no longer
@@ -183,7 +183,7 @@ def test_robot_is_not_reset_while_another_drives_it():
 
 def test_reports_of_joy2twist_are_read_by_robot_and_outdated_once_its_driver_has_left():
     topics = Topics()
-    teleop = Teleop(topics)
+    reports = Joy2TwistReports(topics)
     status = [
         DiagnosticStatus(1, "myjoystick2twist: joystick", "driving", "", []),
         DiagnosticStatus(1, "robot_1/joy2twist: joystick", "stopped: not armed", "",
@@ -191,13 +191,12 @@ def test_reports_of_joy2twist_are_read_by_robot_and_outdated_once_its_driver_has
         DiagnosticStatus(1, "fake_turtlebot: simulation", "running", "", []),
     ]  # fmt: skip
     for message in (DiagnosticArray(status=status), b"bytes that are none: joystick"):
-        topics.hear("/diagnostics", message)
-    now = time.monotonic()
-    assert teleop.newest("", now) == Report("driving", "driving")
-    assert teleop.newest("robot_1", now) == Report("stopped", "stopped: not armed", "4")
-    assert teleop.newest("robot_2", now) is None
+        topics.hear("/diagnostics", message, now := 100.0)
+    assert reports.newest("", now) == Report("driving", "driving")
+    assert reports.newest("robot_1", now) == Report("stopped", "stopped: not armed", "4")
+    assert reports.newest("robot_2", now) is None
     for robot in ("", "robot_1"):
-        teleop.outdate(robot)
-    states = [teleop.newest(robot, now).state for robot in ("", "robot_1")]
+        reports.outdate(robot)
+    states = [reports.newest(robot, now).state for robot in ("", "robot_1")]
     assert states == ["unknown", "stopped"]
-    assert teleop.newest("", now + 5.0) == SILENT
+    assert reports.newest("", now + 5.0) == SILENT

@@ -2,17 +2,17 @@
 
 import pytest
 
-from cockpit_server.clients import LOOKS_ONLY
 from cockpit_server.driving import reasons
 from cockpit_server.driving.reasons import About, Report, sentence
+from cockpit_server.pages import LOOKS_ONLY
 from tutorial_testing.session_room import ANNA, BOB
 
 MOVING, ARMED, FREE = Report("driving"), Report("armed", "", "4"), Report("armed", "", "none")
 PLAYS = ("/rosbag_play",)
-SEAT = About(driver=ANNA, name="Firefox", armed=True, said=ARMED)
+SEAT = About(driver=ANNA, name="Firefox", armed=True, report=ARMED)
 
 WHO = {
-    "nobody": (About(said=ARMED), "Nobody drives."),
+    "nobody": (About(report=ARMED), "Nobody drives."),
     "this page": (SEAT, "You drive ada."),
     "another page": (SEAT._replace(driver=BOB), "Firefox drives ada."),
     "a recording of this page": (SEAT._replace(plays=True), "You play a recording to ada."),
@@ -21,13 +21,13 @@ WHO = {
     "a form of this page": (SEAT._replace(topic="/a/v"), "You drive by a form, on /a/v."),
     "a form of another": (
         SEAT._replace(topic="/a/v", driver=BOB), "Firefox drives by a form, on /a/v."),
-    "a recording of rosbag": (About(said=MOVING, senders=PLAYS), "/rosbag_play drives ada."),
+    "a recording of rosbag": (About(report=MOVING, publishers=PLAYS), "/rosbag_play drives ada."),
     "a joystick at rest": (
-        About(said=ARMED, senders=PLAYS),
+        About(report=ARMED, publishers=PLAYS),
         "Nobody drives. Publishers of its joystick topic: /rosbag_play."),
-    "an anonymous joystick": (About(said=MOVING, senders=("/play_host_81_1764250000000",)),
+    "an anonymous joystick": (About(report=MOVING, publishers=("/play_host_81_1764250000000",)),
         "/play_host_… drives ada."),
-    "without diagnostics": (About(senders=PLAYS, moves=True), "/rosbag_play drives ada."),
+    "without diagnostics": (About(publishers=PLAYS, moves=True), "/rosbag_play drives ada."),
     "no joystick": (About(moves=True),
         "No joystick drives ada, but it moves: the tab Graph shows what moves it."),
 }  # fmt: skip
@@ -63,18 +63,19 @@ READY = {  # -> why it stands and what to do now; how it is driven, without "Esc
     "sits down": (SEAT._replace(armed=False), "Release LB and the stick first.", BY_LB),
     "was stopped": (SEAT._replace(armed=False, why="hidden"),
         "Stopped: hidden. Release LB and the stick, then hold LB again.", BY_LB),
-    "no button": (SEAT._replace(said=FREE),
+    "no button": (SEAT._replace(report=FREE),
         "Move the stick: this robot needs no button held.", FREELY),
-    "a button without a name": (SEAT._replace(said=Report("armed", "", "77")),
+    "a button without a name": (SEAT._replace(report=Report("armed", "", "77")),
         "Hold button 77, then move the stick.", BY_77),
     "plays": (SEAT._replace(plays=True), "", ""),
     "looks on": (About(), "", BY_LB),
     "another page drives": (SEAT._replace(driver=BOB), "", ""),
-    "a node drives": (About(said=MOVING), "", ""),
-    "it stopped": (About(said=ARMED, why="the network is down"),
+    "a node drives": (About(report=MOVING), "", ""),
+    "it stopped": (About(report=ARMED, why="the network is down"),
         "Stopped: the network is down.", BY_LB),
-    "without joy2twist": (SEAT._replace(is_heard=False, armed=False), UNHEARD, ""),
-    "without joy2twist, stopped": (About(is_heard=False, why="it"), f"Stopped: it. {UNHEARD}", ""),
+    "without joy2twist": (SEAT._replace(has_subscriber=False, armed=False), UNHEARD, ""),
+    "without joy2twist, stopped": (
+        About(has_subscriber=False, why="it"), f"Stopped: it. {UNHEARD}", ""),
 }  # fmt: skip
 
 

@@ -12,7 +12,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from sensor_msgs.msg import Joy
 
-from cockpit_server.ros.sources import recording
+from cockpit_server.ros.tabs import bag_files
 from fake_turtlebot_sim.io import replay_bag as replay_command
 from gamepad.ros.bags import check_recording
 from tutorial_testing.hostile import end_of
@@ -132,7 +132,7 @@ def read_everywhere(bag):
     """Do as the launch file's guard, rqt_bag, the cockpit's page and replay_bag with a bag."""
     for read in (
         lambda: check_recording(str(bag), str(PRESET)), lambda: rqt_bag.read(bag),
-        lambda: recording.read(bag),
+        lambda: bag_files.read(bag),
     ):  # fmt: skip
         with contextlib.suppress(ValueError):
             read()

@@ -3,10 +3,11 @@
 import json
 from types import SimpleNamespace
 
-from cockpit_server.clients import Client
-from cockpit_server.driving.driver_session import DriverSession, Input
+from cockpit_server.driving.driver_session import DriverSession, PageInput
 from cockpit_server.driving.who_drives import Driving
 from cockpit_server.graph import Graph
+from cockpit_server.messages import RawMessage
+from cockpit_server.pages import Page
 from tutorial_testing.nodes import serialised
 
 ANNA, BOB = 1, 2
@@ -46,7 +47,7 @@ class Room:
         self.n += 1
         t = 1000 * (self.now - 50.0)  # the page's clock began 50 s later
         number = self.n if n is None else n
-        self.session.input(client, Input(number, t, self.beats, *position), self.now)
+        self.session.input(client, PageInput(number, t, self.beats, *position), self.now)
         self.session.tick(self.now)
 
     def drive(self):
@@ -72,12 +73,12 @@ class Free(Driving):
 
 
 def page(role="driver", number=7, **watch):
-    """(a Client that watches this, what it is sent as dicts)."""
+    """Return (a Page that watches this, what it is sent as dicts)."""
     sent = []
     no = lambda: False  # noqa: E731  short
     close = lambda: sent.append("closed")  # noqa: E731
-    hear = lambda text: sent.append(json.loads(text))  # noqa: E731
-    client = Client(number, role, "10.0.0.1", hear, is_behind=no, is_cut=no, close=close)
+    write = lambda text: sent.append(json.loads(text))  # noqa: E731
+    client = Page(number, role, "10.0.0.1", write, is_behind=no, is_cut=no, close=close)
     client.watch = SimpleNamespace(
         **{"robots": False, "floor": False, "look": None, "bag": False, **watch}
     )
@@ -95,16 +96,16 @@ def look(source, *pages, now=0.0):
 
 
 class Topics:
-    """In the place of Feeds: topics that are wanted, and whose messages a test makes up."""
+    """In the place of Feeds: the topics that are subscribed to, whose messages a test makes up."""
 
     def __init__(self):
-        self.handlers, self.every = {}, set()  # by topic; of which every message is wanted
+        self.handlers, self.every = {}, set()  # by topic; of which every message is needed
 
     def set_subscriptions(self, owner, handlers, every):
         self.handlers.update(handlers)
         self.every.update(handlers if every else ())
 
-    def hear(self, topic, message):
-        """message: of ROS, or bytes."""
+    def hear(self, topic, message, now=0.1):
+        """Let a message of ROS, or bytes, arrive at a time [s], from the node /other."""
         data = message if isinstance(message, bytes) else serialised(message)
-        self.handlers[topic](SimpleNamespace(data=data), topic)
+        self.handlers[topic](RawMessage(topic, data, "/other", now))

@@ -1,7 +1,7 @@
-"""What is in messages of any type: their definitions, fields, and numbers, by names such as
-pose/position/x or axes[0].
+"""Messages of any type: their definitions, fields and numbers.
 
-A message class is one that genpy made: __slots__ and _slot_types say what is in it.
+A field has a name such as pose/position/x or axes[0]. genpy has made the classes: __slots__ and
+_slot_types declare their fields.
 """
 
 from __future__ import annotations
@@ -25,16 +25,16 @@ def slots_of(kind: Any) -> Iterator[tuple[str, str]]:
 
 @lru_cache(maxsize=2000)
 def numbers_of(type_name: str) -> tuple[str, ...]:
-    """Return the names of all numbers in messages of a type, rarely drawn ones last.
+    """Return the names of all numbers in messages of a type, those that are rarely drawn last.
 
-    An array is one name, as only messages have its length; of messages, the first one's numbers.
+    An array is one name, as its length is unknown; of an array of messages, those of the first.
     """
     names: list[str] = []
     kind = message_class(type_name)
     for name, slot_type in slots_of(kind) if kind else ():
         base, is_array, _ = slot_type.partition("[")
         first = f"{name}[0]" if is_array else name
-        names += [f"{first}/{one}" for one in numbers_of(base)]
+        names += [f"{first}/{inner}" for inner in numbers_of(base)]
         if "/" not in base and base != "string":
             names.append(name)
     return tuple(sorted(names, key=lambda name: "header/" in name or "covariance" in name))
@@ -53,7 +53,7 @@ def definition(kind: Any, indent: str = "") -> Iterator[str]:
 
 
 def form_fields(kind: Any, above: str = "") -> Iterator[tuple[str, str]]:
-    """Yield (name, type) of what a form asks for; an array is one field."""
+    """Yield (name, type) of the fields of a form; an array is one field."""
     for name, slot_type in slots_of(kind):
         inner = message_class(slot_type)
         if inner:
@@ -74,7 +74,7 @@ def parts_of(field: str) -> list[tuple[str, int | None]]:
 def value_at(
     message: Any, parts: Sequence[tuple[str, int | None]]
 ) -> float | list[float | None] | None:
-    """Return the finite number at parts_of(...), those of a whole array, or None."""
+    """Return the finite number at parts_of(FIELD), the numbers of a whole array, or None."""
     for name, index in parts:
         if name not in getattr(message, "__slots__", ()):
             return None
@@ -84,7 +84,7 @@ def value_at(
                 return None
             message = message[index]
     if isinstance(message, (list, tuple, bytes)):
-        return [finite(one) for one in message[:MOST_ENTRIES]]
+        return [finite(entry) for entry in message[:MOST_ENTRIES]]
     return finite(message)
 
 
@@ -96,6 +96,7 @@ def finite(value: Any) -> float | None:
 
 
 def split(field: str, topics: Iterable[str]) -> tuple[str, str]:
-    """Return (topic, rest) of a field of one of the topics; of none, the topic is ""."""
-    topic = max((one for one in topics if field.startswith(f"{one}/")), key=len, default="")
+    """Return (topic, rest) of a field; the topic is "" if it is of none of the topics."""
+    fitting = (topic for topic in topics if field.startswith(f"{topic}/"))
+    topic = max(fitting, key=len, default="")
     return topic, field[len(topic) + 1 :]

@@ -1,11 +1,11 @@
-"""What the master knows, as pages get it (pure)."""
+"""What the master knows: nodes, topics, services, and which of them make up a robot."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any, Container, Dict, FrozenSet, Iterable, Iterator
+from typing import Any, Container, Dict, FrozenSet, Iterable, Iterator, Mapping, Protocol
 
-from cockpit_server.clients import RefusedError
+from cockpit_server.errors import RefusedError
 
 Column = Dict[str, FrozenSet[str]]
 ODOMETRY, JOY, POSE = "nav_msgs/Odometry", "sensor_msgs/Joy", "turtlesim/Pose"
@@ -13,7 +13,10 @@ ODOMETRY, JOY, POSE = "nav_msgs/Odometry", "sensor_msgs/Joy", "turtlesim/Pose"
 
 @dataclass(frozen=True)
 class Graph:
-    """By name: nodes of publishers, subscribers, services; types; machines of nodes; parameters."""
+    """Topics and services with their nodes, types, machines of nodes, and parameters.
+
+    Of this node, own_name, there are only the topics that it publishes.
+    """
 
     publishers: Column = field(default_factory=dict)
     subscribers: Column = field(default_factory=dict)
@@ -21,6 +24,7 @@ class Graph:
     types: dict[str, str] = field(default_factory=dict)
     machines: dict[str, str] = field(default_factory=dict)
     parameters: list[str] = field(default_factory=list)
+    own_name: str = ""
 
     @property
     def nodes(self) -> set[str]:
@@ -31,20 +35,29 @@ class Graph:
     def published(self) -> list[str]:
         return sorted(topic for topic, nodes in self.publishers.items() if nodes)
 
+    def joysticks(self, robot: str) -> tuple[str, ...]:
+        """Return the names of the other nodes that publish a robot's joystick."""
+        nodes = self.publishers.get(topic_of(robot, "joy"), frozenset())
+        return tuple(sorted(nodes - {self.own_name}))
+
+    def joystick_subscribers(self, robot: str) -> frozenset[str]:
+        """Return the names of the other nodes that subscribe to a robot's joystick."""
+        return self.subscribers.get(topic_of(robot, "joy"), frozenset())
+
     def robots_with_odometry(self) -> set[str]:
         return self._robots_with("/odom", ODOMETRY, self.publishers)
 
     def robots(self) -> set[str]:
-        """Return all robots, which have an odometry or hear a /joy; "" has no namespace."""
+        """Return all robots: odometry or a subscriber of /joy makes one; "" has no namespace."""
         return self.robots_with_odometry() | self._robots_with("/joy", JOY, self.subscribers)
 
     def robot_with(self, topic: str) -> str:
-        """Return the robot in whose namespace a topic is: the innermost, or the namespace."""
+        """Return the robot of the innermost namespace around a topic, or that namespace."""
         names = [robot for robot in self.robots() if topic.startswith(topic_of(robot, ""))]
         return max(names, key=len, default=robot_of(topic))
 
     def turtlesims(self) -> set[str]:
-        """Return the nodes that publish where turtles are."""
+        """Return the nodes that publish poses of turtles."""
         topics = [topic for topic, kind in self.types.items() if kind == POSE]
         return {node for topic in topics for node in self.publishers.get(topic, ())}
 
@@ -73,7 +86,7 @@ class Graph:
         return ""
 
     def parts(self) -> dict[str, Any]:
-        """Return nodes, topics and edges as pages get them."""
+        """Return all of it as pages receive it, the connections as edges."""
         nodes, topics = sorted(self.nodes), sorted({*self.publishers, *self.subscribers})
         return {
             "nodes": [self._node(name) for name in nodes],
@@ -95,6 +108,12 @@ class Graph:
             yield {"from": this, "to": f"node {node}"}
 
 
+class GraphWatcher(Protocol):
+    """Keeps the newest Graph."""
+
+    graph: Graph
+
+
 def topic_of(robot: str, name: str) -> str:
     """Return the name of a robot's topic; the robot "" has no namespace."""
     return f"/{robot}/{name}" if robot else f"/{name}"
@@ -105,8 +124,25 @@ def robot_of(topic: str) -> str:
     return topic.rsplit("/", 1)[0].strip("/")
 
 
+def graph_of(
+    state: Any, types: dict[str, str], parameters: Iterable[str],
+    machines: Mapping[str, str | None], own_name: str,
+) -> Graph:  # fmt: skip
+    """Return a Graph. state: of getSystemState(). machines: of the nodes; None: it was killed."""
+    dead = {node for node, machine in machines.items() if machine is None}
+    shown = {topic for topic, _ in state[0]} - {"/rosout"}
+    publishers = without({own_name}, without(dead, state[0]).items(), shown_in=shown)
+    subscribers, services = [without({own_name, *dead}, column) for column in state[1:]]
+    graph = Graph(publishers, subscribers, services, types, {}, sorted(parameters), own_name)
+    graph.machines.update({node: machines.get(node) or "" for node in graph.nodes})
+    return graph
+
+
 def without(names: set[str], column: Iterable[Any], shown_in: Container[str] = ()) -> Column:
-    """Return a column of getSystemState() as {entry: nodes}, with some nodes in shown_in only."""
+    """Return a column of getSystemState() as {entry: nodes}, without some nodes.
+
+    shown_in: the entries in which these nodes stay.
+    """
     users = {
         entry: frozenset(nodes) - (names if entry not in shown_in else set())
         for entry, nodes in column

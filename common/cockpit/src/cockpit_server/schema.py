@@ -1,6 +1,6 @@
-"""The messages that pages may send: fields and their bounds (pure).
+"""The messages that pages may send: their fields, and the bounds of these.
 
-A field's check returns the value as it is used, or raises ValueError with one line.
+The check of a field returns the value as it is used, or raises ValueError with one line.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from node_kit.parameters import declaration
 
 LONGEST_TEXT = 200
 MOST_FIELDS = 20
-LARGEST = 2**53 - 1  # up to here JavaScript's numbers are whole
+LARGEST = 2**53 - 1  # JavaScript's largest safe integer
 MODES = tuple(F710)
 MOST_AXES = max(len(pad.axes) for pad in F710.values())
 MOST_BUTTONS = max(len(pad.buttons) for pad in F710.values())
@@ -32,7 +32,7 @@ text = declaration.text(
 
 
 def full_name(value: Any) -> Any:
-    """Check a name of the graph: rospy would put a relative one beside the cockpit."""
+    """Return a name of the graph. Raises ValueError for a relative one, which rospy resolves."""
     if not text(value).startswith("/"):
         raise ValueError("must begin with /")
     return value
@@ -50,7 +50,7 @@ def list_of(check: Check, most: int) -> Check:
     return declaration.Allowed(
         f"a list of at most {most}",
         lambda v: isinstance(v, list) and len(v) <= most,
-        lambda v: tuple([check(one) for one in v]),
+        lambda v: tuple([check(value) for value in v]),
     )
 
 
@@ -67,18 +67,18 @@ INPUT: dict[str, Check] = {
 
 
 class Schema:
-    """All messages that some sources declare, and the message watch."""
+    """All messages that the sources of tabs declare, and the message watch."""
 
     def __init__(self, sources: Sequence[Any]) -> None:
-        watches = {name: of for one in sources for name, of in one.watches.items()}
+        watches = {name: pair for source in sources for name, pair in source.watches.items()}
         self._nothing = {name: value for name, (_, value) in watches.items()}
         self._watch = {name: check for name, (check, _) in watches.items()}
         self.messages: dict[str, Mapping[str, Check]] = {WATCH: self._watch}
-        for one in sources:
-            self.messages.update(one.messages)
+        for source in sources:
+            self.messages.update(source.messages)
 
     def watch(self, **fields: Any) -> SimpleNamespace:
-        """Return what a page watches; what it does not name is not shown."""
+        """Return what a page watches: these fields, and the values of no tab for all others."""
         return SimpleNamespace(**{**self._nothing, **fields})
 
     def check(self, data: Any) -> tuple[str, dict[str, Any]]:
@@ -88,30 +88,30 @@ class Schema:
         if len(data) > LONGEST_MESSAGE:
             raise ValueError(f"a message must have at most {LONGEST_MESSAGE} characters")
         try:
-            given = json.loads(data)
+            fields = json.loads(data)
         except (ValueError, RecursionError):
             raise ValueError("a message must be JSON") from None
-        if not isinstance(given, dict) or not isinstance(given.get("kind"), str):
+        if not isinstance(fields, dict) or not isinstance(fields.get("kind"), str):
             raise ValueError('a message must be an object with "kind"')
-        kind = given.pop("kind")
+        kind = fields.pop("kind")
         if kind not in self.messages:
             raise ValueError(f"no such kind of message: {kind[:40]!r}")
         checks = self.messages[kind]
         for name in checks:
-            if name not in given and checks is not self._watch:
+            if name not in fields and checks is not self._watch:
                 raise ValueError(f"{kind} lacks {name}")
-        for name, value in given.items():
+        for name, value in fields.items():
             if name not in checks:
                 raise ValueError(f"{kind} has no field {name[:40]!r}")
             try:
-                given[name] = checks[name](value)
+                fields[name] = checks[name](value)
             except ValueError as error:
                 raise ValueError(f"{kind}: {name} {error}") from None
-        return kind, given
+        return kind, fields
 
 
 def check_lengths(modes: Sequence[str], axes: Sequence[float], buttons: Sequence[int]) -> None:
-    """Raise ValueError unless these are as many as the gamepad in one of the modes has."""
+    """Raise ValueError unless the gamepad has as many of these in one of the modes."""
     allowed = {mode: (len(F710[mode].axes), len(F710[mode].buttons)) for mode in modes}
     if (len(axes), len(buttons)) not in allowed.values():
         has = [f"{mode} mode has {a} axes and {b} buttons" for mode, (a, b) in allowed.items()]

@@ -1,1 +1,1 @@
-"""Who drives a robot, by what, and why it stands."""
+"""Who drives a robot, with what, and why it stands."""

@@ -1,4 +1,4 @@
-"""When which recorded message is due (pure)."""
+"""Plays a recording: which messages are due at a time."""
 
 from __future__ import annotations
 
@@ -26,14 +26,14 @@ class Player:
         self._next = bisect_left(self._times, position)
 
     def position(self, now: float) -> float:
-        """Return the time since the start [s]; after the end that of another begin."""
+        """Return the position in the recording [s]; after its end 0, from where it plays again."""
         return 0.0 if self.is_over(now) else min(self._duration, (now - self._began) * self._rate)
 
     def is_over(self, now: float) -> bool:
         return not self._loop and (now - self._began) * self._rate >= self._duration
 
     def due(self, now: float) -> list[tuple[Any, Any]]:
-        """Return the (axes, buttons) to publish now, in their order."""
+        """Return the (axes, buttons) to publish now, in order."""
         position = (now - self._began) * self._rate
         if self._loop and position >= self._duration:
             rest = self._messages[self._next :]

@@ -1,4 +1,4 @@
-"""The words for what drives a robot, why it stands, and what to do; all of them here (pure)."""
+"""Every sentence about what drives a robot, why it stands, and what to do."""
 
 import re
 from typing import Container, Dict, Iterable, NamedTuple, Optional, Tuple
@@ -16,47 +16,49 @@ class Report(NamedTuple):
 
     state: str
     why: str = ""  # the whole line
-    deadman: Optional[str] = None  # number of that button, "none", or None if not reported
+    deadman: Optional[str] = None  # number of the dead-man button, "none", or None: not reported
 
 
 class About(NamedTuple):
-    """What is known of one robot."""
+    """What is known about the driver of a robot."""
 
     driver: Optional[int] = None  # number of the page that drives it
     name: str = ""  # name of the page that drives it
     plays: bool = False  # whether that page plays a recording
     topic: str = ""  # on which a form of that page publishes
-    armed: bool = False  # whether all was seen released
-    pushes: bool = False  # whether its hand moves the stick, and holds no button
-    why: str = ""  # the last stop by a loss of the driver
-    said: Optional[Report] = None
-    senders: Tuple[str, ...] = ()  # other nodes that publish its joystick's topic
-    moves: bool = False  # whether its odometry says so
-    is_heard: bool = True  # whether a node subscribes to its joystick's topic
+    armed: bool = False  # whether stick and buttons were released since the last loss
+    pushes: bool = False  # whether the page moves the stick and holds no button
+    why: str = ""  # why the loss of a driver has stopped the robot, or ""
+    report: Optional[Report] = None
+    publishers: Tuple[str, ...] = ()  # other nodes that publish its joystick
+    moves: bool = False  # by its odometry
+    has_subscriber: bool = True  # of its joystick
     no_reset: str = "there is no robot to reset"  # why it cannot be reset, or ""
 
     @property
     def is_driven_by_node(self) -> bool:
         if self.driver is not None:
             return False
-        return self.said.state == DRIVING if self.said else self.moves and bool(self.senders)
+        if self.report:
+            return self.report.state == DRIVING
+        return self.moves and bool(self.publishers)
 
 
 def driver(about: About) -> str:
-    """Return the name of what drives, for a table; "" if nothing does."""
+    """Return the name of the page or node that drives, for a table; "" if none does."""
     if about.driver is not None:
         return about.name
-    return (brief(about.senders, ", ") or "a joystick") if about.is_driven_by_node else ""
+    return (brief(about.publishers, ", ") or "a joystick") if about.is_driven_by_node else ""
 
 
-def brief(nodes: Iterable[str], between: str) -> str:
-    """Return nodes without the numbers that rospy, or roscpp, gives anonymous ones."""
-    return between.join(re.sub(r"_\d+_\d{10,}$|_\d{16,}$", "_…", node) for node in nodes)
+def brief(nodes: Iterable[str], separator: str) -> str:
+    """Return names of nodes without the numbers that rospy and roscpp give anonymous nodes."""
+    return separator.join(re.sub(r"_\d+_\d{10,}$|_\d{16,}$", "_…", node) for node in nodes)
 
 
 def rival(node: str, services: Container[str]) -> str:
     """Return what to do about a node that publishes the joystick topic of a robot."""
-    # rosbag play has this service. Ending it may end a launch file, and the cockpit with it.
+    # A service of rosbag play: to end that may end its launch file, and the cockpit with it.
     pause = f"{node}/pause_playback"
     if pause in services:
         todo = f"pause it first (tab Topics, Show: services, {pause}, data: true)"
@@ -65,49 +67,49 @@ def rival(node: str, services: Container[str]) -> str:
     return f"{node} publishes the joystick topic of this robot: {todo}"
 
 
-def in_a_table(about: About) -> Dict[str, str]:
-    """Return the row of a robot: what drives it, and joy2twist's state and line."""
-    report = about.said or Report("unknown")
+def row(about: About) -> Dict[str, str]:
+    """Return the row of a robot in the table: its driver, and joy2twist's state and line."""
+    report = about.report or Report("unknown")
     return {"driver": driver(about), "state": report.state, "why": report.why}
 
 
 def who(about: About, robot: str, page: int) -> str:
-    """Return a sentence that says to a page what drives the robot."""
-    its = robot or "the robot"
+    """Return a sentence for a page: what drives the robot."""
+    name = robot or "the robot"
     if about.driver is not None:
-        return by_page(about, its, about.driver == page)
-    some = brief(about.senders, " and ")
+        return by_page(about, name, about.driver == page)
+    nodes = brief(about.publishers, " and ")
     if about.is_driven_by_node:
-        return f"{some or 'A joystick'} drives {its}."
-    if about.moves and not about.said:
-        return f"No joystick drives {its}, but it moves: the tab Graph shows what moves it."
-    if not some:
+        return f"{nodes or 'A joystick'} drives {name}."
+    if about.moves and not about.report:
+        return f"No joystick drives {name}, but it moves: the tab Graph shows what moves it."
+    if not nodes:
         return "Nobody drives."
-    return f"Nobody drives. Publishers of its joystick topic: {some}."
+    return f"Nobody drives. Publishers of its joystick topic: {nodes}."
 
 
-def by_page(about: About, its: str, is_own: bool) -> str:
+def by_page(about: About, robot: str, is_own: bool) -> str:
     if about.topic:
         return by_form(about.name, is_own, about.topic)
     if about.plays:
-        return sentence(f"{'you play' if is_own else f'{about.name} plays'} a recording to {its}")
-    return sentence(f"{'you drive' if is_own else f'{about.name} drives'} {its}")
+        return sentence(f"{'you play' if is_own else f'{about.name} plays'} a recording to {robot}")
+    return sentence(f"{'you drive' if is_own else f'{about.name} drives'} {robot}")
 
 
 def by_form(name: str, is_own: bool, topic: str) -> str:
-    """Return a sentence for a page: its own form drives, or that of the page of this name."""
+    """Return a sentence for a page: it drives by its own form, or the page of this name does."""
     return sentence(f"{'you drive' if is_own else f'{name} drives'} by a form, on {topic}")
 
 
 def again(about: About) -> str:
-    """Return what to do after a stop, before the robot may be driven again."""
-    button = held(about)
+    """Return what a person has to do after a stop to drive again."""
+    button = deadman_button(about)
     if button is None:
         return "Release the stick, then move it again."
     return f"Release {button} and the stick, then hold {button} again."
 
 
-def unheard(robot: str) -> str:
+def no_subscriber(robot: str) -> str:
     topic, where = topic_of(robot, "joy"), f" for {robot}" if robot else ""
     return f"No node subscribes to {topic}: nothing moves before you start joy2twist{where}."
 
@@ -117,21 +119,21 @@ def sentence(text: str) -> str:
 
 
 def ready(about: About, robot: str, page: int, refusal: str) -> str:
-    """Return why the robot stands, and what the person at a page is to do now.
+    """Return why the robot stands, and what the person at a page can do now.
 
     refusal: why the page may not drive it, or "".
     """
     stopped = f"Stopped: {about.why}." if about.why else ""
-    if not about.is_heard:
-        return " ".join(filter(None, (stopped, unheard(robot), sentence(refusal))))
-    button = held(about)
+    if not about.has_subscriber:
+        return " ".join(filter(None, (stopped, no_subscriber(robot), sentence(refusal))))
+    button = deadman_button(about)
     if about.driver != page:
         todo = sentence(refusal)
     elif about.plays or about.topic:
         todo = ""
     elif not about.armed:
-        some = f"{button} and the stick" if button else "the stick"
-        todo = again(about) if stopped else f"Release {some} first."
+        controls = f"{button} and the stick" if button else "the stick"
+        todo = again(about) if stopped else f"Release {controls} first."
     elif button is None:
         todo = "Move the stick: this robot needs no button held."
     elif about.pushes:
@@ -142,22 +144,23 @@ def ready(about: About, robot: str, page: int, refusal: str) -> str:
 
 
 def how_to(about: About, page: int, may_drive: bool) -> str:
-    """Return how a page drives this robot; "" where a hand can do nothing now."""
-    is_others = about.driver not in (None, page) or about.is_driven_by_node
-    if not may_drive or is_others or about.plays or about.topic or not about.is_heard:
+    """Return how a hand on a page drives this robot; "" if it cannot now."""
+    has_other_driver = about.driver not in (None, page) or about.is_driven_by_node
+    is_busy = has_other_driver or about.plays or about.topic
+    if not may_drive or is_busy or not about.has_subscriber:
         return ""
-    button = held(about)
+    button = deadman_button(about)
     if button is None:
         return "Move the stick (a thumb, a gamepad, the arrow keys). Esc: stop."
     by = "a thumb, a gamepad's button, the key Shift" if button == "LB" else "a gamepad's button"
     return f"Hold {button} ({by}), then move the stick (or arrow keys). Esc: stop."
 
 
-def held(about: About) -> Optional[str]:
-    """Return the name of the dead-man button, None if joy2twist needs none."""
-    number = about.said.deadman if about.said else None
+def deadman_button(about: About) -> Optional[str]:
+    """Return the name of the dead-man button, or None if joy2twist needs none."""
+    number = about.report.deadman if about.report else None
     if number is None:
-        return "LB"  # as the suite's presets have it
+        return "LB"  # the dead-man button of the suite's presets
     names = F710["D"].buttons
     if number.isdigit():
         return names[int(number)] if int(number) < len(names) else f"button {number}"

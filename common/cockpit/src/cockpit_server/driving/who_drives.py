@@ -1,25 +1,41 @@
-"""Who drives each robot: the one object that decides it, and says why a robot stands (pure)."""
+"""Who drives a robot: the one object that decides it and says why a robot stands."""
 
 from __future__ import annotations
 
-from typing import Any, Callable, ClassVar, Mapping, Sequence
+from typing import Any, Callable, ClassVar, Mapping, Protocol, Sequence
 
 from cockpit_server import schema
-from cockpit_server.clients import LOOKS_ONLY, Client, RefusedError, Source
 from cockpit_server.driving import reasons
-from cockpit_server.driving.driver_session import DriverSession, Input
+from cockpit_server.driving.driver_session import Axes, Buttons, DriverSession, PageInput
+from cockpit_server.driving.joy2twist_reports import Joy2TwistReports
 from cockpit_server.driving.player import Player
 from cockpit_server.driving.reasons import About
-from cockpit_server.ros.graph_watch import GraphWatch
-from cockpit_server.ros.joysticks import Joysticks
-from cockpit_server.ros.teleop import Teleop
+from cockpit_server.errors import RefusedError
+from cockpit_server.graph import GraphWatcher
+from cockpit_server.pages import LOOKS_ONLY, Page, TabSource
 
-CONNECT_S = 2.0  # after which a node that is registered is not waited for any longer
-RIVAL_S = 1.0  # another joystick that was heard within that has the first say
+CONNECT_S = 2.0  # how long to wait for the connection of a node that is registered
+RIVAL_S = 1.0  # A joystick that published within this time takes precedence over a page.
 
 
-class Driving(Source):
-    """The session, its joystick, and the recording that plays; what drives the other robots."""
+class JoystickTopics(Protocol):
+    """The topics joy of all robots."""
+
+    def advertise(self, robot: str | None) -> None:
+        """Advertise the topic of this robot and of no other."""
+
+    def send(self, robot: str, axes: Axes, buttons: Buttons) -> None:
+        """Publish a message for the robot that is advertised."""
+
+    def is_connected(self, robot: str) -> bool:
+        """Return whether all subscribers of the advertised robot's joystick are connected."""
+
+    def rival(self, robot: str, since: float) -> str:
+        """Return the other node that has published for a robot since a time [s], or ""."""
+
+
+class Driving(TabSource):
+    """The session, its joystick, the recording that plays, and what drives the other robots."""
 
     messages: ClassVar = {
         "drive": {"robot": schema.text, "mode": schema.one_of(*schema.MODES)},
@@ -30,69 +46,69 @@ class Driving(Source):
     }
 
     def __init__(
-        self, pages: Mapping[int, Client], graph_watch: GraphWatch, joysticks: Joysticks,
-        teleop: Teleop, moves: Callable[[str, float], bool],
+        self, pages: Mapping[int, Page], graphs: GraphWatcher, joysticks: JoystickTopics,
+        reports: Joy2TwistReports, moves: Callable[[str, float], bool],
     ) -> None:  # fmt: skip
-        """pages: those that are open. moves: whether a robot moves, by its odometry, at a time."""
-        self._pages, self._graphs, self._joysticks = pages, graph_watch, joysticks
-        self._teleop, self._moves = teleop, moves
+        """pages: the open ones. moves: whether the odometry of a robot shows motion at a time."""
+        self._pages, self._graphs, self._joysticks = pages, graphs, joysticks
+        self._reports, self._moves = reports, moves
         self.session = DriverSession(joysticks.send, self._on_lost)
-        self._player: Player | None = None  # It plays a recording, or was the last one.
+        self._player: Player | None = None  # the last one that played, or still plays
         self._modes: tuple[str, ...] = ()  # modes that the driving gamepad may have
-        self._sat_at = 0.0
+        self._began_at = 0.0  # [s] when the session began
         self._beats = 0
-        self._changes = 0  # who drives, and losses
-        self._abouts: dict[str, About] = {}
-        self._robots: dict[str, dict[str, str]] = {}  # what drives each, and joy2twist's report
-        self._driven: str | None = None  # the last time
+        self._changes = 0  # of the driver, and losses
+        self._abouts: dict[str, About] = {}  # by robot
+        self._rows: dict[str, dict[str, str]] = {}  # by robot: its row in the table
+        self._driven: str | None = None  # at the last collect()
 
     @property
     def driven(self) -> str | None:
         """The robot that is driven from a page, or None."""
         return self.session.robot if self.session.driver is not None else None
 
-    def is_driver(self, client: Client) -> bool:
-        return client.number == self.session.driver
+    def is_driver(self, page: Page) -> bool:
+        return page.number == self.session.driver
 
-    def on_drive(self, client: Client, now: float, robot: str, mode: str) -> None:
-        self._sit_down(client, robot, now)
+    def on_drive(self, page: Page, now: float, robot: str, mode: str) -> None:
+        self._take(page, robot, now)
         self._modes = (mode,)
 
-    def play(self, client: Client, robot: str, player: Player, now: float) -> None:
-        """Let a client play a recording to a robot. Raises RefusedError."""
-        self._sit_down(client, robot, now, plays=True)
+    def play(self, page: Page, robot: str, player: Player, now: float) -> None:
+        """Let a page play a recording to a robot. Raises RefusedError."""
+        self._take(page, robot, now, plays=True)
         self._player = player
 
     def plays(self, player: Player | None) -> bool:
-        """Return whether this is what is played now."""
+        """Return whether this player is playing."""
         return player is not None and player is self._player and self.session.plays
 
-    def publish(self, client: Client, topic: str, rest: Callable[[], object], now: float) -> None:
-        """Let a client drive by a form. rest: publishes what ends its motion.
+    def publish(self, page: Page, topic: str, rest: Callable[[], object], now: float) -> None:
+        """Let a page drive by a form. rest: publishes the message that ends its motion.
 
         Raises RefusedError.
         """
-        self.must_be_free(client)
+        self.must_be_free(page)
         robot = self._graphs.graph.robot_with(topic)
-        self.session.publish(client.number, robot, topic, rest, now)
+        self.session.publish(page.number, robot, topic, rest, now)
         self._begin(now)
 
-    def publishes(self, client: Client, topic: str) -> bool:
-        """Return whether a client drives by a form on a topic."""
-        return self.is_driver(client) and self.session.topic == topic
+    def publishes(self, page: Page, topic: str) -> bool:
+        """Return whether a page drives by a form on a topic."""
+        return self.is_driver(page) and self.session.topic == topic
 
-    def _sit_down(self, client: Client, robot: str, now: float, plays: bool = False) -> None:
-        refusal = self.refusal(client, robot, now)
+    def _take(self, page: Page, robot: str, now: float, plays: bool = False) -> None:
+        refusal = self.refusal(page, robot, now)
         if refusal:
             raise RefusedError(refusal)
-        self.session.take(client.number, robot, now, plays=plays)
+        self.session.take(page.number, robot, now, plays=plays)
         self._begin(now)
 
     def _begin(self, now: float) -> None:
         self._changes += 1
-        self._sat_at = now
+        self._began_at = now
 
-    def refusal(self, client: Client, robot: str, now: float) -> str:
+    def refusal(self, page: Page, robot: str, now: float) -> str:
         """Return why a page may not drive a robot now, or ""."""
         graph = self._graphs.graph
         robots = graph.robots()
@@ -100,62 +116,62 @@ class Driving(Source):
             return reasons.TURTLES if graph.turtlesims() else reasons.NO_ROBOT
         if robot not in robots:
             return f"there is no robot {robot!r}"
-        if not client.drives:
+        if not page.drives:
             return LOOKS_ONLY
         rival = self._joysticks.rival(robot, now - RIVAL_S)
-        if rival and not self.is_driver(client):
+        if rival and not self.is_driver(page):
             return reasons.rival(rival, graph.services)
-        return self.session.refusal(client.number)
+        return self.session.refusal(page.number)
 
-    def on_stop(self, client: Client, _now: float) -> None:
-        """Stop the driven robot: the own session is left, another page has to release all first."""
-        client.must_drive()
-        if self.is_driver(client):
-            self.leave(client)
+    def on_stop(self, page: Page, _now: float) -> None:
+        """Stop the driven robot: end the own session; another page must release its stick first."""
+        page.must_drive()
+        if self.is_driver(page):
+            self.leave(page)
         else:
-            self.session.lose(f"{client.name} pressed Stop")
+            self.session.lose(f"{page.name} pressed Stop")
 
-    def leave(self, client: Client) -> None:
+    def leave(self, page: Page) -> None:
         """End driving from this page."""
-        self.session.leave(client.number)
+        self.session.leave(page.number)
 
-    def gone(self, client: Client) -> None:
-        """Take note that a page is closed."""
-        self.session.gone(client.number)
+    def gone(self, page: Page) -> None:
+        """End the session of a page that is closed."""
+        self.session.gone(page.number)
 
-    def on_hand_over(self, client: Client, now: float, to: int) -> None:
+    def on_hand_over(self, page: Page, now: float, to: int) -> None:
         other = self._pages.get(to)
         if other is None or not other.drives:
             raise RefusedError("that page is closed, or may not drive")
-        self.session.hand_over(client.number, to, now)
+        self.session.hand_over(page.number, to, now)
         self._modes = schema.MODES  # the other hand may hold another gamepad
         self._begin(now)
 
     def on_input(
-        self, client: Client, now: float, *, axes: Any, buttons: Any, source: str, **more: Any
+        self, page: Page, now: float, *, axes: Any, buttons: Any, source: str, **more: Any
     ) -> None:
-        client.must_drive()
-        if not self.is_driver(client):
-            return  # it was on its way when the session was lost
+        page.must_drive()
+        if not self.is_driver(page):
+            return  # It was sent before the page knew that its session had ended.
         schema.check_lengths(self._modes, axes, buttons)
-        said = Input(axes=axes, buttons=buttons, **more)
-        # All subscribers of this joystick are connected; some may never answer.
-        is_heard = self._joysticks.is_heard(self.session.robot) or now - self._sat_at > CONNECT_S
-        self.session.input(client.number, said, now, self.session.armed or is_heard)
+        message = PageInput(axes=axes, buttons=buttons, **more)
+        is_late = now - self._began_at > CONNECT_S  # Some subscribers never connect.
+        is_connected = is_late or self._joysticks.is_connected(self.session.robot)
+        self.session.input(page.number, message, now, self.session.armed or is_connected)
 
-    def on_release(self, client: Client, _now: float, why: str) -> None:
-        self.session.release(client.number, why)
+    def on_release(self, page: Page, _now: float, why: str) -> None:
+        self.session.release(page.number, why)
 
-    def must_be_free(self, client: Client) -> None:
-        """Raise RefusedError if a page only looks, or another one drives."""
-        client.must_drive()
-        if self.session.driver not in (None, client.number):
+    def must_be_free(self, page: Page) -> None:
+        """Raise RefusedError if a page is a viewer's, or another page drives."""
+        page.must_drive()
+        if self.session.driver not in (None, page.number):
             raise RefusedError("another page drives: until it ends, only that page may do this")
 
-    def must_rest(self, client: Client, robot: str) -> None:
-        """Raise RefusedError if a page may not reset a robot, which something else drives."""
-        client.must_drive()
-        if robot == self.driven and not self.is_driver(client):
+    def must_rest(self, page: Page, robot: str) -> None:
+        """Raise RefusedError if a page may not reset a robot, as something else drives it."""
+        page.must_drive()
+        if robot == self.driven and not self.is_driver(page):
             raise RefusedError("another page drives this robot: only that page may reset it")
         about = self._abouts.get(robot, About())
         if about.is_driven_by_node:
@@ -163,7 +179,7 @@ class Driving(Source):
             raise RefusedError(f"{node} drives this robot: stop it before you reset the robot")
 
     def tick(self, now: float) -> None:
-        """Notice what has not come, and publish what is due of a recording; call every 10 ms."""
+        """Check for a silent page, and publish what is due of a recording; call every 10 ms."""
         self.session.tick(now)
         self._joysticks.advertise(None if self.session.topic else self.driven)
         player, number = self._player, self.session.driver
@@ -177,10 +193,10 @@ class Driving(Source):
             self.session.lose("the network to the page that plays is down")
 
     def beat(self, now: float) -> None:
-        """Send the driver a beat, if no other node drives; call every 50 ms."""
+        """Send the driver a beat, unless another node drives; call every 50 ms."""
         if self.session.driver is None:
             return
-        rival = self._joysticks.rival(self.session.robot, self._sat_at)
+        rival = self._joysticks.rival(self.session.robot, self._began_at)
         if rival and not self.session.topic:
             self.session.free(reasons.rival(rival, self._graphs.graph.services))
             return
@@ -194,23 +210,24 @@ class Driving(Source):
         self._changes += 1
         if number in self._pages:
             keeps = number == self.session.driver
-            may_go_on = keeps and self.session.is_by_hand
-            todo = reasons.again(self._abouts.get(self.session.robot, About())) if may_go_on else ""
+            is_kept_by_hand = keeps and self.session.is_by_hand
+            about = self._abouts.get(self.session.robot, About())
+            todo = reasons.again(about) if is_kept_by_hand else ""
             text = f"{reasons.lost_text(why, keeps)} {todo}".strip()
-            self._pages[number].send("lost", text=text, keeps=may_go_on)
+            self._pages[number].send("lost", text=text, keeps=is_kept_by_hand)
 
-    def collect(self, clients: Sequence[Client], now: float) -> None:
+    def collect(self, pages: Sequence[Page], now: float) -> None:
         if self._driven not in (None, self.driven):
-            self._teleop.outdate(self._driven)  # Its driver has left since.
+            self._reports.outdate(self._driven)  # Its driver has left since.
         self._driven = self.driven
         self._abouts = {robot: self._about(robot, now) for robot in self._graphs.graph.robots()}
         for robot, about in self._abouts.items():
             if about.is_driven_by_node:
                 self.session.moves_on(robot)
-        self._robots = {robot: reasons.in_a_table(about) for robot, about in self._abouts.items()}
+        self._rows = {robot: reasons.row(about) for robot, about in self._abouts.items()}
 
     def _about(self, robot: str, now: float) -> About:
-        session = self.session
+        session, graph = self.session, self._graphs.graph
         page = self._pages.get(session.driver or 0) if robot == self.driven else None
         return About(
             driver=page.number if page else None,
@@ -220,39 +237,39 @@ class Driving(Source):
             armed=bool(page) and session.armed,
             pushes=bool(page) and session.pushes,
             why=session.why if robot == session.stopped else "",
-            said=self._teleop.newest(robot, now),
-            senders=self._graphs.joysticks(robot),
+            report=self._reports.newest(robot, now),
+            publishers=graph.joysticks(robot),
             moves=self._moves(robot, now),
-            is_heard=bool(self._graphs.joystick_listeners(robot)),
-            no_reset=self._graphs.graph.why_no_reset(robot),
+            has_subscriber=bool(graph.joystick_subscribers(robot)),
+            no_reset=graph.why_no_reset(robot),
         )
 
-    def send_to(self, client: Client, now: float) -> None:
-        """Send which page drives, and of the robot in sight what drives it."""
+    def send_to(self, page: Page, now: float) -> None:
+        """Send which page drives, and what drives the robot in sight."""
         session = self.session
-        if client.take_if_new("session", (session.state, self._changes)):
-            client.send(
+        if page.take_if_new("session", (session.state, self._changes)):
+            page.send(
                 "session", driver=session.driver, robot=session.robot, plays=session.plays,
-                topic=session.topic, yours=self.is_driver(client), armed=session.armed,
+                topic=session.topic, yours=self.is_driver(page), armed=session.armed,
             )  # fmt: skip
-        robot = client.watch.look or ""
+        robot = page.watch.look or ""
         about = self._abouts.get(robot, About())
-        refusal = self.refusal(client, robot, now)
-        said = {
-            "who": self._who(about, robot, client),
-            "ready": reasons.ready(about, robot, client.number, refusal),
-            "how": reasons.how_to(about, client.number, not refusal),
+        refusal = self.refusal(page, robot, now)
+        texts = {
+            "who": self._who(about, robot, page),
+            "ready": reasons.ready(about, robot, page.number, refusal),
+            "how": reasons.how_to(about, page.number, not refusal),
             "refusal": reasons.sentence(refusal),
             "no_reset": reasons.sentence(about.no_reset),
-            "robots": self._robots,
+            "robots": self._rows,
         }
-        if client.take_if_new("drives", said):
-            client.send("drives", **said)
+        if page.take_if_new("drives", texts):
+            page.send("drives", **texts)
 
-    def _who(self, about: About, robot: str, client: Client) -> str:
-        """Return what drives the robot in sight, and whose form drives, which may be any robot."""
-        who, driver = reasons.who(about, robot, client.number), self.session.driver
+    def _who(self, about: About, robot: str, page: Page) -> str:
+        """Return what drives the robot in sight, and which page drives any robot by a form."""
+        who, driver = reasons.who(about, robot, page.number), self.session.driver
         if driver is None or not self.session.topic or about.driver is not None:
             return who
-        form = reasons.by_form(self._pages[driver].name, self.is_driver(client), self.session.topic)
+        form = reasons.by_form(self._pages[driver].name, self.is_driver(page), self.session.topic)
         return f"{form} {who}" if about.is_driven_by_node else form

@@ -1,4 +1,4 @@
-"""What browsers get while the cockpit waits for a master: a line, and the page once it is there."""
+"""What browsers show while the cockpit waits for a master: a line, and then the page."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import socket
 import time
 from contextlib import suppress
 
-READ_S, LONGEST_REQUEST = 0.2, 4096  # For the one read of a request; bytes.
+READ_S, LONGEST_REQUEST = 0.2, 4096  # for reading a request once; bytes
 LINE = "The cockpit waits for a ROS master: start roscore, or a launch file. Its page then opens."
 PAGE = f"<!doctype html><html lang=en><title>Cockpit</title><p>{LINE}</p></html>\n"
 ANSWER = (
@@ -19,10 +19,10 @@ ANSWER = (
 
 
 def answer_for(listener: socket.socket, duration_s: float) -> None:
-    """Answer each connection in this time with that page."""
+    """Answer connections with that page for this time."""
     end = time.monotonic() + duration_s
     while select.select([listener], [], [], max(0.0, end - time.monotonic()))[0]:
-        with suppress(OSError):  # The browser closed it.
+        with suppress(OSError):  # The browser has closed it.
             connection, _ = listener.accept()
             with connection:
                 connection.settimeout(READ_S)

@@ -1,4 +1,4 @@
-"""HTTP and WebSocket: rights and bounds of requests."""
+"""HTTP and WebSocket: which requests are answered, and how many."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
 from cockpit_server import limits
 from cockpit_server.access import DRIVER, Access, without_token
-from cockpit_server.clients import Client
-from cockpit_server.io.hub import Hub
+from cockpit_server.hub import Hub
+from cockpit_server.pages import Page
 from node_kit.ros.rospy_patches.newest_only import CUT_AFTER_RESENDS, resends
 from tutorial_tools.io.command.charts import FETCHED, OF_DEBIAN
 
@@ -44,8 +44,8 @@ POLICY = (
 )
 
 
-class _Guarded(RequestHandler):
-    """Answers requests that come from this page and name this machine; slows a flood of them."""
+class _Checked(RequestHandler):
+    """Answers requests that come from this page and name this machine, and delays a flood."""
 
     def set_default_headers(self) -> None:
         for name, value in HEADERS.items():
@@ -86,34 +86,34 @@ class _Guarded(RequestHandler):
         self.refuse(status_code, f"{status_code}: nothing here")
 
 
-class _Page(_Guarded):
-    """The page, for a valid token if one is needed."""
+class _Index(_Checked):
+    """The page, for a valid token where one is needed."""
 
     def get(self) -> None:
         if self.role is None:
             self.refuse(403, NO_TOKEN)
             return
         self.set_header("Content-Type", "text/html; charset=utf-8")
-        self.finish((self.settings["page"] / "index.html").read_bytes())
+        self.finish((self.settings["folder"] / "index.html").read_bytes())
 
 
-class _Nothing(_Guarded):
+class _Nothing(_Checked):
     def get(self) -> None:
         self.refuse(404, "nothing here")
 
 
-class _Files(_Guarded, StaticFileHandler):
+class _Files(_Checked, StaticFileHandler):
     def set_extra_headers(self, path: str) -> None:
         self.set_header("Cache-Control", "no-cache")
 
 
-class _Socket(_Guarded, WebSocketHandler):
+class _Socket(_Checked, WebSocketHandler):
     """The connection between a page and the Hub."""
 
-    client: Client
+    page: Page
     stream: Any
     ws_connection: Any
-    reads = 0  # since a message or a pong came
+    reads = 0  # since the last message or pong
 
     async def get(self, *_: Any, **__: Any) -> None:
         role, origin = self.role, self.request.headers.get("Origin")
@@ -127,28 +127,28 @@ class _Socket(_Guarded, WebSocketHandler):
             await super().get()
 
     def get_compression_options(self) -> dict[str, int]:
-        # RFC 7692: a class that drives takes a quarter; little memory for each page.
+        # RFC 7692: it divides the traffic of a class by four, and needs little memory for a page.
         return {"compression_level": 1, "mem_level": 4}
 
     def check_origin(self, origin: str) -> bool:
-        return True  # get() has looked at it
+        return True  # get() has checked it
 
     def open(self, *_: Any, **__: Any) -> None:
         self.set_nodelay(True)
         self.stream = self.ws_connection.stream
         self.stream.socket.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, limits.SEND_BUFFER)
-        self.settings["pages"].add(self.stream)
+        self.settings["streams_of_pages"].add(self.stream)
         self.bound_reads()
-        self.client = Client(
+        self.page = Page(
             next(self.hub.page_numbers), str(self.role), self.address, self.send,
             self.stream.writing, self.is_cut, self.stream.close,
         )  # fmt: skip
-        self.hub.join(self.client)
+        self.hub.join(self.page)
 
     def bound_reads(self) -> None:
-        """Close a page that sends pings, or a message in pieces, without end.
+        """Close a page that sends pings, or pieces of a message, without end.
 
-        Tornado reports neither pieces nor the answers to pings, which would pile up unread.
+        Tornado reports neither pieces nor pings, whose answers would pile up unread.
         """
         read_bytes = self.stream.read_bytes
 
@@ -164,54 +164,54 @@ class _Socket(_Guarded, WebSocketHandler):
         try:
             self.write_message(text)
         except (WebSocketClosedError, StreamClosedError):
-            pass  # on_close() comes
+            pass  # on_close() follows.
 
     def is_cut(self) -> bool:
         return not self.stream.closed() and resends(self.stream.socket) >= CUT_AFTER_RESENDS
 
     def on_message(self, message: Any) -> Awaitable[None] | None:
         self.reads = 0
-        wait_s = self.hub.wait_s(self.client)
+        wait_s = self.hub.wait_s(self.page)
         if wait_s:
-            return self.hear_later(wait_s, message)
-        self.hub.hear(self.client, message)
+            return self.receive_later(wait_s, message)
+        self.hub.receive(self.page, message)
         return None
 
-    async def hear_later(self, wait_s: float, message: Any) -> None:
-        # Meanwhile tornado reads nothing more of this page: TCP holds the sender up.
+    async def receive_later(self, wait_s: float, message: Any) -> None:
+        # Meanwhile tornado reads nothing from this page, so that TCP slows the sender.
         await asyncio.sleep(wait_s)
-        self.hub.hear(self.client, message)
+        self.hub.receive(self.page, message)
 
     def on_pong(self, data: bytes) -> Awaitable[None] | None:  # type: ignore[override]
-        # Most of many pongs were not asked for; each costs as much as a message.
+        # A page can send pongs without a ping; a pong costs as much as a message.
         self.reads = 0
-        wait_s = self.hub.wait_s(self.client)
+        wait_s = self.hub.wait_s(self.page)
         return asyncio.sleep(wait_s) if wait_s else None
 
     def on_close(self) -> None:
-        self.settings["pages"].discard(self.stream)
-        if hasattr(self, "client"):
-            self.hub.leave(self.client)
+        self.settings["streams_of_pages"].discard(self.stream)
+        if hasattr(self, "page"):
+            self.hub.leave(self.page)
 
 
 class _Server(HTTPServer):
-    """Bounds the connections: the oldest one without a page makes room for a new one."""
+    """Bounds the connections: a new one replaces the oldest one that is not a page's."""
 
     def initialize(self, application: Application, **more: Any) -> None:  # type: ignore[override]
         super().initialize(application, **more)
-        self._pages = application.settings["pages"]
+        self._of_pages = application.settings["streams_of_pages"]
         self._streams: list[Any] = []  # the oldest first
 
     def handle_stream(self, stream: Any, address: tuple[str, int]) -> None:
-        self._streams = [*(one for one in self._streams if not one.closed()), stream]
+        self._streams = [*(other for other in self._streams if not other.closed()), stream]
         if len(self._streams) > limits.MOST_CONNECTIONS:
-            next(one for one in self._streams if one not in self._pages).close()
+            next(other for other in self._streams if other not in self._of_pages).close()
         if not stream.closed():
             super().handle_stream(stream, address)
 
 
 def folder_of_charts() -> Path:
-    """Return where dygraphs is: Debian's, or what ./tutorial has fetched where there is none."""
+    """Return the folder of dygraphs: Debian's, or else that of what ./tutorial has fetched."""
     fetched = Path(os.environ.get("TUTORIAL_RESULTS", ""), FETCHED)
     return OF_DEBIAN if OF_DEBIAN.exists() else fetched
 
@@ -219,21 +219,21 @@ def folder_of_charts() -> Path:
 def server(hub: Hub, access: Access) -> HTTPServer:
     """Return the HTTP server; it does not listen yet."""
     for name in ("tornado.access", "tornado.general"):
-        logging.getLogger(name).setLevel(logging.CRITICAL)  # whatever strangers send is no news
+        logging.getLogger(name).setLevel(logging.CRITICAL)  # Anyone could fill the log.
     logging.getLogger("tornado.application").addFilter(_hide_token)
-    page = Path(rospkg.RosPack().get_path("cockpit")) / "page"
+    folder = Path(rospkg.RosPack().get_path("cockpit")) / "page"
     application = Application(
         [
-            ("/", _Page),
+            ("/", _Index),
             ("/ws", _Socket),
-            (r"/page/([\w.-]+)", _Files, {"path": str(page)}),
+            (r"/page/([\w.-]+)", _Files, {"path": str(folder)}),
             (r"/lib/(dygraph\.min\.js|dygraph\.css)", _Files, {"path": str(folder_of_charts())}),
         ],
         default_handler_class=_Nothing,
         access=access,
         hub=hub,
-        page=page,
-        pages=set(),  # streams that are a page's
+        folder=folder,
+        streams_of_pages=set(),
         websocket_max_message_size=limits.LONGEST_MESSAGE,
         websocket_ping_interval=limits.PING_S,
         websocket_ping_timeout=3 * limits.PING_S,

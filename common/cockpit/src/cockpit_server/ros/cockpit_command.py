@@ -1,4 +1,4 @@
-"""The command: checks, waits for a master, and prints the address of the page."""
+"""The command: checks its options, waits for a master, and prints the address of the page."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ LOOK_S = 1.0
 TOKEN_BYTES = 16
 ELSEWHERE = "192.0.2.1"  # RFC 5737 has it for documentation
 TOKENS = "COCKPIT_TOKENS"  # environment variable, which only this user can read
-# In a container: the port of the host at which this one's is published, and who else may come.
+# In a container: the host's port at which the page is published, and the addresses of other peers.
 PUBLISHED, PEERS = "COCKPIT_PUBLISHED", "COCKPIT_PEERS"
 
 
@@ -60,20 +60,20 @@ def report(line: str) -> None:
 
 
 def listening(port: int, lan: bool) -> list[socket.socket]:
-    """Return sockets that listen, or exit with a line if the port is taken."""
+    """Return the listening sockets, or exit with a line if the port is taken."""
     try:
-        one = socket.create_server(("" if lan else "127.0.0.1", port), backlog=128)
+        listener = socket.create_server(("" if lan else "127.0.0.1", port), backlog=128)
     except OSError as error:
         if error.errno == errno.EADDRINUSE:
             leave_to_other(port, lan)
         why = os.strerror(error.errno or 0)
         fail(f"cannot listen on port {port}: {why}; take another: --port 8080")
-    one.setblocking(False)
-    return [one]
+    listener.setblocking(False)
+    return [listener]
 
 
 def leave_to_other(port: int, lan: bool) -> NoReturn:
-    """Exit, with 0 if a cockpit of the same master has the port and serves the purpose."""
+    """Exit, with 0 if the port is that of a cockpit of the same master that is sufficient."""
     page = address(rosgraph.get_master_uri())
     if not page or urlsplit(page).port != port:
         fail(f"port {port} is taken, maybe by another cockpit: end it, or take --port {port + 1}")
@@ -116,7 +116,7 @@ def main() -> int:
         try:
             cockpit.run()
         finally:
-            # Another cockpit, under a name of its own, may have put its own there.
+            # Another cockpit, under another name, may have set its own address.
             if call(uri, "getParam", PARAMETER) == (Answer.WELL, page):
                 call(uri, "deleteParam", PARAMETER)
         if cockpit.has_lost_master:
@@ -126,7 +126,7 @@ def main() -> int:
 
 
 def restart(access: Access) -> NoReturn:
-    """Replace this process, with the same tokens: rospy knows one master."""
+    """Replace this process, with the same tokens, as rospy cannot change its master."""
     report("the ROS master has gone")
     if access.driver_token:
         os.environ[TOKENS] = f"{access.driver_token} {access.viewer_token}"
@@ -162,14 +162,14 @@ def no_parameters(given: dict[str, Any]) -> None:
 
 
 def where(page: str) -> str:
-    """Return what to open, where the page of this address is for this machine only."""
+    """Return a line on where to open a page that only this machine can reach."""
     if PUBLISHED in os.environ:
         return f"open http://localhost:{os.environ[PUBLISHED]}/ on the container's host"
     return f"open {page} on this machine"
 
 
 def print_address(port: int, access: Access) -> None:
-    """Print the page's address; a token is shown nowhere else."""
+    """Print the address of the page, the only place where a token is shown."""
     if access.driver_token is None:
         report(where(f"http://127.0.0.1:{port}/"))
         return
@@ -181,7 +181,7 @@ def print_address(port: int, access: Access) -> None:
 
 
 def show_code(text: str) -> None:
-    """Print the address as a QR code. Not by an argument, which all users see."""
+    """Print a text as a QR code; it is not passed as an argument, which all users can see."""
     if not shutil.which("qrencode"):
         report("(for a QR code: apt install qrencode)")
         return

@@ -1,4 +1,4 @@
-"""The node: rospy's threads on one side, tornado's loop in the main thread on the other."""
+"""The node, with rospy's threads, and tornado's loop in the main thread."""
 
 from __future__ import annotations
 
@@ -6,43 +6,45 @@ import asyncio
 import socket
 import sys
 import threading
+import time
 from typing import Callable
 
 import rospy
 from tornado.ioloop import PeriodicCallback
 
 from cockpit_server.access import Access
-from cockpit_server.clients import Client
+from cockpit_server.driving.joy2twist_reports import Joy2TwistReports
 from cockpit_server.driving.who_drives import Driving
-from cockpit_server.io.hub import TICK_S, Hub
+from cockpit_server.hub import TICK_S, Hub
 from cockpit_server.io.web_server import server
+from cockpit_server.pages import Page
 from cockpit_server.ros.feeds import Feeds
 from cockpit_server.ros.graph_watch import GraphWatch
 from cockpit_server.ros.joysticks import Joysticks
-from cockpit_server.ros.sources.bags import Bags
-from cockpit_server.ros.sources.doctor import Doctor
-from cockpit_server.ros.sources.forms import Forms
-from cockpit_server.ros.sources.logs import Logs
-from cockpit_server.ros.sources.plots import Plots
-from cockpit_server.ros.sources.publishing import Publishing
-from cockpit_server.ros.sources.recorder import Recorder
-from cockpit_server.ros.sources.robots import Robots
-from cockpit_server.ros.sources.surroundings import Surroundings
-from cockpit_server.ros.sources.topics import Topics
-from cockpit_server.ros.sources.turtles import Turtles
-from cockpit_server.ros.teleop import Teleop
+from cockpit_server.ros.tabs.bags import Bags
+from cockpit_server.ros.tabs.doctor import Doctor
+from cockpit_server.ros.tabs.forms import Forms
+from cockpit_server.ros.tabs.outlets import Outlets
+from cockpit_server.ros.tabs.plots import Plots
+from cockpit_server.ros.tabs.recorder import Recorder
+from cockpit_server.ros.tabs.turtles import Turtles
+from cockpit_server.tabs.logs import Logs
+from cockpit_server.tabs.map_and_scan import MapAndScan
+from cockpit_server.tabs.publishing import Publishing
+from cockpit_server.tabs.robots import Robots
+from cockpit_server.tabs.topics import Topics
 from node_kit.ros.log import Log
 
 # How long the end may wait for the last message, and then for its delivery [s].
 LONGEST_END_S, DELIVERY_S = 0.3, 0.1
-# How long a thread of rospy may keep the others from running [s]: an input must not wait for it.
+# How long a thread of rospy may block the others [s]: an input must not wait for it.
 SWITCH_S = 0.0005
 
 
 class Cockpit:
     """Shows the robots of a master to browsers, and lets one of them drive.
 
-    Subscribes: what pages look at: odom (nav_msgs/Odometry), joy (sensor_msgs/Joy), scan
+    Subscribes: what pages show: odom (nav_msgs/Odometry), joy (sensor_msgs/Joy), scan
         (sensor_msgs/LaserScan), base_pose_ground_truth (nav_msgs/Odometry) and
         mobile_base/events/bumper, sensors/core, commands/led1, led2, sound (kobuki_msgs), any
         topic;
@@ -58,16 +60,17 @@ class Cockpit:
         graphs = self._graphs = GraphWatch(name)
         log = Log()
         feeds = Feeds(log.warn)
-        pages: dict[int, Client] = {}
-        robots, teleop = Robots(feeds, graphs), Teleop(feeds)
+        pages: dict[int, Page] = {}
+        robots, reports = Robots(feeds, graphs), Joy2TwistReports(feeds)
         joysticks = Joysticks(feeds, graphs, name)
-        driving = self._driving = Driving(pages, graphs, joysticks, teleop, robots.moves)
+        driving = self._driving = Driving(pages, graphs, joysticks, reports, robots.moves)
         sources = (
             robots, joysticks, driving, graphs, Topics(feeds, graphs), Plots(feeds, graphs),
-            Forms(driving, self._soon, graphs), Publishing(driving, graphs), Logs(feeds), Doctor(),
-            Bags(driving, self._soon), Recorder(), Surroundings(feeds, graphs), Turtles(graphs),
+            Forms(driving, self._soon, graphs), Publishing(driving, graphs, Outlets()), Logs(feeds),
+            Doctor(), Bags(driving, self._soon), Recorder(), MapAndScan(feeds, graphs),
+            Turtles(graphs),
         )  # fmt: skip
-        self._hub = Hub(pages, driving, sources, log.warn)
+        self._hub = Hub(pages, driving, sources, log.warn, time)
         self._server = server(self._hub, access)
         self.has_lost_master = False
         self._has_ended = threading.Event()
@@ -94,7 +97,7 @@ class Cockpit:
         self._loop.call_soon_threadsafe(action)
 
     def _end(self) -> None:
-        """Leave the robot at rest; rospy's other threads wait for this."""
+        """Stop the robot; rospy's other threads wait for this."""
         self._soon(self._rest)
         if self._has_ended.wait(LONGEST_END_S):
             threading.Event().wait(DELIVERY_S)

@@ -1,25 +1,26 @@
-"""Subscribes to what is looked at, and to nothing else, without ever waiting for the master.
+"""Subscribes to the topics that tabs need, and to no others, without ever waiting for the master.
 
-A node of rospy has one subscription for a topic, for all its uses: here it is of raw messages,
-which each listener decodes as far as needed.
+rospy makes one subscription of a topic for all its uses, so this one receives raw messages, which
+each tab decodes as far as it needs.
 """
 
 from __future__ import annotations
 
+import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import suppress
 from typing import Any, Callable, Hashable, Mapping
 
-import numpy as np
 import rospy
 
 from cockpit_server.failures import Guard
+from cockpit_server.messages import Handler, RawMessage
+from node_kit.ros.rospy_patches.connections import sender_of
 
-PERIOD_S = 0.05  # how often a topic is read of which only the newest message is wanted
-# One thread for all questions to the master that may wait: they are asked one after the other.
+PERIOD_S = 0.05  # how often a topic is read of which only the newest message is needed
+# The one thread for calls of the master that may block: they are made one after the other.
 _worker = ThreadPoolExecutor(1, thread_name_prefix="to_the_master")
-_queued: set[Callable[[], Any]] = set()  # later_once() queues each once.
+_queued: set[Callable[[], Any]] = set()  # later_once() queues an action once.
 
 
 def later(action: Callable[..., Any], *arguments: Any) -> None:
@@ -28,14 +29,14 @@ def later(action: Callable[..., Any], *arguments: Any) -> None:
     def do() -> None:
         try:
             action(*arguments)
-        except Exception as error:  # whatever the master or a node answered; the next one is asked
+        except Exception as error:  # whatever the master or a node answered; the next call is made
             rospy.logwarn("cockpit: %s: %s", type(error).__name__, error)
 
     _worker.submit(do)
 
 
 def later_once(action: Callable[[], Any]) -> None:
-    """Do it later, too, but queue the same action once, however often it is requested."""
+    """Do an action as later() does, but queue it once, however often it is requested."""
 
     def do() -> None:
         _queued.discard(action)
@@ -46,54 +47,38 @@ def later_once(action: Callable[[], Any]) -> None:
         later(do)
 
 
-def read(kind: Any, data: bytes, longest: float = float("inf"), as_arrays: bool = False) -> Any:
-    """Return a message of a kind from at most so many bytes; None if malformed.
-
-    as_arrays: its lists of numbers are arrays of numpy, which is fast for a map or a scan.
-    """
-    with suppress(Exception):  # whatever the bytes make a message class do
-        if len(data) <= longest:
-            return kind().deserialize_numpy(data, np) if as_arrays else kind().deserialize(data)
-    return None
-
-
-class Raw(rospy.AnyMsg):
-    """A message of any type, not deserialized."""
-
-    def deserialize(self, data: bytes) -> Raw:
+class _Undecoded(rospy.AnyMsg):
+    def deserialize(self, data: bytes) -> _Undecoded:
         self.data = data
         return self
 
 
-Hear = Callable[[Raw, str], None]  # gets a message, and its topic
-
-
 class Feeds:
-    """The topics that are wanted now. Used by one thread, except for the messages."""
+    """The topics that are needed now. One thread sets them; messages arrive in rospy's threads."""
 
     def __init__(self, report: Callable[[str], None]) -> None:
         self._guard = Guard(report)
-        # owner -> ({topic: hear}, whether every message is wanted)
-        self._wants: dict[Hashable, tuple[Mapping[str, Hear], bool]] = {}
-        self._listeners: dict[str, list[Hear]] = {}
+        # owner -> ({topic: handler}, whether every message is needed)
+        self._wants: dict[Hashable, tuple[Mapping[str, Handler], bool]] = {}
+        self._handlers: dict[str, list[Handler]] = {}
         self._wanted: frozenset[tuple[str, bool]] = frozenset()  # as in _wants
         self._subscribers: dict[tuple[str, bool], Any] = {}
 
-    def set_subscriptions(self, owner: Hashable, handlers: Mapping[str, Hear], every: bool) -> None:
-        """Have hear(message, topic) called for these topics, {topic: hear}, and for no others that
-        the owner wanted before. every: for every message, or only for the newest, now and then.
-        """
+    def set_subscriptions(
+        self, owner: Hashable, handlers: Mapping[str, Handler], every: bool
+    ) -> None:
+        """As Subscriptions says. The handlers of a topic are called by one thread at a time."""
         if self._wants.get(owner) == (handlers, every):
             return
         self._wants[owner] = (handlers, every)
-        listeners: dict[str, list[Hear]] = {}
+        by_topic: dict[str, list[Handler]] = {}
         complete: set[str] = set()
         for wanted, wants_all in self._wants.values():
-            for topic, hear in wanted.items():
-                listeners.setdefault(topic, []).append(hear)
+            for topic, handler in wanted.items():
+                by_topic.setdefault(topic, []).append(handler)
             complete |= set(wanted) if wants_all else set()
-        self._listeners = listeners
-        self._wanted = frozenset((topic, topic in complete) for topic in listeners)
+        self._handlers = by_topic
+        self._wanted = frozenset((topic, topic in complete) for topic in by_topic)
         later_once(self._adjust)
 
     def _adjust(self) -> None:
@@ -105,15 +90,21 @@ class Feeds:
             self._guard(repr(key[0]), self._subscribe, *key)
 
     def _subscribe(self, topic: str, every: bool) -> None:
-        hear, queue_size = (self._hear, None) if every else (self._hear_now_and_then, 1)
-        self._subscribers[topic, every] = rospy.Subscriber(topic, Raw, hear, topic, queue_size)
+        callback, queue_size = (self._receive, None) if every else (self._receive_at_intervals, 1)
+        about = topic, threading.Lock()  # Each publisher of the topic has a thread.
+        self._subscribers[topic, every] = rospy.Subscriber(
+            topic, _Undecoded, callback, about, queue_size
+        )
 
-    def _hear(self, message: Raw, topic: str) -> None:
-        for hear in self._listeners.get(topic, ()):
-            hear(message, topic)
+    def _receive(self, message: _Undecoded, about: tuple[str, threading.Lock]) -> None:
+        topic, lock = about
+        raw = RawMessage(topic, message.data, sender_of(message), time.monotonic())
+        with lock:
+            for handler in self._handlers.get(topic, ()):
+                handler(raw)
 
-    def _hear_now_and_then(self, message: Raw, topic: str) -> None:
-        # While this sleeps, rospy does not read: the kernel keeps what comes, and of that rospy
-        # gives the newest. Thirty robots at 50 Hz would keep a processor busy otherwise.
-        self._hear(message, topic)
+    def _receive_at_intervals(self, message: _Undecoded, about: tuple[str, threading.Lock]) -> None:
+        # While this sleeps, rospy does not read: the kernel buffers what arrives, and rospy then
+        # passes on the newest. Thirty robots at 50 Hz would keep a processor busy otherwise.
+        self._receive(message, about)
         time.sleep(PERIOD_S)

@@ -1,4 +1,4 @@
-"""Asks the master for the graph, once a second, and sends it to the pages that show it."""
+"""Asks the master for the graph once a second, for the tab Graph and all others."""
 
 from __future__ import annotations
 
@@ -9,45 +9,36 @@ from urllib.parse import urlsplit
 
 import rosgraph
 
-from cockpit_server.clients import Client, Source, encoded
-from cockpit_server.graph import Graph, topic_of, without
+from cockpit_server.graph import Graph, graph_of
+from cockpit_server.pages import Page, TabSource, encoded
 from cockpit_server.schema import switch
 from node_kit.ros.graph.ros_api import call
 from node_kit.rules.answer import Answer
 
 PERIOD_S = 1.0
-MASTER_S = 0.2  # How often to check that it is there; until then a form drives on.
-NODE_S = 0.3  # A node that runs accepts a connection within this time.
+MASTER_S = 0.2  # how often to check that the master runs; until then a form drives on
+NODE_S = 0.3  # A running node accepts a connection within this time.
 
 
-class GraphWatch(Source):
-    """The newest Graph, of this node only what it publishes; another one after each change."""
+class GraphWatch(TabSource):
+    """The newest Graph, a new object after each change."""
 
     watches: ClassVar = {"graph": (switch, False)}
 
     def __init__(self, own_name: str) -> None:
         self._own_name = own_name
         self._uri = rosgraph.get_master_uri()
-        self.graph, self._text = Graph(), ""  # and its message to pages
+        self.graph, self._text = Graph(own_name=own_name), ""  # and its message to pages
         self._is_lost = False
         self._pid: int | None = None  # the master's, once known
         self.look()
 
-    def send_to(self, client: Client, now: float) -> None:
-        if client.watch.graph and self._text and client.take_if_new("graph", self._text):
-            client.write(self._text)
-
-    def joysticks(self, robot: str) -> tuple[str, ...]:
-        """Return the names of the other nodes that publish a robot's joystick."""
-        nodes = self.graph.publishers.get(topic_of(robot, "joy"), frozenset())
-        return tuple(sorted(nodes - {self._own_name}))
-
-    def joystick_listeners(self, robot: str) -> frozenset[str]:
-        """Return the names of the other nodes that subscribe to a robot's joystick."""
-        return self.graph.subscribers.get(topic_of(robot, "joy"), frozenset())
+    def send_to(self, page: Page, now: float) -> None:
+        if page.watch.graph and self._text and page.take_if_new("graph", self._text):
+            page.write(self._text)
 
     def start(self, lost: Callable[[], None]) -> None:
-        """Look once a second, in a thread. lost: called when the master has gone."""
+        """Look once a second, in a thread. lost: called when the master has exited."""
         threading.Thread(target=self._run, args=(lost,), daemon=True).start()
 
     def _run(self, lost: Callable[[], None]) -> None:
@@ -62,28 +53,24 @@ class GraphWatch(Source):
         lost()
 
     def look(self) -> None:
+        """Ask the master once, and note whether it is still the same one."""
         answer, state = call(self._uri, "getSystemState", caller=self._own_name)
         if answer is Answer.SILENT:
             return
         answered, pid = call(self._uri, "getPid", caller=self._own_name)
-        heard, types = call(self._uri, "getTopicTypes", caller=self._own_name)
+        typed, types = call(self._uri, "getTopicTypes", caller=self._own_name)
         named, parameters = call(self._uri, "getParamNames", caller=self._own_name)
-        if answer is Answer.WELL and Answer.SILENT in (answered, heard, named):
-            return  # it is busy, and is asked again
+        if answer is Answer.WELL and Answer.SILENT in (answered, typed, named):
+            return  # The master is busy, and is asked again.
         if self._pid is None:
             self._pid = pid
         if {answer, answered} != {Answer.WELL} or pid != self._pid:
             self._is_lost = True
             return
-        types, shown = dict(types or []), {topic for topic, _ in state[0]} - {"/rosout"}
         known = self.graph.machines
-        names = {n for part in state for _, nodes in part for n in nodes}
+        names = {node for column in state for _, nodes in column for node in nodes}
         machines = {n: known.get(n) or self._machine(n) for n in names - {self._own_name}}
-        dead = {name for name, machine in machines.items() if machine is None}
-        publishers = without({self._own_name}, without(dead, state[0]).items(), shown_in=shown)
-        subscribers, services = [without({self._own_name, *dead}, part) for part in state[1:]]
-        graph = Graph(publishers, subscribers, services, types, parameters=sorted(parameters or []))
-        graph.machines.update({n: machines.get(n) or "" for n in graph.nodes})
+        graph = graph_of(state, dict(types or []), parameters or [], machines, self._own_name)
         if graph != self.graph:
             self.graph, self._text = graph, encoded("graph", **graph.parts())
 

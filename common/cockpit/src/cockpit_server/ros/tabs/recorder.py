@@ -1,4 +1,4 @@
-"""Records all topics for a page that may drive: rosbag record, in the cockpit's folder."""
+"""Records all topics for a page that may drive, with rosbag record in the cockpit's folder."""
 
 from __future__ import annotations
 
@@ -14,46 +14,47 @@ from typing import ClassVar, Sequence
 
 import rospy
 
-from cockpit_server.clients import Client, RefusedError, Source
+from cockpit_server.errors import RefusedError
+from cockpit_server.pages import Page, TabSource
 from cockpit_server.schema import switch
 
-# It ends at 150 MB, as Bag opens up to 200 MB, or after an hour.
+# It ends after 150 MB, as the tab Bag opens up to 200 MB, or after an hour.
 COMMAND = ("rosbag", "record", "-q", "-a", "--size=150", "--duration=1h", "-O")
-LEAST_FREE = 1 << 30  # bytes; with less rosbag records nothing (its --min-space)
+LEAST_FREE = 1 << 30  # bytes; rosbag records nothing with less (its --min-space)
 NO_SPACE = "less than 1 GB is free in the cockpit's folder"
 FULL = "150 MB or an hour are recorded"
-LOOK_S = 1.0  # how often the free space is looked at
-# Linux sends rosbag this signal, too, once the thread that started it has gone, as by kill -9.
+LOOK_S = 1.0  # how often the free space is checked
+# Linux sends rosbag this signal also when the thread that started it exits, as by kill -9.
 ENDS_WITH_US = ("setpriv", "--pdeathsig", "INT")
 
 
-class Recorder(Source):
-    """At most one recording, which any page that may drive starts and ends."""
+class Recorder(TabSource):
+    """At most one recording, which any page that may drive can start and end."""
 
     messages: ClassVar = {"record": {"on": switch}}
 
     def __init__(self) -> None:
-        self._name = ""  # It names the file while something is recorded.
-        self._why = ""  # why the last one has ended, if no page ended it
+        self._name = ""  # of the file, while something is recorded
+        self._why = ""  # why the last recording has ended, if no page ended it
         self._next_look_s = 0.0
         self._process: Popen[bytes] | None = None
-        self._is_over = False  # It was stopped, maybe before there was a process.
+        self._is_over = False  # whether it was stopped, maybe before there was a process
         rospy.on_shutdown(self._stop)
 
-    def collect(self, clients: Sequence[Client], now: float) -> None:
+    def collect(self, pages: Sequence[Page], now: float) -> None:
         if self._process and now >= self._next_look_s:
             self._next_look_s = now + LOOK_S
             if not has_space():
                 self._why = f"{self._name} has ended: {NO_SPACE}"
                 self._stop()
 
-    def send_to(self, client: Client, now: float) -> None:
+    def send_to(self, page: Page, now: float) -> None:
         state = {"name": self._name, "why": self._why}
-        if client.watch.bag and client.take_if_new("recorder", state):
-            client.send("recorder", **state)
+        if page.watch.bag and page.take_if_new("recorder", state):
+            page.send("recorder", **state)
 
-    def on_record(self, client: Client, _now: float, on: bool) -> None:
-        client.must_drive()
+    def on_record(self, page: Page, _now: float, on: bool) -> None:
+        page.must_drive()
         if not on:
             self._stop()
         elif self._name:
@@ -80,7 +81,7 @@ class Recorder(Source):
     def _stop(self) -> None:
         self._is_over, process = True, self._process
         if process and process.poll() is None:
-            with suppress(ProcessLookupError):  # it has just ended
+            with suppress(ProcessLookupError):  # It has just exited.
                 os.killpg(process.pid, signal.SIGINT)
 
 
@@ -89,7 +90,7 @@ def has_space() -> bool:
 
 
 def free_name() -> str:
-    """Return a name by the time, which no file has, also not one of the same second."""
+    """Return a name with the time that no file has, even one of the same second."""
     base = time.strftime("page_%Y-%m-%d-%H-%M-%S")
     names = (f"{base}{f'_{n}' if n else ''}.bag" for n in itertools.count())
     return next(n for n in names if not os.path.exists(n) and not os.path.exists(f"{n}.active"))

@@ -1,4 +1,4 @@
-"""The newest lines that nodes have logged."""
+"""Lines on pages: the newest ones of the nodes' logs, and those of the doctor."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from typing import Any, ClassVar
 
 from rosgraph_msgs.msg import Log
 
-from cockpit_server.clients import Client, Source
-from cockpit_server.ros.feeds import Feeds, Raw, read
+from cockpit_server.messages import RawMessage, Subscriptions, decoded
+from cockpit_server.pages import Page, TabSource
 from cockpit_server.schema import switch
 
 KEPT = 1000  # lines, as many as a page keeps
-AT_ONCE = 50  # lines in a message to a page: many long ones would hold up the driver
+AT_ONCE = 50  # lines in a message to a page: many long ones would delay the driver
 LONGEST_LINE = 2000  # characters
 LEVELS = {getattr(Log, name): name for name in ("DEBUG", "INFO", "WARN", "ERROR", "FATAL")}
 
@@ -32,8 +32,8 @@ def without_folders(text: str, home: str | None = None, here: str | None = None)
 
 @lru_cache(maxsize=KEPT)
 def shown(data: bytes) -> dict[str, Any] | None:
-    """Return a line as pages get it, or None if the bytes are no Log."""
-    log = read(Log, data)
+    """Return a line as pages receive it, or None if it is malformed."""
+    log = decoded(Log, data)
     if log is None:
         return None
     return {
@@ -44,29 +44,39 @@ def shown(data: bytes) -> dict[str, Any] | None:
     }
 
 
-class Logs(Source):
+def doctor_line(line: str) -> dict[str, str]:
+    """Return a line of the doctor as pages receive it."""
+    level, subject, text = [*line.split(maxsplit=2), "", "", ""][:3]
+    if level not in ("ok", "wrong", "unknown"):
+        subject, text = "", line
+    level = level if level in ("ok", "wrong") else "note"
+    return {"level": level, "subject": subject, "text": without_folders(text.strip())}
+
+
+class Logs(TabSource):
     """Keeps lines as bytes, and decodes them when a page shows the log."""
 
     watches: ClassVar = {"log": (switch, False)}
 
-    def __init__(self, feeds: Feeds) -> None:
-        """Subscribe for as long as the node runs: to /rosout, where each node's last line is
-        latched, and not to /rosout_agg, which sends nothing that was logged before.
+    def __init__(self, subscriptions: Subscriptions) -> None:
+        """Subscribe for as long as the node runs.
+
+        To /rosout, where the last line of every node is latched; /rosout_agg sends new lines alone.
         """
         self._lines: deque[tuple[int, bytes]] = deque(maxlen=KEPT)  # numbered
         self._numbers = itertools.count(1)
-        feeds.set_subscriptions(self, {"/rosout": self._hear}, every=True)
+        subscriptions.set_subscriptions(self, {"/rosout": self._on_line}, every=True)
 
-    def send_to(self, client: Client, now: float) -> None:
-        if not client.watch.log:
+    def send_to(self, page: Page, now: float) -> None:
+        if not page.watch.log:
             return
-        known = client.seen.get("log", 0)
+        known = page.seen.get("log", 0)
         lines = [line for line in list(self._lines) if line[0] > known][:AT_ONCE]
         if lines or known == 0:
-            client.seen["log"] = lines[-1][0] if lines else -1
+            page.seen["log"] = lines[-1][0] if lines else -1
             entries = [entry for entry in (shown(data) for _, data in lines) if entry]
-            client.send("log", entries=entries)
+            page.send("log", entries=entries)
 
-    def _hear(self, message: Raw, _topic: str) -> None:
-        if all(data != message.data for _, data in list(self._lines)):  # latched, heard again
+    def _on_line(self, message: RawMessage) -> None:
+        if all(data != message.data for _, data in list(self._lines)):  # else latched, sent again
             self._lines.append((next(self._numbers), message.data))

@@ -1,4 +1,4 @@
-"""What pages show of a Kobuki's core sensors, real or simulated (pure)."""
+"""What pages show of a Kobuki's core sensors, real or simulated."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ WHEELS = ((SensorState.WHEEL_DROP_LEFT, "left"), (SensorState.WHEEL_DROP_RIGHT, 
 
 
 def core_shown(core: SensorState) -> dict[str, str]:
-    """Return battery, charger, pressed buttons and dropped wheels, in words."""
+    """Return battery, charger, pressed buttons and dropped wheels as text."""
     return {
         "battery": f"{core.battery / 10:.1f}",
         "charger": CHARGERS.get(core.charger, f"unknown ({core.charger})"),

@@ -1,4 +1,4 @@
-"""The motion on the floor from a nav_msgs/Odometry (pure)."""
+"""The motion of a robot on the floor, from a nav_msgs/Odometry."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from typing import NamedTuple
 
 from nav_msgs.msg import Odometry
 
-LONGEST_STEP_M = 0.5  # within a period; what is more was carried, or odometry was not heard
-FARTHEST_M = 1e6  # from the origin; what is beyond is no place of a robot
+LONGEST_STEP_M = 0.5  # within a period; beyond it the robot was carried, or odometry was missed
+FARTHEST_M = 1e6  # from the origin; no robot is farther away
 
 
 class Motion(NamedTuple):
@@ -29,8 +29,8 @@ def motion(odometry: Odometry) -> Motion:
 
 
 def covered(last: Motion, new: Motion, so_far: float) -> float:
-    """Return the distance [m] since the last reset; so_far: until the last Motion."""
-    if new.x == new.y == new.yaw == 0.0:  # as a reset has it, and no drive by chance
+    """Return the distance [m] since the last reset. so_far: up to the last Motion."""
+    if new.x == new.y == new.yaw == 0.0:  # A reset has this pose, and no drive by chance.
         return 0.0
     step = hypot(new.x - last.x, new.y - last.y)
-    return so_far + step if step <= LONGEST_STEP_M else so_far  # NaN is not less, either
+    return so_far + step if step <= LONGEST_STEP_M else so_far  # NaN is not less.
