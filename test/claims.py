@@ -1,47 +1,84 @@
 #!/usr/bin/python3
-"""Check test/CLAIMS.md: the tests that it names exist; it names rostests, system and browser tests.
+"""Write test/CLAIMS.md from the claims of the tests, or --check it; exit code 1 if one is wrong.
 
-A name is a path, which stands for all tests in it, or PATH::TEST, in backquotes.
+`@claim("sentence")` stands above a test or a class, or is a file's pytestmark; a .mjs file has a
+comment. A second test says why, `because=`, and may begin the sentence only: "Each Joy ...".
 """
 
+import ast
+import itertools
 import re
 import sys
 from pathlib import Path
 
-REPOSITORY = Path(__file__).resolve().parents[1]
-CLAIMS = REPOSITORY / "test/CLAIMS.md"
-NAMED = re.compile(r"`(test/[^`:]+)(?:::([^`]+))?`")
+TESTS = Path(__file__).resolve().parent
+PAGE = TESTS / "CLAIMS.md"
+CLAIMED = {"ros", "system", "browser"}  # each test of these kinds shows a claim
+HEAD = """# Claims
+
+What the suite promises, and the test that shows it; a second one for what the first cannot show.
+`./tutorial lint --fix` writes this page from `@claim("...")` above the tests.
+"""
 
 
-def tests_in(path):
-    return re.findall(r"^def (test_\w+)", path.read_text(), re.M)
+def claims_of(test, body, expressions, bare, inherited=False):
+    """Yield (sentence, because, test) of a file, class or test; append those without to bare."""
+    expressions = [*expressions, *(node.value for node in body if isinstance(node, ast.Assign))]
+    nodes = itertools.chain.from_iterable(map(ast.walk, expressions))
+    calls = [node for node in nodes if getattr(getattr(node, "func", None), "id", "") == "claim"]
+    for call in calls:
+        yield call.args[0].value, "".join(word.value.value for word in call.keywords), test
+    claimed = inherited or bool(calls)
+    if not claimed and "::test_" in test:
+        bare.append(test)
+    for node in body:
+        if isinstance(node, (ast.ClassDef, ast.FunctionDef)):
+            inside = node.body if isinstance(node, ast.ClassDef) else []
+            yield from claims_of(f"{test}::{node.name}", inside, node.decorator_list, bare, claimed)
 
 
-def to_be_named():
-    """Yield (path, name) of each test that a claim must name; of a rostest the name is empty."""
-    for kind in ("system", "browser"):
-        for path in sorted(REPOSITORY.glob(f"test/*/{kind}/test_*.py")):
-            yield from ((path, name) for name in tests_in(path))
-    for path in sorted(REPOSITORY.glob("test/*/ros/*.py")):
-        beside = path.with_suffix(".test")
-        yield (beside if beside.exists() else path), ""
+def claims_in(path, wrong):
+    """Yield (sentence, because, test) of each claim in a file; append what is wrong."""
+    test, text, bare = str(path.relative_to(TESTS.parent)), path.read_text(), []
+    if path.suffix == ".mjs":
+        yield from ((sentence, "", test) for sentence in re.findall("^// claim: (.+)", text, re.M))
+    else:
+        yield from claims_of(test, ast.parse(text).body, [], bare)
+    if path.relative_to(TESTS).parts[1] in CLAIMED:
+        wrong += [f"{test}: it shows no claim" for test in bare]
 
 
-def complaints():
-    """Yield a line for each name that is wrong, and for each test without a claim."""
-    named = [(REPOSITORY / path, name) for path, name in NAMED.findall(CLAIMS.read_text())]
-    for path, name in named:
-        test = re.compile(rf"\b{re.escape(name.split('[')[0].split('::')[-1])}\b")
-        if not path.exists():
-            yield f"{path.relative_to(REPOSITORY)}: there is no such file"
-        elif name and not test.search(path.read_text()):
-            yield f"{path.relative_to(REPOSITORY)}: it has no test {name}"
-    known = {*named, *((path, "") for path, _ in named)}
-    whole = {path for path, name in named if not name}
-    for path, name in to_be_named():
-        if path not in whole and (path, name) not in known:
-            yield f"{path.relative_to(REPOSITORY)}: no claim names {name or 'it'}"
+def page(claims, wrong):
+    """Return the text of the page; append what is wrong."""
+    shown = {}  # the tests of each sentence
+    for sentence, because, test in sorted(claims, key=lambda claim: bool(claim[1])):
+        if not because and sentence in shown:
+            wrong.append(f"{test}: another test shows this, too; say because=: {sentence}")
+        elif not because:
+            shown[sentence] = [f"`{test}`"]
+        else:
+            beginning = sentence[:-4] if sentence.endswith(" ...") else sentence
+            meant = [whole for whole in shown if whole.startswith(beginning)]
+            if len(meant) != 1:
+                wrong.append(f"{test}: {len(meant)} claims begin so: {sentence}")
+            for whole in meant:
+                shown[whole].append(f"`{test}` ({because})")
+    lines = [HEAD]
+    for package, group in itertools.groupby(
+        shown, lambda sentence: shown[sentence][0].split("/")[1]
+    ):
+        lines.append(f"## {package}\n")
+        lines += [f"- {sentence} — {', '.join(shown[sentence])}" for sentence in group]
+        lines.append("")
+    return "\n".join(lines)
 
 
 if __name__ == "__main__":
-    sys.exit("\n".join(complaints()) or None)
+    wrong = []
+    files = sorted(path for end in ("py", "mjs") for path in TESTS.glob(f"*/*/**/*.{end}"))
+    text = page([claim for path in files for claim in claims_in(path, wrong)], wrong)
+    if "--check" not in sys.argv:
+        PAGE.write_text(text)
+    elif PAGE.read_text() != text:
+        wrong.append("test/CLAIMS.md is old, which ./tutorial lint --fix renews")
+    sys.exit("\n".join(wrong) or None)

@@ -9,9 +9,12 @@ import pytest
 import rospy
 from sensor_msgs.msg import LaserScan
 
+from tutorial_testing.claims import claim
+
 SCRIPTS = Path(__file__).resolve().parents[3] / "beginner_tutorials" / "scripts"
 
 
+@claim("Programs of the lesson on worlds take inf and nan for nothing measured")
 @pytest.mark.parametrize(
     ("program", "kind"), [("stop_before_wall", "StopBeforeWall"), ("wander", "Wander")]
 )

@@ -12,6 +12,7 @@ import pytest
 from live import FAKE_TURTLEBOT, JOY2TWIST, delays, master, running
 
 from tutorial_testing import flood as flood_program
+from tutorial_testing.claims import claim
 from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import free_port
 from tutorial_testing.socket_page import SocketPage
@@ -62,6 +63,7 @@ def test_the_driver_goes_on_beside_thirty_viewers_that_flood(figure):
     assert driven > LEAST_DRIVEN
 
 
+@claim("2,000 topics, 10 MB and 1 kHz do not hold up the driver, and rates are within 2 %")
 def test_the_driver_goes_on_beside_many_topics_whose_rates_are_right(figure):
     """A page shows 2,000 topics, among them one of 10 MB a second and one of 1 kHz."""
     with cockpit() as (port, (to_look, to_drive)), ExitStack() as stack:

@@ -7,8 +7,13 @@ import pytest
 from tutorial_check.checking.results import NOTE, OK, UNREACHED, WRONG, Outcome, Result
 from tutorial_check.course.definition import read_course
 from tutorial_check.report.class_page import Student, table_html
+from tutorial_testing.claims import claim
 from tutorial_testing.cockpit.accessibility import violations
 
+pytestmark = claim(
+    "A class's table fits a screen of 1,280 pixels and a sheet of paper, with all columns, light "
+    "and dark"
+)
 WIDTH, HEIGHT = 1280, 800
 A4_LANDSCAPE_PX = 1047  # 277 mm between its margins, 96 px an inch
 TITLES = {name: one.title for name, one in read_course().exercises.items()}

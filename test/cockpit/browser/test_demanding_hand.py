@@ -4,11 +4,16 @@ import pytest
 import rospkg
 from selenium.webdriver.common.keys import Keys as Key
 
+from tutorial_testing.claims import claim
 from tutorial_testing.cockpit.hands import Keys
 from tutorial_testing.cockpit.world import World
 from tutorial_testing.nodes import node_path
 from tutorial_testing.waiting import wait_for
 
+pytestmark = claim(
+    "Whatever is done on the page has a sign, all of it is in sight, and a tab without the floor "
+    "receives little"
+)
 PHONE = (360, 640)
 # Counts what the server sends to a page that is opened from now on [bytes].
 COUNTER = """globalThis.received = 0;

@@ -2,6 +2,7 @@
 
 from urllib.parse import urlsplit
 
+from tutorial_testing.claims import claim
 from tutorial_testing.cockpit.hands import Keys
 from tutorial_testing.socket_page import REST, SocketPage
 
@@ -16,6 +17,10 @@ STOP_ON_TOP = """(() => {
 MENU = "document.body.dispatchEvent(new Event('contextmenu', {cancelable: true, bubbles: true}))"
 
 
+@claim(
+    "Who drives, how fast, and Stop are above every tab; Esc ends driving; no menu opens where a "
+    "page drives"
+)
 def test_who_drives_how_fast_and_stop_are_above_every_tab_until_esc(world, page):
     page.tab("Doctor")
     assert page.ask(MENU)
@@ -37,6 +42,7 @@ def test_who_drives_how_fast_and_stop_are_above_every_tab_until_esc(world, page)
     assert world.stays_at_rest()  # although all is still held
 
 
+@claim("One page drives: others change nothing, and the session is handed over")
 def test_a_second_page_is_refused_until_the_first_hands_over(world, page):
     with SocketPage(urlsplit(world.address).port) as second:
         second.hand = REST  # as a page that is open: without input it would lose the session

@@ -3,6 +3,7 @@
 import pytest
 from selenium.webdriver.common.keys import Keys as Key
 
+from tutorial_testing.claims import claim
 from tutorial_testing.cockpit.hands import Hands
 
 
@@ -14,6 +15,7 @@ class EngineHands(Hands):
         self.browser.keys("keyUp", Key.ARROW_UP, Key.SHIFT)
 
 
+@claim("Firefox and WebKit drive, and open every tab")
 @pytest.mark.parametrize("engine", ["firefox", "webkit"])
 def test_keys_drive_the_robot_and_every_tab_opens(world, engine, request):
     browser = request.getfixturevalue(engine)

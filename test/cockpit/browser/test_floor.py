@@ -3,6 +3,7 @@
 import pytest
 from selenium.webdriver.common.keys import Keys as Key
 
+from tutorial_testing.claims import claim
 from tutorial_testing.cockpit.hands import Thumbs
 from tutorial_testing.cockpit.world import World
 from tutorial_testing.nodes import node_path
@@ -38,6 +39,7 @@ def two():
         yield world
 
 
+@claim("The driven robot is seen beside the buttons of a phone; thumbs find LB and the stick")
 @pytest.mark.parametrize("held", PHONES)
 def test_a_phone_shows_the_driven_one_of_two_robots_beside_what_thumbs_hold(
     two, shared_browser, held
@@ -70,6 +72,9 @@ def settled(browser, colour):
     return drawn if drawn[0] and drawn == browser.ask(DRAWN % colour) else None
 
 
+@claim(
+    "Floor: map, scan and bumpers as they are, until the world ends; a change of tab keeps the view"
+)
 def test_a_change_of_tab_keeps_the_view_of_walls_scan_and_bumper(two, shared_browser):
     page = shared_browser
     page.errors()  # This drops what earlier pages reported.
@@ -98,6 +103,7 @@ SCAN = """{header: {frame_id: base_link}, angle_min: -0.5, angle_increment: 0.1,
   range_max: 9, ranges: [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]}"""
 
 
+@claim("A scan is drawn without a map, too, until its messages end")
 def test_a_scan_without_a_map_is_on_the_floor_until_it_ends(world, page):
     """As of a real TurtleBot before gmapping is started."""
     with world.run("rostopic", "pub", "-r", "10", "/scan", "sensor_msgs/LaserScan", SCAN):

@@ -6,6 +6,7 @@ import pytest
 
 from gamepad.gamepads import F710
 from gamepad.virtual.controls import Controls, positions
+from tutorial_testing.claims import claim
 
 NAMES = {mode: list(pad.buttons) for mode, pad in F710.items()}
 CASES = (
@@ -22,6 +23,7 @@ def call(page, name, *values):
     return page.driver.execute_async_script(script, name, values)
 
 
+@claim("The page's F710 is that of the package gamepad, at D and X, by glass and by any gamepad")
 def test_hands_on_glass_and_on_a_gamepad_of_the_kernel_give_the_same_message(page):
     for mode, controls in itertools.product(F710, CASES):
         axes, buttons = positions(F710[mode], controls)

@@ -3,6 +3,7 @@
 import pytest
 from selenium.webdriver.common.keys import Keys
 
+from tutorial_testing.claims import claim
 from tutorial_testing.waiting import wait_for
 
 # A Graph of its own, with a server that is this script: given a graph, and hear() as in main.js.
@@ -32,6 +33,7 @@ LARGE = {
 }
 
 
+@claim("Tab Graph: nodes, topics; Fit, zoom and Find")
 def test_large_graph_fits_and_is_zoomed_and_what_is_found_is_in_sight(page):
     page.driver.execute_async_script(GRAPH, LARGE)
     page.click("Fit")

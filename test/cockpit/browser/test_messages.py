@@ -1,5 +1,7 @@
 """What the tabs make of rare messages: the test is their server."""
 
+from tutorial_testing.claims import claim
+
 # A tab of its own beside that of the page. hear() is a message of the server; `sent` is what the
 # tab asks for.
 TAB = """const [done] = arguments, sent = [], handlers = {};
@@ -16,6 +18,7 @@ def run(page, module, script):
     return page.driver.execute_async_script(TAB % (module, script))
 
 
+@claim("Tab Bag: the values ...", because="a new connection")
 def test_new_connection_opens_the_recording_again_and_publishes_nothing(page):
     script = """const tab = new tabs.BagTab(link, watch, {look: () => ""});
     const state = () => byId("bag-state").textContent;
@@ -32,6 +35,7 @@ def test_new_connection_opens_the_recording_again_and_publishes_nothing(page):
     assert (asked, state, pause) == (["bag_open", {"name": "joy.bag"}], "", True)
 
 
+@claim("Tab Log: latched ...", because="1,000 lines")
 def test_log_keeps_1000_lines_on_a_change_of_tab_and_none_on_a_new_connection(page):
     script = """const tab = new tabs.LogTab(link, watch);
     const line = {time: 0, level: "WARN", node: "/x", text: "a"};
@@ -42,6 +46,7 @@ def test_log_keeps_1000_lines_on_a_change_of_tab_and_none_on_a_new_connection(pa
     assert run(page, "log_tab.js", script) == [900, 1000, 1000, 1000, 0]
 
 
+@claim("A driver who is handed a robot looks at no other")
 def test_a_driver_who_is_handed_a_robot_looks_at_no_other(page):
     script = """const tab = new tabs.RobotTab(link, watch, {notice() {}, moved() {}});
     const robots = {robot_1: {}, robot_2: {}};

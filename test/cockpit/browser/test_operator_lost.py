@@ -8,6 +8,7 @@ from typing import Callable, NamedTuple, Optional
 
 import pytest
 
+from tutorial_testing.claims import claim
 from tutorial_testing.cockpit.chromium import Chromium
 from tutorial_testing.cockpit.hands import Gamepad, Keys, Thumbs
 from tutorial_testing.cockpit.world import World
@@ -178,6 +179,8 @@ def lose_and_come_back(request, name, world, browser_of=Chromium):
             request.node.user_properties.append((name, took_s))
 
 
+@claim("Keys, thumbs and a gamepad ...", because="end to end")
+@claim("Each loss of the operator ...", because="end to end")
 @pytest.mark.parametrize("name", [name for name in WAYS if name != CUT])
 def test_the_robot_comes_to_rest_and_stays(world, name, request, shared_browser):
     size = (360, 640, True) if WAYS[name].hands.touch else (1280, 800)
@@ -185,6 +188,7 @@ def test_the_robot_comes_to_rest_and_stays(world, name, request, shared_browser)
     lose_and_come_back(request, name, world, tab if WAYS[name].back else Chromium)
 
 
+@claim("The end of a drive ...", because="end to end, when the network is cut")
 def test_a_cut_network_and_its_return(request):
     if not AS_ROOT:
         pytest.skip("only root may use a browser on another host of a network of namespaces")

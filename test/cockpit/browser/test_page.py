@@ -4,6 +4,7 @@ import re
 import signal
 from urllib.parse import urlsplit
 
+from tutorial_testing.claims import claim
 from tutorial_testing.waiting import wait_for
 
 FIRST_LOAD = 200_000  # bytes
@@ -19,6 +20,7 @@ def press(page, code):
     page.key("keyUp", code)
 
 
+@claim("The page is small, asks no other host, and is for the keyboard")
 def test_the_keyboard_reaches_everything_of_a_small_page_that_asks_no_other_host(world, page):
     page.driver.execute_script("document.activeElement.blur()")
     reached = set()
@@ -51,6 +53,10 @@ LOOKS_OLD = """(() => {
 })()"""
 
 
+@claim(
+    "A server that hangs for a while leaves the session to its page; after a loss every tab says "
+    "that it is old; the doctor shows its lines"
+)
 def test_a_server_that_hangs_leaves_the_session_and_after_a_loss_every_tab_is_old(world, page):
     page.click("Drive from this page")
     page.wait_for_text("#session", "You drive")

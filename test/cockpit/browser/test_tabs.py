@@ -3,6 +3,7 @@
 import re
 from pathlib import Path
 
+from tutorial_testing.claims import claim
 from tutorial_testing.cockpit.chromium import SHIFT
 from tutorial_testing.cockpit.hands import Keys
 from tutorial_testing.waiting import wait_for
@@ -15,6 +16,11 @@ def shown(page, css):
     return float(re.search(r"-?[\d.]+", page.text(css))[0])
 
 
+@claim(
+    "Tab Robot: odometry, joy2twist's report, battery, charger, buttons, wheel drops, LEDs and "
+    "sounds of a Kobuki"
+)
+@claim("Reset puts one robot back, and is refused while another drives it")
 def test_robot_shows_odometry_joy2twist_and_a_kobuki(world, page, ros):
     hands = Keys(page)
     begin = world.now.x
@@ -43,6 +49,10 @@ def test_robot_shows_odometry_joy2twist_and_a_kobuki(world, page, ros):
     page.wait_for_text("#kobuki [data-value=battery]", "\N{EN DASH}")
 
 
+@claim(
+    "Tab Bag: the values at the slider; what publishes needs no button, and Pause stops the robot; "
+    "a new connection opens it again and publishes nothing"
+)
 def test_bag_shows_the_values_at_its_slider_and_publishes_until_it_is_paused(world, page, ros):
     page.tab("Bag")
     info = ros("rosbag", "info", "-y", RECORDING)
@@ -68,6 +78,7 @@ def test_bag_shows_the_values_at_its_slider_and_publishes_until_it_is_paused(wor
     assert world.stays_at_rest()
 
 
+@claim("Tab Bag records all topics; a recording ends whole, also with a cockpit that is killed")
 def test_bag_records_all_topics_into_the_folder_and_offers_the_file(world, page, ros):
     page.tab("Bag")
     page.click("Record all topics")
@@ -92,6 +103,7 @@ def axis(page):
     return sorted(page.ask(MARKS)) or [0.0]
 
 
+@claim("Tab Plot: the newest value, CSV and PNG; it stays where one zooms")
 def test_plot_shows_the_newest_value_saves_all_and_stays_where_a_person_zooms(
     world, page, tmp_path
 ):
@@ -126,6 +138,10 @@ def test_plot_shows_the_newest_value_saves_all_and_stays_where_a_person_zooms(
     wait_for(lambda: axis(page)[-1] - axis(page)[0] > 5, "time axis that goes on again")
 
 
+@claim(
+    "Plot: whole arrays, with the entries that exist, another axis, the value at the mouse, the "
+    "wheel; a topic that is not published is named, and drawn once it is"
+)
 def test_plot_has_whole_arrays_another_axis_the_value_at_the_mouse_and_a_wheel(world, page):
     wheels = "/joint_states/position"
     page.driver.get(f"{world.address}#plot?f={wheels}")
@@ -157,6 +173,7 @@ def test_plot_has_whole_arrays_another_axis_the_value_at_the_mouse_and_a_wheel(w
         wait_for(lambda: page.text("#plot-missing") == "", "topic")
 
 
+@claim("Tab Log: latched lines, levels and filter, levels of loggers; 1,000 lines are kept")
 def test_log_shows_what_nodes_log_by_level_and_filter_and_sets_a_logger(world, page, ros):
     page.tab("Log")
     page.wait_for_text("#log-lines", "/myjoystick2twist")  # before the cockpit was started
@@ -202,6 +219,10 @@ FIRST, SECOND = [0x2B, 0x83, 0xD6], [0xD9, 0x70, 0x0A]
 FRAMES_S = 25  # Ten drawings a second, some in two steps.
 
 
+@claim(
+    "Plot against a field draws a circle as a circle, an array beside a number, and asks for few "
+    "frames"
+)
 def test_plot_of_a_turning_robot_is_a_circle_and_asks_for_few_frames(world, page):
     other = POSITION[:-1] + "y"
     page.driver.get(f"{world.address}#plot?f={POSITION}&f={other}&last=30&x={POSITION}")
@@ -219,6 +240,7 @@ def test_plot_of_a_turning_robot_is_a_circle_and_asks_for_few_frames(world, page
     world.wait_for_rest()
 
 
+@claim("Plot against a field ...", because="an array beside a number")
 def test_plot_of_an_array_beside_a_number_has_both_and_asks_for_few_frames(world, page):
     wheels = "/joint_states/position"
     page.driver.get(f"{world.address}#plot?f={POSITION}&f={wheels}")

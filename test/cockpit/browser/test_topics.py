@@ -5,6 +5,7 @@ import signal
 
 import pytest
 
+from tutorial_testing.claims import claim
 from tutorial_testing.cockpit.chromium import Chromium
 from tutorial_testing.socket_page import SocketPage
 from tutorial_testing.waiting import tolerance, wait_for
@@ -19,6 +20,7 @@ def publishes(page):
     return page.text("#topics-send") != "Publish"
 
 
+@claim("A link shows what it names, and the chosen robot; a reload keeps both, Back goes back")
 def test_a_link_shows_what_it_names_reload_keeps_it_and_back_goes_back(world, page):
     def at(place):
         wait_for(lambda: page.driver.current_url == f"{world.address}{place}", place)
@@ -37,6 +39,10 @@ def test_a_link_shows_what_it_names_reload_keeps_it_and_back_goes_back(world, pa
     at(plot)
 
 
+@claim(
+    "Topics has rates within 2 %, messages, definitions; it publishes, as a publisher that is "
+    "shown, calls, sets parameters; a refusal is shown until the next action"
+)
 def test_topics_shows_rates_and_messages_publishes_calls_and_sets(world, page, ros):
     page.driver.get(f"{world.address}#topics/probe")
     page.one("#topics-search").send_keys("probe")
@@ -83,6 +89,7 @@ def test_topics_shows_rates_and_messages_publishes_calls_and_sets(world, page, r
     page.wait_for_text("#topics-answer", "ros.rosout")
 
 
+@claim("What a page publishes ...", because="end to end, a killed page")
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGSTOP])
 def test_a_page_that_is_killed_or_hangs_publishes_a_zero_and_nothing_more(world, number):
     with Chromium() as page, world.run("rostopic", "echo", "-p", "/cmd_vel/linear/x") as echo:
@@ -107,6 +114,7 @@ def hide(page):
     return other
 
 
+@claim("What a page publishes ...", because="end to end, by Stop, Esc and hiding")
 def test_what_a_form_moves_is_named_and_ends_by_stop_of_another_page_esc_and_hiding(world, page):
     mine, nobody = "You drive by a form, on /cmd_vel.", "Nobody drives."
     page.driver.get(f"{world.address}#topics/cmd_vel")

@@ -1,5 +1,6 @@
 """The tab Robot draws the fields of turtlesim, as the suite's node has them."""
 
+from tutorial_testing.claims import claim
 from tutorial_testing.waiting import wait_for
 
 # The color of a column and row of the picture, [r, g, b].
@@ -11,6 +12,7 @@ PIXEL = """((image) => {{
 }})(document.querySelector("#turtles [data-node='/sim'] img"))"""
 
 
+@claim("Tab Robot: what turtlesims draw, which no list of ROS shows")
 def test_robot_shows_background_trails_and_turtles_until_their_node_ends(world, page, ros):
     def wait_for_color(x_m, y_m, color):
         column, row = round(45 * x_m), round(499 - 45 * y_m)

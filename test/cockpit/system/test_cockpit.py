@@ -14,6 +14,7 @@ import rospkg
 
 from node_kit.ros.graph.ros_api import call
 from tutorial_testing import flood
+from tutorial_testing.claims import claim
 from tutorial_testing.cockpit.world import World
 from tutorial_testing.nodes import node_path
 from tutorial_testing.socket_page import DRIVE, SocketPage
@@ -40,12 +41,7 @@ def page_of(world):
 
 def drive(world, page):
     """Sit down, release, hold LB and the stick until the robot moves."""
-
-    def hold():
-        page.sit_down()
-        page.hand = DRIVE
-
-    world.drive_by(hold)
+    world.drive_by(lambda: page.sit_down(then=DRIVE))
 
 
 @pytest.fixture(scope="module")
@@ -81,6 +77,10 @@ def get(world, path, **headers):
         return answer.status, answer.read().decode()
 
 
+@claim(
+    "Other hosts, origins, files and tokens are refused; viewers may not drive; long messages "
+    "close the connection"
+)
 def test_foreign_hosts_and_origins_other_files_and_sockets_without_a_token_are_refused(resting):
     assert get(resting, "/")[0] == 200
     for headers in ({"Host": "evil.example"}, {"Origin": "http://evil.example"}):
@@ -100,6 +100,7 @@ def test_foreign_hosts_and_origins_other_files_and_sockets_without_a_token_are_r
             assert page.refusal == 403, (token, headers)
 
 
+@claim("Other hosts, origins, files ...", because="viewers and long messages")
 def test_a_viewer_may_not_drive_and_long_messages_close_the_connection(resting):
     with SocketPage(resting.port, token=resting.token("look")) as page:
         page.say("bag_open", name="joy.bag")
@@ -108,8 +109,7 @@ def test_a_viewer_may_not_drive_and_long_messages_close_the_connection(resting):
         page.say("drive", robot="", mode="D")
         page.say("reset", robot="")
         page.say("bag_play", topic="/joy", rate=1.0, loop=False, robot="")
-        twist = {"topic": "/cmd_vel", "type": "geometry_msgs/Twist", "values": {}}
-        page.say("publish", **twist, period=0.1)
+        page.say("publish", topic="/cmd_vel", type="geometry_msgs/Twist", values={}, period=0.1)
         for what in ("drive", "reset", "bag_play", "publish"):
             why = page.wait_for("refused", lambda no, what=what: no["what"] == what)["why"]
             assert "may only look" in why
@@ -121,9 +121,8 @@ def test_a_viewer_may_not_drive_and_long_messages_close_the_connection(resting):
 
 @pytest.fixture
 def connect(open_world):
-    """connect(): a connection."""
+    at = "127.0.0.1", open_world.port
     with contextlib.ExitStack() as stack:
-        at = "127.0.0.1", open_world.port
         yield lambda: stack.enter_context(socket.create_connection(at, 20))
 
 
@@ -144,6 +143,7 @@ def cockpit_kb(world):
     return max(int(re.search(r"VmRSS:\s+(\d+)", state)[1]) for state in states)
 
 
+@claim("The driver goes ...", because="endless frames")
 def test_a_program_that_sends_frames_without_end_costs_no_memory(open_world, connect):
     """It is closed, or not read."""
     for frames, begin in ((PINGS, b""), (PONGS, b""), (PIECES, b"\x01\x80" + bytes(4))):
@@ -156,6 +156,10 @@ def test_a_program_that_sends_frames_without_end_costs_no_memory(open_world, con
         assert cockpit_kb(open_world) - before_kb <= MOST_MORE_KB
 
 
+@claim(
+    "The driver goes on beside thirty viewers that flood; endless frames are held up; all places "
+    "taken make room for a driver"
+)
 def test_the_driver_goes_on_beside_thirty_viewers_that_flood(open_world):
     command = sys.executable, flood.__file__, str(open_world.port), open_world.token("look")
     with page_of(open_world) as page:
@@ -176,6 +180,7 @@ def test_the_driver_goes_on_beside_thirty_viewers_that_flood(open_world):
         wait_for(lambda: cockpit_kb(open_world) - before_kb <= MOST_MORE_KB, "memory as before")
 
 
+@claim("The driver goes ...", because="all places taken")
 def test_viewers_and_connections_make_room_for_a_driver(open_world, connect):
     for _ in range(HALF_OPEN):
         connect().sendall(b"GET / HTTP/1.1\r\n")
@@ -190,22 +195,21 @@ def test_viewers_and_connections_make_room_for_a_driver(open_world, connect):
             drive(open_world, page)
 
 
+@claim("A type that a page, a master ...", because="end to end")
 def test_hostile_types_of_a_page_and_of_the_graph_leave_the_server_and_its_driver_alone(open_world):
     ask = functools.partial(call, open_world.environment["ROS_MASTER_URI"], caller="/hostile")
     _, node = ask("lookupNode", "/fake_turtlebot")
     topics = {f"/t{n}": kind for n, kind in enumerate(HOSTILE)}
     for topic, kind in topics.items():
         ask("registerPublisher", topic, kind, node)
-    token = open_world.token("drive")
-    with page_of(open_world) as page, SocketPage(open_world.port, token=token) as other:
+    with page_of(open_world) as page, page_of(open_world) as other:
         for kind in HOSTILE:
             other.say("publish", topic="/fz", type=kind, values={}, period=None)
         wait_for(lambda: len(other.of("refused")) == len(HOSTILE), "refusals")
         assert all("no topic of the type" in said["why"] for said in other.of("refused"))
         drive(open_world, page)
         for topic, kind in topics.items():
-            fields = [f"{topic}/x"]
-            other.say("watch", field_list=True, topic=topic, rates=list(topics), fields=fields)
+            other.say("watch", field_list=True, topic=topic, rates=[*topics], fields=[f"{topic}/x"])
             other.say("describe", what="message", name=kind)
         other.wait_for("fields")
         wait_for(lambda: len(other.of("refused")) == 2 * len(HOSTILE), "refusals")
@@ -217,11 +221,11 @@ def test_hostile_types_of_a_page_and_of_the_graph_leave_the_server_and_its_drive
         ask("unregisterPublisher", topic, node)
 
 
+@claim("A page says how a node that drives is paused or ended, and may then drive")
 def test_a_recording_of_rosbag_is_paused_by_the_page_which_then_drives(open_world):
     bag = rospkg.RosPack().get_path("gamepad") + "/bag/joy.bag"
-    with open_world.run("rosbag", "play", "--loop", bag, "__name:=rosbag"), page_of(
-        open_world
-    ) as page:
+    command = "rosbag", "play", "--loop", bag, "__name:=rosbag"
+    with open_world.run(*command), page_of(open_world) as page:
         page.say("watch", robots=True, look="")
         said = page.wait_for("drives", lambda drives: "pause_playback" in drives["refusal"])
         assert "/rosbag publishes the joystick topic" in said["refusal"]
@@ -232,6 +236,7 @@ def test_a_recording_of_rosbag_is_paused_by_the_page_which_then_drives(open_worl
         page.say("stop")
 
 
+@claim("A cockpit that waits for a master says so in the browser, and then serves its page")
 def test_a_cockpit_before_its_master_says_so_and_then_serves_its_page():
     class Early(World):
         def begin(self):
@@ -263,6 +268,10 @@ class Launched(World):
         self.find_page()
 
 
+@claim(
+    "launch_joy_node.launch joystick:=browser is driven by the page; a second cockpit leads to the "
+    "first; the windows of rqt lead to the page"
+)
 def test_the_page_of_the_launch_file_drives_and_other_cockpits_and_windows_lead_there():
     with Launched() as world, socket.create_server(("127.0.0.1", 0)) as taken:
         with page_of(world) as page:

@@ -10,6 +10,7 @@ import pytest
 import rospkg
 
 from node_kit.ros.graph.ros_api import accepts
+from tutorial_testing.claims import claim
 from tutorial_testing.cockpit.world import World
 from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import suspended
@@ -101,6 +102,7 @@ def judge(world, act, bound_s=BOUND_S):
     assert world.stays_at_rest()
 
 
+@claim("What a page publishes ...", because="end to end, a robot without a timeout")
 @pytest.mark.parametrize("period", [None, 10.0])
 @pytest.mark.parametrize("way", PAGES)
 def test_the_end_of_a_form_by_its_page_stops_a_robot_without_a_timeout(world, way, period):
@@ -108,6 +110,10 @@ def test_the_end_of_a_form_by_its_page_stops_a_robot_without_a_timeout(world, wa
         judge(world, lambda: PAGES[way](world, page))
 
 
+@claim(
+    "A robot without a timeout that a form moves is stopped when the cockpit ends: Ctrl-C, "
+    "SIGTERM, SIGHUP, rosnode kill, a master that has gone"
+)
 @pytest.mark.parametrize("way", SERVERS)
 def test_the_end_of_the_cockpit_stops_a_robot_without_a_timeout(world, way):
     with moved(world, None) as page:
@@ -116,6 +122,7 @@ def test_the_end_of_the_cockpit_stops_a_robot_without_a_timeout(world, way):
     world.start_cockpit()
 
 
+@claim("A robot without ...", because="rosnode kill")
 def test_rosnode_kill_stops_a_robot_without_a_timeout(world):
     with moved(world, None), world.run("rosnode", "kill", "/cockpit") as done:
         world.cockpit.wait()
@@ -126,6 +133,7 @@ def test_rosnode_kill_stops_a_robot_without_a_timeout(world):
     world.start_cockpit()
 
 
+@claim("A robot without ...", because="the master")
 def test_without_a_master_or_with_one_that_hangs_a_robot_without_a_timeout_is_stopped():
     """One that hangs is waited for: the page still drives, and its loss stops the robot."""
     with WithMaster(f"config:={CONFIG}/rbx1.yaml") as world:
@@ -135,11 +143,16 @@ def test_without_a_master_or_with_one_that_hangs_a_robot_without_a_timeout_is_st
             judge(world, world.master.kill)
 
 
+@claim(
+    "A cockpit that is killed leaves a TurtleBot to its timeout, and is not shown by the next one, "
+    "which arms at once"
+)
 def test_a_cockpit_that_is_killed_leaves_a_turtlebot_to_its_timeout():
     with World() as world, moved(world, 0.05):
         judge(world, world.cockpit.kill, bound_s=0.7)
 
 
+@claim("A cockpit that is ...", because="the next cockpit")
 def test_a_cockpit_that_was_killed_is_not_shown_by_the_next_one_which_arms_at_once():
     with World() as world:
         with SocketPage(world.port) as page:

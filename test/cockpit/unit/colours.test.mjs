@@ -1,4 +1,5 @@
 // What the floor and the graph draw stands out from what is beside it: WCAG 2.2, 1.4.11.
+// claim: What the floor and the graph draw stands out
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";

@@ -1,4 +1,5 @@
 // Keys whose release no keyup reports: each event has the state of Shift and of Cmd.
+// claim: Keys, thumbs and a gamepad drive, and release stops; so does one that no keyup reports
 import assert from "node:assert/strict";
 import { test } from "node:test";
 

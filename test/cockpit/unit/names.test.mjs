@@ -1,4 +1,5 @@
 // Where the names of robots are on the floor.
+// claim: Names of thirty robots cover nothing
 import assert from "node:assert/strict";
 import { test } from "node:test";
 

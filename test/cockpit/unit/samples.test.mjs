@@ -1,4 +1,5 @@
 // The pure part of the page's charts; `node --test` runs it, see test/lint.
+// claim: A long plot keeps its spikes; its labels tell marks apart
 import assert from "node:assert/strict";
 import { test } from "node:test";
 

@@ -3,6 +3,7 @@
 import pytest
 
 from cockpit_server.access import DRIVER, VIEWER, Access, gateways, without_token
+from tutorial_testing.claims import claim
 
 HERE = Access()
 LAN = Access(("localhost", "desk", "desk.local"), "drive-token", "view-token")
@@ -38,11 +39,13 @@ def test_tokens_give_roles_and_without_tokens_every_page_drives():
         assert LAN.role(token) is None
 
 
+@claim("No token is in a log")
 def test_a_token_is_not_logged():
     assert "secret" not in without_token("/?token=secret")
     assert without_token("/ws?a=1&TOKEN=s&b=2") == "/ws?a=1&TOKEN=...&b=2"
 
 
+@claim("In a container only its gateway and itself are answered")
 def test_in_a_container_requests_come_from_its_gateway_or_itself():
     rows = "Iface Destination Gateway", "eth0 00000000 010012AC 0003", "eth0 000012AC 00000000 0001"
     table = "\n".join(rows)

@@ -17,7 +17,13 @@ from cockpit_server.ros.tabs.bag_files import read
 from cockpit_server.tabs import recordings
 from cockpit_server.tabs.recordings import corners
 from gamepad.ros.bags import BagError
+from tutorial_testing.claims import claim
 from tutorial_testing.session_room import page as new_page
+
+pytestmark = claim(
+    "Recordings are read once, bounded, and named without a folder; viewers get only the suite's "
+    "own"
+)
 
 
 class Page:
@@ -73,6 +79,7 @@ def test_curves_have_finite_values_and_their_corners_alone(page):
     assert corners([[0, 1], [1, 1], [2, 1], [3, 2], [4, 1]]) == [[0, 1], [2, 1], [3, 2], [4, 1]]
 
 
+@claim("A recording takes ...", because="where it plays from")
 def test_recording_plays_from_where_the_page_has_put_it_until_its_end(page):
     page.open("good.bag")
     page.say("bag_seek", position=1.0)

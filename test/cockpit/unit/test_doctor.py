@@ -4,10 +4,12 @@ import time
 
 from cockpit_server.ros.tabs import doctor
 from cockpit_server.tabs.logs import doctor_line
+from tutorial_testing.claims import claim
 from tutorial_testing.session_room import look, page
 from tutorial_testing.waiting import wait_for
 
 
+@claim("The doctor runs once at a time; viewers get what is known")
 def test_doctor_that_cannot_run_is_reported_and_runs_again_but_for_viewers_not_at_once(monkeypatch):
     runs = []
     monkeypatch.setattr(doctor.rospkg, "RosPack", lambda: runs.append(1) or [].pop())

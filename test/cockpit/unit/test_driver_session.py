@@ -4,6 +4,7 @@ import pytest
 
 from cockpit_server.driving.driver_session import PageInput, is_neutral, neutral_of
 from cockpit_server.errors import RefusedError
+from tutorial_testing.claims import claim
 from tutorial_testing.session_room import ANNA, BOB, DRIVE, REST, Room
 
 SILENT = "no input from the page for 0.2 s"
@@ -22,6 +23,10 @@ LOSSES = {
 }
 
 
+@claim(
+    "Each loss of the operator sends one neutral message, then nothing until all was seen "
+    "released, a gamepad too"
+)
 @pytest.mark.parametrize("case", LOSSES)
 def test_a_loss_sends_one_neutral_message_and_then_nothing_until_all_is_released(room, case):
     lose, why = LOSSES[case]
@@ -53,6 +58,9 @@ ENDS = {
 }
 
 
+@claim(
+    "The end of a drive (closed page, other joystick, server, hand-over) leaves the robot at rest"
+)
 @pytest.mark.parametrize("case", ENDS)
 def test_the_end_of_a_drive_leaves_the_robot_at_rest(room, case):
     end, driver, lost = ENDS[case]
@@ -68,6 +76,7 @@ def test_the_end_of_a_drive_leaves_the_robot_at_rest(room, case):
     assert room.lost == [(ANNA, why) for why in lost]
 
 
+@claim("One page drives: others ...", because="every message of others")
 @pytest.mark.parametrize("other", [0, BOB])
 def test_other_clients_change_nothing(room, other):
     room.drive()
@@ -83,6 +92,7 @@ def test_other_clients_change_nothing(room, other):
     assert room.session.state == (ANNA, "ada", False, True, "")
 
 
+@claim("A recording takes the same session, needs no beats, and plays from where it was put")
 def test_a_recording_takes_the_same_place_and_needs_no_beats(room):
     room.session.take(ANNA, "ada", room.now, plays=True)
     room.pass_time(10.0)
@@ -123,6 +133,7 @@ def hand(room, n, now, position=REST, *, t=None, beat=1, pad=None):
     room.session.input(ANNA, message, now)
 
 
+@claim("0.2 s of silence is a loss, 5 s free the session")
 def test_silence_for_a_fifth_of_a_second_is_a_loss_and_for_five_frees_the_session(room):
     sit(room)
     hand(room, 1, 0.0)
@@ -151,6 +162,7 @@ FRESH = {  # inputs after the beat 1 at the time 0 -> the last that is taken; ho
 }  # fmt: skip
 
 
+@claim("What makes an input fresh: its number, its beat, its time on the way")
 @pytest.mark.parametrize("case", FRESH)
 def test_inputs_that_are_fresh(room, case):
     inputs, newest, sent = FRESH[case]
@@ -202,6 +214,7 @@ PADS = {  # (time, position, the gamepad's own time) -> whether it is frozen at 
 }  # fmt: skip
 
 
+@claim("A gamepad that stands still is frozen after 0.2 s, if its time went on by itself")
 @pytest.mark.parametrize("case", PADS)
 def test_a_gamepad_whose_time_went_on_eight_times_is_frozen_after_a_fifth_of_a_second(room, case):
     inputs, is_frozen = PADS[case]

@@ -15,7 +15,13 @@ from cockpit_server.ros.tabs import forms
 from cockpit_server.ros.tabs.outlets import Outlets
 from cockpit_server.tabs.publishing import Publishing
 from node_kit.errors import ServiceError
+from tutorial_testing.claims import claim
 from tutorial_testing.session_room import Free, page
+
+pytestmark = claim(
+    "A page that only looks publishes and calls nothing, nor one beside a driver; a hostile value "
+    "is one line"
+)
 
 
 @pytest.fixture
@@ -96,6 +102,9 @@ def test_who_may_publish_what(role, driver, topic, kind, why):
             source.on_set(client, 0.0, "/rate", {"value": "1"})
 
 
+@claim(
+    "A service that never answers is refused to the page that called it alone, and given up in time"
+)
 def test_a_service_that_never_answers_is_refused_to_its_page_alone(monkeypatch):
     """Not to others, and not to their Reset; and not without end: call_service ends in time."""
     started = []

@@ -8,6 +8,7 @@ from cockpit_server.errors import RefusedError
 from cockpit_server.graph import JOY, ODOMETRY, Graph, without
 from cockpit_server.ros import graph_watch
 from node_kit.rules.answer import Answer
+from tutorial_testing.claims import claim
 
 GRAPH = Graph(
     publishers={"/odom": {"/sim"}, "/robot_1/odom": {"/room"}, "/robot_2/odom": {"/room"}},
@@ -60,6 +61,7 @@ def master(monkeypatch):
     return answers
 
 
+@claim("A master that is silent is asked again, and one that has gone is noticed")
 @pytest.mark.parametrize(("question", "answer"), GONE)
 def test_master_that_has_gone_is_noticed(master, question, answer):
     watch = graph_watch.GraphWatch("/cockpit")

@@ -10,6 +10,7 @@ from cockpit_server.access import DRIVER, VIEWER
 from cockpit_server.hub import Hub
 from cockpit_server.limits import MOST_PAGES
 from cockpit_server.pages import TabSource
+from tutorial_testing.claims import claim
 from tutorial_testing.session_room import page
 
 
@@ -56,6 +57,7 @@ def clock():
     return clock
 
 
+@claim("One source that fails holds up no other")
 def test_failure_does_not_hold_up_other_sources_and_pages(clock):
     hub = Made(Broken(), Well(), tick=broken, clock=clock)
     (unwritable, _), *others = [hub.opened() for _ in range(3)]
@@ -67,6 +69,7 @@ def test_failure_does_not_hold_up_other_sources_and_pages(clock):
     assert len(hub.told) == 3  # each once: driving, the source, and one for that page
 
 
+@claim("Messages of pages that do not drive get 15 % of the thread, and wait for what they cost")
 def test_page_waits_for_what_messages_cost_unless_it_drives(clock):
     hub = Made(clock=clock)
     (guest, _), (driver, _) = hub.opened(), hub.opened()
@@ -97,6 +100,7 @@ def test_a_page_that_is_behind_gets_the_newest_once_it_has_read(clock):
         assert ("well" in kinds(sent)) != is_behind
 
 
+@claim("HTTP requests wait for what they cost, 4 s at most")
 def test_many_requests_wait_and_hold_up_others_for_a_while_only():
     hub = Made()
     waits = [hub.request_wait_s() for _ in range(1000)]
@@ -104,6 +108,7 @@ def test_many_requests_wait_and_hold_up_others_for_a_while_only():
     assert 1.0 < waits[-1] < 4.0
 
 
+@claim("Only a viewer makes room, and only for a driver")
 def test_only_a_viewer_makes_room_and_only_for_a_driver():
     hub = Made()
     pages = [hub.opened(VIEWER if n % 2 else DRIVER) for n in range(MOST_PAGES)]

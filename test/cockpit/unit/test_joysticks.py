@@ -10,8 +10,13 @@ from sensor_msgs.msg import Joy
 from cockpit_server.graph import JOY, Graph
 from cockpit_server.ros import joysticks
 from cockpit_server.ros.joysticks import LONGEST_JOY, Joysticks, shown
+from tutorial_testing.claims import claim
 from tutorial_testing.session_room import DRIVE, Topics, look, page, serialised
 
+pytestmark = claim(
+    "A hand that is still drives for as long as it is held; the cockpit publishes for the driven "
+    "robot alone"
+)
 GRAPH = Graph(subscribers={"/ada/joy": {"/joy2twist"}}, types={"/ada/joy": JOY})
 
 

@@ -3,8 +3,10 @@
 import pytest
 
 from cockpit_server.limits import SHARE, Budget
+from tutorial_testing.claims import claim
 
 
+@claim("Messages of pages ...", because="the budget")
 def test_a_budget_allows_a_burst_and_then_makes_pages_wait():
     budget = Budget(SHARE, SHARE)  # one is free, and each waits for a second
     for now, wait_s in ((100.0, 0.0), (100.0, 0.0), (100.0, 1.0), (101.0, 1.0), (103.5, 0.0)):

@@ -4,6 +4,7 @@ import pytest
 from rosgraph_msgs.msg import Log
 
 from cockpit_server.tabs.logs import Logs, without_folders
+from tutorial_testing.claims import claim
 from tutorial_testing.session_room import Topics, look, page
 
 
@@ -24,6 +25,7 @@ def test_page_that_watches_the_log_gets_each_line_once():
     assert lines("d", log=True) == ["c", "d"]  # the page has the others
 
 
+@claim("Folders of the server are not shown")
 @pytest.mark.parametrize(
     ("text", "shown_text"),
     [("in /home/ada/ws/x.bag", "in ./x.bag"), ("/home/ada/.ros/log", "~/.ros/log"),

@@ -13,8 +13,14 @@ from cockpit_server.ros.tabs import outlets
 from cockpit_server.ros.tabs.outlets import Outlet, Outlets
 from cockpit_server.tabs import publishing
 from cockpit_server.tabs.publishing import VELOCITY, Publishing
+from tutorial_testing.claims import claim
 from tutorial_testing.session_room import ANNA, BOB, Free, look, page
 
+pytestmark = claim(
+    "What a page publishes by a form ends when the page is silent, late, hidden, gone or must not; "
+    "what moves a robot makes the page the driver, by name; Stop of any page that may drive ends "
+    "that; each end publishes one zero within 0.6 s, at any rate and once"
+)
 TEXT = "std_msgs/String"
 VALUES = {VELOCITY: {"linear/x": "1"}, TEXT: {"data": "a"}, JOY: {"axes": "[1]", "buttons": "[1]"}}
 TICK_S, BEAT_S = 0.01, 0.05

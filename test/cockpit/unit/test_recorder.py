@@ -8,9 +8,14 @@ import pytest
 from cockpit_server.errors import RefusedError
 from cockpit_server.pages import LOOKS_ONLY
 from cockpit_server.ros.tabs import recorder
+from tutorial_testing.claims import claim
 from tutorial_testing.session_room import page
 from tutorial_testing.waiting import wait_for
 
+pytestmark = claim(
+    "A recording that cannot be made for lack of space, or ends by itself, says so; each has a "
+    "name of its own"
+)
 # In the place of rosbag record: its file has a line once it has ended as it is asked to.
 FAKE = 'trap \'echo whole > "$0"; exit\' INT; touch "$0.active"; for n in {1..99}; do sleep 1; done'
 
@@ -43,6 +48,7 @@ def test_one_recording_ends_whole(one, tmp_path):
     assert [said["name"] for said in sent] == ["", path.name, ""]
 
 
+@claim("Tab Bag records ...", because="a cockpit that is killed")
 def test_a_recording_ends_whole_with_the_thread_that_started_it(one, monkeypatch, tmp_path):
     """As a cockpit does that is killed, all threads at once."""
     wait = lambda _: not wait_for(lambda: list(tmp_path.glob("*.active")), "begin")  # noqa: E731

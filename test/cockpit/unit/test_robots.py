@@ -10,7 +10,10 @@ from nav_msgs.msg import Odometry
 from cockpit_server.graph import JOY, ODOMETRY, Graph, topic_of
 from cockpit_server.tabs.motion import Motion, covered
 from cockpit_server.tabs.robots import Robots, shown
+from tutorial_testing.claims import claim
 from tutorial_testing.session_room import Topics, look, page
+
+pytestmark = claim("All robots are shown, impossible places are left out")
 
 
 def graph(*robots):

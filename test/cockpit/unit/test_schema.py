@@ -7,8 +7,10 @@ import pytest
 import cockpit_server.ros.cockpit_node  # noqa: F401  which imports every source
 from cockpit_server.pages import TabSource
 from cockpit_server.schema import Schema, check_lengths
+from tutorial_testing.claims import claim
 from tutorial_testing.socket_page import GOOD
 
+pytestmark = claim("Messages have a fixed schema with bounds")
 SOURCES = [s for s in TabSource.__subclasses__() if s.__module__.startswith("cockpit_server.")]
 SCHEMA = Schema(SOURCES)
 LONG = "x" * 41

@@ -13,6 +13,7 @@ from tf2_msgs.msg import TFMessage
 
 from cockpit_server.graph import ODOMETRY, Graph
 from cockpit_server.tabs import map_and_scan
+from tutorial_testing.claims import claim
 from tutorial_testing.session_room import Topics, look, page, serialised
 
 TYPES = {
@@ -51,6 +52,7 @@ class Seen(Topics):
         return {message["kind"]: message for message in look(self.source, self.page, now=now)[0]}
 
 
+@claim("Floor: map, scan ...", because="until the world ends")
 def test_a_page_gets_the_map_and_the_scan_when_they_change():
     seen = Seen()
     assert seen.look() == {}  # no map, as on an empty plane

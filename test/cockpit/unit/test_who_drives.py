@@ -13,6 +13,7 @@ from cockpit_server.driving.who_drives import CONNECT_S, Driving
 from cockpit_server.errors import RefusedError
 from cockpit_server.graph import JOY, POSE, Graph
 from cockpit_server.pages import LOOKS_ONLY
+from tutorial_testing.claims import claim
 from tutorial_testing.session_room import ANNA, BOB, DRIVE, REST, Topics, look, page
 
 ADA = {"robot": "ada", "mode": "D"}
@@ -59,6 +60,7 @@ def driven():
     return made
 
 
+@claim("A page drives once joy2twist is connected")
 @pytest.mark.parametrize(
     ("is_connected", "after_s", "drives"),
     [(False, CONNECT_S - 0.2, False), (True, 0.0, True), (False, CONNECT_S, True)],
@@ -74,6 +76,7 @@ def test_page_drives_once_all_subscribers_are_connected_or_after_a_while(
     assert made.session.armed == drives
 
 
+@claim("Stop of any page that may drive stops the driver")
 def test_stop_of_another_page_stops_the_driver_and_a_viewers_does_nothing(driven):
     client, sent = driven.anna
     with pytest.raises(RefusedError, match=LOOKS_ONLY):
@@ -87,6 +90,7 @@ def test_stop_of_another_page_stops_the_driver_and_a_viewers_does_nothing(driven
     assert driven.driven is None
 
 
+@claim("Another node on the same joy takes precedence")
 def test_another_joystick_frees_the_session(driven):
     driven.rival = "/player"
     driven.beat(driven.now)
@@ -94,6 +98,11 @@ def test_another_joystick_frees_the_session(driven):
     assert "rosnode kill /player" in driven.anna[1][-1]["text"]
 
 
+@claim(
+    "A viewer's page says why its buttons are grey; a refusal is said beforehand; while a node "
+    "drives, or only turtles are running, the page says so and offers no Drive; where nothing can "
+    "be reset, no Reset"
+)
 @pytest.mark.parametrize(
     ("role", "robot", "rival", "driver", "refusal"),
     [
@@ -117,6 +126,7 @@ def test_page_is_told_beforehand_why_it_may_not_drive(role, robot, rival, driver
             made.on_drive(made.anna[0], 0.0, robot, "D")
 
 
+@claim("A viewer's page ...", because="only turtles; no Reset")
 @pytest.mark.parametrize(("nodes", "refusal"), [(set(), NO_ROBOT), ({"/sim"}, TURTLES)])
 def test_without_a_robot_the_page_says_what_is_running_and_resets_none(nodes, refusal):
     made, at = Made(), "/turtle1/pose"
@@ -161,6 +171,7 @@ def test_a_recording_is_published_until_its_end_or_until_its_page_is_cut(is_cut,
     assert not made.plays(player) and made.driven is None
 
 
+@claim("Reset puts one ...", because="the refusal")
 def test_robot_is_not_reset_while_another_drives_it():
     made = Made()
     made.report = Report("driving")

@@ -5,8 +5,10 @@ import pytest
 from cockpit_server.driving import reasons
 from cockpit_server.driving.reasons import About, Report, sentence
 from cockpit_server.pages import LOOKS_ONLY
+from tutorial_testing.claims import claim
 from tutorial_testing.session_room import ANNA, BOB
 
+pytestmark = claim("Who drives, and why the robot stands, in one set of words")
 MOVING, ARMED, FREE = Report("driving"), Report("armed", "", "4"), Report("armed", "", "none")
 PLAYS = ("/rosbag_play",)
 SEAT = About(driver=ANNA, name="Firefox", armed=True, report=ARMED)
@@ -41,6 +43,7 @@ def test_who_drives(case):
     assert (reasons.driver(about) == "") == said.startswith(("Nobody", "No joystick"))
 
 
+@claim("A page says how ...", because="every kind of node")
 def test_a_rival_is_paused_where_it_can_be_and_else_ended():
     """The end of rosbag ends the launch file that started it, and with it the page."""
     services = {"/rosbag/pause_playback"}

@@ -5,8 +5,10 @@ import subprocess
 
 import pytest
 
+from tutorial_testing.claims import claim
 from tutorial_testing.processes import REPOSITORY
 
+pytestmark = claim("The course that COURSES.md begins with judges a right and a wrong program")
 PAGE = (REPOSITORY / "common/doc/COURSES.md").read_text()
 MANIFEST = """<package format="2"><name>hello</name><version>0.0.0</version>
 <description>x</description><maintainer email="s@u.example">s</maintainer><license>x</license>

@@ -2,10 +2,12 @@
 
 from fake_turtlebot_sim.io.bag_replay import replay
 from fake_turtlebot_sim.simulator.parameters import SimulatorParameters
+from tutorial_testing.claims import claim
 
 LEAST = 100
 
 
+@claim("The simulator's figures, of a class that scans too", because="without ROS")
 def test_replay_of_an_hour(benchmark, figure, tmp_path):
     commands = [(k * 50_000_000, (0.5, 0.3 * (-1) ** (k // 60))) for k in range(3600 * 20)]
     run = lambda: replay(commands, tmp_path / "hour.bag", SimulatorParameters())  # noqa: E731

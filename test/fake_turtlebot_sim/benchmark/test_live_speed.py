@@ -5,6 +5,9 @@ import numpy as np
 import pytest
 from live import BARE_NODE, FAKE_TURTLEBOT, PERIOD_NS, lost_periods, observe, topics_of
 
+from tutorial_testing.claims import claim
+
+pytestmark = claim("The simulator's figures, of a class that scans too")
 MESSAGES = ["/odom", "/tf", "/joint_states"]
 BEAMS, ROBOTS, SECONDS, MOST_LOAD = 640, 30, 20, 0.3  # A whole class scans.
 

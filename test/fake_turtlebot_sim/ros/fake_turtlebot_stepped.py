@@ -14,6 +14,7 @@ from std_msgs.msg import Empty
 from std_srvs.srv import Empty as EmptyService
 from tf2_msgs.msg import TFMessage
 
+from tutorial_testing.claims import claim
 from tutorial_testing.robot import Moment, Robot
 from tutorial_testing.rostests import RosTest
 from tutorial_testing.waiting import wait_for
@@ -37,6 +38,12 @@ class SteppedRobotTest(RosTest):
         self.cmd_vel, self.clock = self.connected("cmd_vel", Twist), self.publisher("/clock", Clock)
         self.robot = self.enter(Robot())
 
+    @claim(
+        "Frames, joints, start and `~publish_tf` are parameters; pose estimate and the two resets "
+        "put the robot elsewhere, and a pose in another frame is refused"
+    )
+    @claim("Simulated time may pause, jump and be set back", because="end to end")
+    @claim("Too fast is scaled ...", because="the reports")
     def test_it_is_limited_stops_by_itself_is_put_elsewhere_and_bears_a_clock_set_back(self):
         transforms = self.record("/tf", TFMessage)
         told, truths = (self.record(one, Odometry) for one in ("odom", "base_pose_ground_truth"))

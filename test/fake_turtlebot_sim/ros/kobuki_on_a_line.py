@@ -14,6 +14,7 @@ from kobuki_protocol.commands import GetController, Outputs, Request
 from kobuki_protocol.feedback import Core
 from kobuki_protocol.identity import Controller, FirmwareVersion
 from node_kit.ros.graph.ros_api import call
+from tutorial_testing.claims import claim
 from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program, environment, free_port, suspended
 from tutorial_testing.rostests import RosTest
@@ -28,6 +29,10 @@ def call_service(name, kind, *values):
     return rospy.ServiceProxy(f"{NODE}/{name}", kind)(*values)
 
 
+@claim(
+    "serial_kobuki needs no master and follows each that comes; its link, cable and switch are a "
+    "robot's"
+)
 class SerialKobukiTest(RosTest):
     def test_1_it_needs_no_master_and_is_seen_by_each_that_comes(self):
         port = free_port()

@@ -5,6 +5,7 @@ from nav_msgs.msg import MapMetaData, OccupancyGrid
 from nav_msgs.srv import GetMap, LoadMap
 from rosgraph_msgs.msg import Log
 
+from tutorial_testing.claims import claim
 from tutorial_testing.rostests import RosTest
 from tutorial_testing.waiting import wait_for
 
@@ -22,6 +23,7 @@ def write_map(folder, name, size):
 
 
 class MapServicesTest(RosTest):
+    @claim("The map has the topics and services of map_server")
     def test_services_give_and_change_what_is_published(self):
         folder = self.folder()
         first, second = write_map(folder, "first", 40), write_map(folder, "second", 50)

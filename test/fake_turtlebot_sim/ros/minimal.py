@@ -19,6 +19,7 @@ from std_msgs.msg import Int16MultiArray, String
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import MarkerArray
 
+from tutorial_testing.claims import claim
 from tutorial_testing.nodes import pid_of
 from tutorial_testing.processes import suspended
 from tutorial_testing.robot import Robot
@@ -67,6 +68,7 @@ def ahead(speed):
     return Twist(linear=Vector3(x=speed))
 
 
+@claim("`minimal.launch` has the topics and types of a TurtleBot 2, its mux and its Kobuki")
 class MinimalTest(RosTest):
     def test_1_map_markers_frames_and_scan_show_the_room(self):
         grids, scans = self.record("map", OccupancyGrid), self.record("scan", LaserScan)
@@ -88,6 +90,7 @@ class MinimalTest(RosTest):
         self.assertEqual((scan.header.frame_id, len(scan.ranges)), ("camera_depth_frame", 640))
         self.assertAlmostEqual(scan.ranges[320], 4.0 + BEHIND_M, delta=1e-3)  # the wall ahead
 
+    @claim("A bumped robot backs off and turns away", because="end to end")
     def test_2_at_the_wall_it_backs_off_however_the_stick_is_held(self):
         events, unmeasured = [], set()  # (when, event); ranges that are no numbers
         truths = self.record("base_pose_ground_truth", Odometry)
@@ -203,6 +206,7 @@ class MinimalTest(RosTest):
             "control command",
         )
 
+    @claim("The highest input ...", because="a suspension")
     def test_6_late_commands_move_nothing_and_those_of_now_do(self):
         active, log = self.record("cmd_vel_mux/active", String), self.record("/rosout", Log)
         wait_for(lambda: active and active[-1].data == "idle", "a mux that is idle")

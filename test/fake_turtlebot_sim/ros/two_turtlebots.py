@@ -4,6 +4,7 @@ from geometry_msgs.msg import Twist, Vector3
 from sensor_msgs.msg import LaserScan
 from tf2_msgs.msg import TFMessage
 
+from tutorial_testing.claims import claim
 from tutorial_testing.robot import Robot
 from tutorial_testing.rostests import RosTest
 from tutorial_testing.waiting import wait_for
@@ -13,6 +14,10 @@ STATIC = {"base_footprint": "base_link", "base_link": "gyro_link"}
 DRIVEN = {"odom": "base_footprint", "base_link": "wheel_left_link"}
 
 
+@claim(
+    "Two TurtleBots in groups have their own topics and frames; every link of the model hangs on "
+    "its robot"
+)
 class TwoTurtlebotsTest(RosTest):
     def test_each_starts_at_its_place_and_is_driven_by_its_own_input(self):
         first, second = (self.enter(Robot(f"{name}/")) for name in ("tb1", "tb2"))

@@ -4,12 +4,17 @@ import pytest
 
 from fake_turtlebot_sim.mux.arbitration import IDLE, TOGETHER_S, Arbiter, PublishingNode, Ruling
 from fake_turtlebot_sim.mux.parameters import Input
+from tutorial_testing.claims import claim
 
 INPUTS = (Input("navi", "navi", 1.0, 5), Input("safety", "safety", 0.2, 10),
           Input("teleop", "teleop", 1.0, 7))  # their order means nothing  # fmt: skip
 HERE, FAR = PublishingNode("/here"), PublishingNode("/far", is_remote=True)
 
 
+@claim(
+    "The highest input that is not silent drives; silence of all gives one zero; what comes during "
+    "a suspension is never obeyed"
+)
 def test_the_highest_input_that_is_not_silent_drives():
     arbiter = Arbiter(INPUTS)
     assert arbiter.active(0.0) == IDLE and not arbiter.must_stop(0.0)
@@ -52,6 +57,7 @@ PROGRAMS = {
 }
 
 
+@claim("Ordinary programs of any rhythm are obeyed")
 @pytest.mark.parametrize("times", PROGRAMS.values(), ids=PROGRAMS)
 def test_a_program_is_obeyed_whose_network_is_whole(times):
     running = Running()

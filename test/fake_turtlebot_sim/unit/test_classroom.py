@@ -5,8 +5,10 @@ import pytest
 pytest.importorskip("visualization_msgs", reason="no ROS for this Python: ./tutorial setup")
 
 from fake_turtlebot_sim.ros.classroom_bodies_node import markers
+from tutorial_testing.claims import claim
 
 
+@claim("classroom_bodies gives each robot a body and a name")
 def test_a_body_and_the_name_above_it():
     *body, name = everything = markers("ada", "ada/base_footprint")
     assert {m.header.frame_id for m in everything} == {"ada/base_footprint"}

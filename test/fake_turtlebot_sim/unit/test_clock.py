@@ -4,6 +4,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fake_turtlebot_sim.simulator.clock import MotionClock, PhaseLock
+from tutorial_testing.claims import claim
+
+pytestmark = claim("Simulated time may pause, jump and be set back")
 
 
 def test_a_clock_set_back_stops_motion_for_that_instant_only():
@@ -32,6 +35,7 @@ def test_the_same_instant_twice_is_no_clock_set_back():
     assert lock.deadline_ns == 160  # and not a period after 127
 
 
+@claim("Odometry, transform and wheels ...", because="the periods")
 @given(st.lists(st.integers(0, 1000), min_size=1))
 def test_however_late_the_next_deadline_is_ahead_and_in_phase(lateness):
     lock = PhaseLock(20, 100)

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 from fake_turtlebot_sim.simulator.contact import Piece, direction_to, drive_among, gap
 from fake_turtlebot_sim.simulator.differential_drive import drive
+from tutorial_testing.claims import claim
 
 R = 0.178
 WALL = (1.0, -5.0, 1.0, 5.0, 0.0)  # x = 1
@@ -27,6 +28,7 @@ velocities = st.tuples(
 )
 
 
+@claim("Contact with walls, posts and robots is exact, and the robot is never inside")
 @example(  # a circle of 0.1 um beside the end of a wall, whose gap is a rounding
     [post(0.0, 0.0, 0.0), (0.0, 0.0, 0.0, -1.0, 0.0)], (-1.0, 0.0, 0.0),
     [((1.0, 0.0), (1.0, 0.0), 1.0), ((-1.4901161193847696e-07, pi),) * 2 + (2.0,)],

@@ -7,7 +7,9 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from fake_turtlebot_sim.simulator.differential_drive import arc, limit, ramp, wrap_angle
+from tutorial_testing.claims import claim
 
+pytestmark = claim("Each path is an exact arc, or an exact ramp under limits of acceleration")
 ORIGIN = (0.0, 0.0, 0.0)
 POSE = st.tuples(st.floats(-1, 1), st.floats(-1, 1), st.floats(-3.14, 3.14))
 VELOCITY = st.tuples(st.floats(-1, 1), st.floats(-4, 4))

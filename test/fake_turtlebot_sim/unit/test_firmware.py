@@ -9,7 +9,12 @@ from fake_turtlebot_sim.simulator.world import World
 from kobuki_protocol import feedback, robot_packets
 from kobuki_protocol.framing import Framer
 from kobuki_protocol.identity import Controller, FirmwareVersion, HardwareVersion, UniqueId
+from tutorial_testing.claims import claim
 
+pytestmark = claim(
+    "serial_kobuki is a Kobuki's firmware on a pseudo terminal: commands, sensors, answers and "
+    "timeout"
+)
 MS = 1_000_000  # [ns]
 STRAIGHT_ON = bytes.fromhex("aa 55 06 01 04 64 00 00 00 67")  # 100 mm/s
 ON_THE_SPOT = bytes.fromhex("aa 55 06 01 04 39 00 01 00 3b")  # 57 mm/s of each wheel, to the left

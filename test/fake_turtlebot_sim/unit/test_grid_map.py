@@ -14,7 +14,9 @@ from fake_turtlebot_sim.simulator.grid_map import read_map
 from fake_turtlebot_sim.simulator.parameters import parse_parameters
 from fake_turtlebot_sim.simulator.world_files import read_world
 from fake_turtlebot_sim.simulator.world_messages import world_map
+from tutorial_testing.claims import claim
 
+pytestmark = claim("Maps are read as map_server reads them")
 ABOUT = {
     "image": "map.png", "resolution": 0.05, "origin": [0.0, 0.0, 0.0], "negate": 0,
     "occupied_thresh": 0.65, "free_thresh": 0.196,

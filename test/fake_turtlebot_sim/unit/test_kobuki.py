@@ -10,8 +10,10 @@ from fake_turtlebot_sim.simulator.parameters import SimulatorParameters
 from fake_turtlebot_sim.simulator.sensors import Sensed
 from fake_turtlebot_sim.simulator.simulated_robot import CommandResult, SimulatedRobot
 from kobuki_protocol import messages, robot_packets
+from tutorial_testing.claims import claim
 from tutorial_testing.processes import REPOSITORY
 
+pytestmark = claim("Encoders, bits, voltage and motor power are those of a Kobuki")
 SECOND = 1_000_000_000
 TICKS_PER_M = 11724.4  # 11.7244 ticks/mm
 

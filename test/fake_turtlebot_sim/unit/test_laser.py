@@ -9,6 +9,7 @@ from fake_turtlebot_sim.simulator.differential_drive import composed
 from fake_turtlebot_sim.simulator.laser import Laser, Scanner
 from fake_turtlebot_sim.simulator.parameters import SimulatorParameters
 from fake_turtlebot_sim.simulator.world import World
+from tutorial_testing.claims import claim
 
 
 def crossings(pose, angles, walls, discs):
@@ -26,6 +27,7 @@ def crossings(pose, angles, walls, discs):
     return np.minimum(to_walls.min(axis=1), to_discs.min(axis=1))
 
 
+@claim("Each beam measures what is there")
 @pytest.mark.parametrize("view", [1.0, math.tau])
 def test_twenty_thousand_random_beams(view):
     random, count, far = np.random.default_rng(29), 500, 4.0

@@ -7,7 +7,12 @@ from fake_turtlebot_sim.simulator.differential_drive import arc, wheel_rates
 from fake_turtlebot_sim.simulator.odometry_errors import OdometryErrors
 from fake_turtlebot_sim.simulator.parameters import SimulatorParameters
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
+from tutorial_testing.claims import claim
 
+pytestmark = claim(
+    "Unequal wheels bend the true path, noise spoils the measurement, and the covariance is that "
+    "of the errors"
+)
 SECOND = 10**9  # [ns]
 
 

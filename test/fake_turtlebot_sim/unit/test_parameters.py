@@ -11,7 +11,11 @@ import yaml
 import fake_turtlebot_sim
 from fake_turtlebot_sim.safety.parameters import SafetyParameters
 from fake_turtlebot_sim.simulator.parameters import SimulatorParameters, parse_parameters
+from tutorial_testing.claims import claim
 
+pytestmark = claim(
+    "A mistake in the simulator's parameters is one line; config/ has the table's defaults"
+)
 PACKAGE = Path(fake_turtlebot_sim.__file__).parents[2]
 ALL = (*fields(SimulatorParameters), *fields(SafetyParameters))
 CHECKS = {one.name: one.metadata["check"] for one in ALL}

@@ -5,11 +5,13 @@ from kobuki_msgs.msg import BumperEvent
 
 from fake_turtlebot_sim.safety.parameters import parse_parameters
 from fake_turtlebot_sim.safety.reaction import Reaction
+from tutorial_testing.claims import claim
 
 LEFT, CENTER, RIGHT = BumperEvent.LEFT, BumperEvent.CENTER, BumperEvent.RIGHT
 BACK = (-0.1, 0.0)
 
 
+@claim("A bumped robot backs off and turns away")
 @pytest.mark.parametrize("kind", ["bumper", "cliff"])
 @pytest.mark.parametrize(
     ("sensors", "velocity"),

@@ -15,9 +15,14 @@ from sensor_msgs.msg import Joy
 from cockpit_server.ros.tabs import bag_files
 from fake_turtlebot_sim.io import replay_bag as replay_command
 from gamepad.ros.bags import check_recording
+from tutorial_testing.claims import claim
 from tutorial_testing.hostile import end_of
 from tutorial_tools.ros import rqt_bag
 
+pytestmark = claim(
+    "replay_bag drives as the simulator, the same to the byte; a mistake or a damaged bag is one "
+    "line"
+)
 START = Time(1_400_000_000)
 PRESET = Path(__file__).parents[3] / "joy2twist" / "config" / "f710_d.yaml"
 

@@ -17,7 +17,12 @@ from fake_turtlebot_sim.simulator.sensors import bumpers
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot, meet
 from fake_turtlebot_sim.simulator.world import Surroundings, World, gaps
 from fake_turtlebot_sim.simulator.world_messages import world_map
+from tutorial_testing.claims import claim
 
+pytestmark = claim(
+    "At a wall the wheels stall; bumpers, cliffs and dropped wheels are where the Kobuki's are; "
+    "robots stop each other"
+)
 R = 0.178
 EXACT = 1e-9
 PERIOD_NS = 20_000_000

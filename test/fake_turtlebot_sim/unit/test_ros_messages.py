@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from fake_turtlebot_sim.simulator.parameters import SimulatorParameters
 from fake_turtlebot_sim.simulator.ros_messages import RobotMessages, pose_on_plane
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
+from tutorial_testing.claims import claim
 
 STAMP = Time(12, 34)
 
@@ -35,6 +36,7 @@ def told(parameters, prefix="", pose=(1 / 3, 2 / 3, 0.5)):
     return messages, robot
 
 
+@claim("Odometry, transform and wheels are of one state with one stamp; periods do not drift")
 def test_one_stamp_the_right_frames_the_executed_twist_and_the_wheels():
     messages, _ = told(
         SimulatorParameters(left_wheel_joint="left", right_wheel_joint="right"), "ada/"

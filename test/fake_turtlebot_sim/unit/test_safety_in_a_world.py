@@ -11,7 +11,9 @@ from fake_turtlebot_sim.simulator.sensors import Sensed
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
 from fake_turtlebot_sim.simulator.world_files import read_world, shipped_worlds
 from kobuki_protocol.events import EVENTS
+from tutorial_testing.claims import claim
 
+pytestmark = claim("No stick held forward drives over an edge or pushes for long")
 PERIOD_S = 0.02  # sensor period
 DELAY, LONGEST_DELAY = 2, 5  # periods from an event to the command that answers it
 LONGEST_PUSH_S = 0.5

@@ -7,6 +7,7 @@ import pytest
 
 from fake_turtlebot_sim.simulator.parameters import SimulatorParameters
 from fake_turtlebot_sim.simulator.simulated_robot import CommandResult, SimulatedRobot
+from tutorial_testing.claims import claim
 
 KOBUKI = SimulatorParameters()
 SECOND = 10**9  # [ns]
@@ -42,6 +43,7 @@ LOOKS = {
 }
 
 
+@claim("The pose depends on the commands and when they arrive, not on the rate")
 @pytest.mark.parametrize("model", [KOBUKI, RAMPING], ids=["sudden", "ramping"])
 @pytest.mark.parametrize("looks", LOOKS.values(), ids=LOOKS)
 def test_the_pose_depends_on_the_commands_and_not_on_the_rate(model, looks):
@@ -52,6 +54,7 @@ def test_the_pose_depends_on_the_commands_and_not_on_the_rate(model, looks):
     assert looked_at == pytest.approx(left_alone, rel=0, abs=1e-9)
 
 
+@claim("It stops by itself at the instant of the timeout")
 @pytest.mark.parametrize("velocity", [(0.7, 1.0), (-0.7, 0.0), (0.0, 0.0)])
 def test_the_robot_stops_at_the_instant_of_the_timeout(velocity):
     robot, moves = SimulatedRobot(KOBUKI), any(velocity)
@@ -83,6 +86,7 @@ def test_a_ramp_takes_as_long_as_the_slower_part():
         assert robot.state()[3:5] == pytest.approx(velocity)
 
 
+@claim("Too fast is scaled down, not finite is ignored and feeds no timeout, each is reported once")
 @pytest.mark.parametrize("bad", [(nan, 0.0), (0.0, nan), (inf, 0.0), (0.0, -inf)])
 def test_what_is_too_fast_is_limited_and_what_is_not_finite_feeds_no_timeout(bad):
     robot = SimulatedRobot(KOBUKI)

@@ -14,8 +14,10 @@ from fake_turtlebot_sim.simulator.parameters import parse_parameters
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
 from fake_turtlebot_sim.simulator.world_files import read_world
 from fake_turtlebot_sim.simulator.world_messages import world_map, world_markers
+from tutorial_testing.claims import claim
 from tutorial_testing.hostile import end_of
 
+pytestmark = claim("World files have bounds; a mistake or a hostile file is one line")
 OURS = """\
 walls:
   - [[0, 0], [4, 0], [4, 3]]

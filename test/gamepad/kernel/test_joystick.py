@@ -15,6 +15,7 @@ from pathlib import Path
 
 import pytest
 
+from tutorial_testing.claims import claim
 from tutorial_testing.processes import Program, free_port
 
 LONGEST_S = 3600.0  # alone some minutes; beside other tests several times as long
@@ -99,6 +100,7 @@ def in_guest(command, folder, shift):
 
 
 # An instruction takes 2**shift ns: for the page less, which the cockpit calls late after 0.2 s.
+@claim("A joystick of a real kernel drives, by the nodes and by Chromium's page, in both modes")
 @pytest.mark.parametrize(("script", "shift"), [("drive", 1), ("drive_page", 0)])
 def test_a_joystick_of_the_kernel_drives_the_robot_by(script, shift, tmp_path):
     needed = ["chromedriver"] * ("page" in script) + [QEMU, BUSYBOX] * (not makes_joysticks())

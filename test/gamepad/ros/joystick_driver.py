@@ -17,6 +17,7 @@ from gamepad.io.pads import StreamPad
 from gamepad.js_event import FULL
 from gamepad.virtual.controls import Controls, positions
 from joy_to_twist.states import State
+from tutorial_testing.claims import claim
 from tutorial_testing.keys import LAUNCH, DiagnosedRobot
 from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
@@ -35,6 +36,10 @@ CORNERS = [(1.0, 0.0), (1.0, 1.0), (0.0, 1.0), (0.0, 0.0)]  # [m], in their orde
 NEAR_M = 0.25  # on a busy machine each move may be some hundredths of a second off
 
 
+@claim(
+    "A script of moves drives a square; a recording arrives through a FIFO as it was made; a "
+    "mistake in a script is one line"
+)
 class DriverTest(RosTest):
     def setUp(self):
         self.device = str(self.folder() / "js0")
@@ -91,6 +96,7 @@ class DriverTest(RosTest):
         wait_for(lambda: len(self.joys) > count, "message")
         self.assertEqual(self.joys[count].buttons[4], 1)
 
+    @claim("A burst is coalesced, and a still stick hardly wakes the driver")
     def test_a_still_stick_hardly_wakes_the_driver(self):
         program = self.start_driver("autorepeat_rate:=0")
         pad = self.plug_in()

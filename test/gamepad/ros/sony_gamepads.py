@@ -3,11 +3,13 @@
 from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import Joy
 
+from tutorial_testing.claims import claim
 from tutorial_testing.rostests import RosTest
 from tutorial_testing.waiting import wait_for
 
 
 class SonyGamepadsTest(RosTest):
+    @claim("joy_remap makes one gamepad look like another; a mistake in a formula is one line")
     def test_a_ps4_gamepad_has_the_order_of_ps3joy(self):
         received, log = self.record("joy", Joy), self.record("/rosout", Log)
         pad = self.connected("joy_orig", Joy, queue_size=10)

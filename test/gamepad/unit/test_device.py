@@ -12,6 +12,7 @@ from gamepad.driver.container import INITIAL, in_container
 from gamepad.driver.device_choice import DeviceError, choose_by_name, explain
 from gamepad.driver.parameters import load
 from gamepad.io.device import Finder
+from tutorial_testing.claims import claim
 
 JS0 = "/dev/input/js0"
 NAMES = {JS0: "Pad F710", "/dev/input/js1": "Pad F310", "/dev/input/js2": "Pad"}
@@ -59,6 +60,7 @@ def test_what_is_no_joystick_is_refused():
         load({"dev": "js0"})
 
 
+@claim("Another user's FIFO, and what is no joystick, is refused")
 @pytest.mark.parametrize(
     ("owner", "group", "mode", "is_refused"),
     [

@@ -9,6 +9,7 @@ from gamepad.driver.parameters import DriverParameters
 from gamepad.driver.report import SILENT_FOR, DriverReport
 from gamepad.driver.schedule import Schedule
 from gamepad.js_event import SIGN_OF_LIFE_MS
+from tutorial_testing.claims import claim
 from tutorial_testing.gamepad_events import AXIS, BUTTON, INIT, driver, events, sign
 
 INF = float("inf")
@@ -43,6 +44,7 @@ def test_a_lost_gamepad_gives_one_neutral_message_with_released_triggers(how, se
     assert ours.lost(0.2) == driver().lost(0.2) == []  # nobody has to know
 
 
+@claim("After a loss it publishes one neutral message, then nothing until the gamepad is touched")
 def test_after_a_loss_it_is_silent_until_the_user_touches_the_gamepad():
     assert 0.5 < SHORTEST_SILENCE_S < 1.0  # longer than joy2twist's ~joy_timeout
     ours = driver(sticky_buttons=True)
@@ -68,6 +70,7 @@ ALIVE = [(events(*STATE), 0.9), (sign(*STATE), 1.0)]
 KERNEL, FIFO = True, False
 
 
+@claim("A source that owes signs of life is lost without them")
 @pytest.mark.parametrize(
     ("about", "kernel_device", "read", "last_sign"),
     [
@@ -154,6 +157,7 @@ class Simulated:
             self.untold = []
 
 
+@claim("A burst is coalesced, and a still stick hardly wakes the driver", because="bursts")
 @given(
     st.lists(st.tuples(st.integers(0, 30), st.booleans()), max_size=60),
     st.integers(0, 20),

@@ -7,8 +7,10 @@ import yaml
 
 from gamepad.remap.formulas import formula
 from gamepad.ros.joy_remap_node import load
+from tutorial_testing.claims import claim
 from tutorial_testing.processes import REPOSITORY
 
+pytestmark = claim("joy_remap makes one ...", because="every formula and its mistakes")
 CONFIG = REPOSITORY / "common/stand_ins/joy/config"
 CONTROLS = {"axes": [0.5, -0.25, 1.0], "buttons": [0, 1]}
 

@@ -4,6 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tutorial_testing.claims import claim
 from tutorial_testing.gamepad_events import AXIS, BUTTON, INIT, driver, events
 
 
@@ -43,6 +44,7 @@ EVENTS = st.tuples(
 DEADZONES = st.sampled_from((0.0, 0.05, 0.5, 1.0))
 
 
+@claim("joy_node publishes what Noetic's does for the same events")
 @given(st.lists(EVENTS, max_size=40), DEADZONES, st.booleans(), st.booleans())
 def test_every_sequence_gives_what_upstream_gives(sequence, deadzone, trigger, sticky):
     given = {"deadzone": deadzone, "default_trig_val": trigger, "sticky_buttons": sticky}

@@ -16,7 +16,12 @@ from gamepad.io.pads import SIGN_OF_LIFE_S, PadError, StreamPad
 from gamepad.js_event import SIGN_OF_LIFE_MS, Decoder
 from gamepad.liveness import Trembling
 from gamepad.virtual.controls import Controls, positions
+from tutorial_testing.claims import claim
 
+pytestmark = claim(
+    "A held key or stick of ours trembles, so that it drives for as long as it is held, with "
+    "Noetic's joy_node too"
+)
 REST = positions(F710_D, Controls())
 PUSHED = positions(F710_D, Controls(left_stick=(0.0, 1.0), held=frozenset(["LB"])))
 # Least, most and middle of an axis in hid-input.c or xpad.c.

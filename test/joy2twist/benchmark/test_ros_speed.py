@@ -9,6 +9,8 @@ from statistics import median
 import pytest
 from live import JOY2TWIST, QUIET, delays_and_processor, master, running
 
+from tutorial_testing.claims import claim
+
 ALL_SAFETY = [*JOY2TWIST, "_joy_timeout:=0.5", "_vigilance_timeout:=3.0"]
 # The launch files for a gamepad display no axes; the node alone does, as the tutorial's.
 NODES = {"": [*ALL_SAFETY, "_log_rate:=0"], ", axes displayed": ALL_SAFETY}
@@ -17,6 +19,7 @@ ROUNDS = 9
 PARTS = ("median", "99 of 100", "processor time per message")
 
 
+@claim("joy2twist's figures of delay, beside a bare relay")
 @pytest.mark.parametrize(
     # most: times the median delay, and the processor time, of the bare relay
     ("rate", "count", "shows", "most"),

@@ -13,6 +13,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Twist
 from sensor_msgs.msg import Joy
 
+from tutorial_testing.claims import claim
 from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program, free_port
 from tutorial_testing.rostests import RosTest
@@ -35,6 +36,7 @@ def joy(forward, *held, age_s=0.0):
     return message
 
 
+@claim("Dead-man button, timeout, age, arming, soft and hard stop")
 class RulesTest(RosTest):
     def begin(self, **given):
         """Start a node with these parameters, and plug a joystick in, which is released."""
@@ -80,6 +82,9 @@ class RulesTest(RosTest):
     def wait_for_state(self, state):
         wait_for(lambda: self.states and self.states[-1].startswith(state), state)
 
+    @claim(
+        "The tutorial's node: each Joy gives one Twist, zero for what cannot be used, nothing else"
+    )
     def test_bare_it_answers_each_message_by_one_velocity_and_what_is_unusable_by_zero(self):
         self.begin()
         bad = [Joy(axes=axes) for axes in ([nan, 0.5], [0.0, inf], [0.5], [])]
@@ -100,6 +105,10 @@ class RulesTest(RosTest):
         self.check([joy(0.25, LB)] * 10, [0.25] * 10 + stop)
         self.check([joy(0.25, LB), *[joy(0.25, LB, age_s=2.0)] * 5], [0.25, *stop])
 
+    @claim(
+        "A gamepad out of reach, a joystick that does not change, stops the robot after "
+        "`~vigilance_timeout`"
+    )
     def test_a_joystick_that_does_not_change_stops(self):
         self.begin(**ARMS, vigilance_timeout=1.0)
         self.joystick.publish(joy(0.0))
@@ -127,6 +136,10 @@ class RulesTest(RosTest):
         self.check([joy(0.0), joy(0.25, LB)], [0.25, 0.0, 0.0, 0.0])
 
 
+@claim(
+    "Under simulated time the watchdogs go by the machine's clock; without a master it drives on "
+    "and stops; however it is ended it sends zero and exits in time; a mistake is one line"
+)
 class ProgramTest(RosTest):
     def test_rosnode_kill_stops_the_robot_in_time(self):
         """The stick stays forward, but the last velocity is zero."""

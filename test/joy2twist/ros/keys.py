@@ -3,6 +3,7 @@
 import os
 import subprocess
 
+from tutorial_testing.claims import claim
 from tutorial_testing.keys import KeyboardRig
 from tutorial_testing.processes import suspended
 from tutorial_testing.rostests import RosTest
@@ -11,6 +12,10 @@ from tutorial_testing.waiting import wait_for
 HINT = "  without LB: tap space, then this key at once"
 
 
+@claim(
+    "(b) Keys that were typed during a suspension do not drive; a held screen or a closed terminal "
+    "leaves a standing robot"
+)
 class FaultsOfTheKeys(RosTest):
     def setUp(self):
         self.rig = self.enter(KeyboardRig())
@@ -23,6 +28,7 @@ class FaultsOfTheKeys(RosTest):
             self.terminal.press(key)
         self.assertTrue(self.rig.stays_at_rest())
 
+    @claim("Keys drive while they are held; Ctrl-C leaves a standing robot")
     def test_keys_move_the_robot_while_lb_is_held_and_ctrl_c_leaves_nothing(self):
         self.assertIn("LB, the dead-man button: hold it", self.terminal.screen)
         shown = f"left stick +0.0 +1.0{HINT}"

@@ -8,6 +8,7 @@ import rospkg
 from geometry_msgs.msg import Twist
 from sensor_msgs.msg import Joy
 
+from tutorial_testing.claims import claim
 from tutorial_testing.hands import record
 from tutorial_testing.processes import Program
 from tutorial_testing.robot import Robot
@@ -22,6 +23,10 @@ SPEED = 0.35  # [m/s] at full deflection, config/f710_d.yaml
 
 
 class LaunchFilesTest(RosTest):
+    @claim(
+        "`launch_bag.launch` drives one velocity for each message, and Ctrl-C leaves a standing "
+        "robot"
+    )
     def test_launch_bag_drives_one_velocity_for_each_joy_until_ctrl_c(self):
         cmd_vel, robot = self.record("/cmd_vel", Twist), self.enter(Robot())
         folder = os.path.join(rospkg.RosPack().get_path("joy2twist"), "launch")
@@ -47,6 +52,7 @@ class LaunchFilesTest(RosTest):
             # Where a node has not ended after 15 s, roslaunch says so, and kills it.
             self.assertNotIn("escalating", launch.output)
 
+    @claim("On a TurtleBot: remapped ...", because="end to end, by a recording")
     def test_a_recording_drives_a_turtlebot_once_and_ends_the_launch(self):
         speeds = self.record(TELEOP, Twist)
         path = record(str(self.folder() / "short.bag"))

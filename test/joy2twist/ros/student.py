@@ -1,5 +1,6 @@
 """A classroom: students replay a recording, and each drives its own robot."""
 
+from tutorial_testing.claims import claim
 from tutorial_testing.hands import record
 from tutorial_testing.robot import Robot
 from tutorial_testing.rostests import RosTest
@@ -11,6 +12,7 @@ LONGEST_S = 120.0  # the recording takes 6 s, all programs on a busy machine a m
 
 
 class StudentTest(RosTest):
+    @claim("classroom.launch has thirty robots; students drive their own, and the others stand")
     def test_three_drive_their_own_robots_and_the_others_stand(self):
         robots = {name: self.enter(Robot(f"/{name}/")) for name in NAMES}
         wait_for(lambda: all(robot.odometry for robot in robots.values()), "thirty robots")

@@ -4,6 +4,7 @@ import re
 
 import pytest
 
+from tutorial_testing.claims import claim
 from tutorial_testing.processes import REPOSITORY, Program
 from tutorial_testing.waiting import wait_for
 
@@ -36,6 +37,7 @@ def alone(tmp_path, master_uri, monkeypatch):
         yield begin
 
 
+@claim("In a workspace of another, two folders are enough")
 def test_two_folders_and_a_file_of_teleop_twist_joy_drive_another_robot(alone):
     with alone(BASH) as node:
         wait_for(lambda: "hold button 4" in node.output or node.ended, "joy2twist")

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from PIL import ImageGrab
 
+from tutorial_testing.claims import claim
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
@@ -13,6 +14,7 @@ TRAIL = (255, 85, 0)  # colour of the odometry's arrows in sim.rviz
 TRAIL_PIXELS = 200
 
 
+@claim("RViz opens by itself and draws the robot's way")
 @pytest.mark.usefixtures("master_uri")
 def test_rviz_opens_by_itself_and_shows_the_trail(tutorial, screen):
     environment = {"DISPLAY": screen, "LIBGL_ALWAYS_SOFTWARE": "1"}

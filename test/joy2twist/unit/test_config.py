@@ -8,6 +8,7 @@ import yaml
 from joy_to_twist.parameters import load
 from joy_to_twist.teleoperation import Teleoperation
 from node_kit.rules.arming import ZERO
+from tutorial_testing.claims import claim
 
 CONFIG = Path(__file__).parents[3] / "joy2twist" / "config"
 PRESETS = {path.stem: yaml.safe_load(path.read_text()) for path in sorted(CONFIG.glob("*.yaml"))}
@@ -23,6 +24,7 @@ GAMEPADS = {
 }
 
 
+@claim("Every parameter has ...", because="the presets")
 @pytest.mark.parametrize("name", sorted({*GAMEPADS, *PRESETS}))
 def test_preset(name):
     axis_count, button_count, forward, left, dead_man, turbo = GAMEPADS[name]
@@ -46,6 +48,7 @@ def test_preset(name):
     assert f"{axis_count + 1} axes and not {axis_count}" in warnings[0]
 
 
+@claim("The three steps ...", because="45 lines")
 def test_a_step_is_read_at_a_glance():
     for step in CONFIG.with_name("scripts").glob("steps/*.py"):
         assert step.read_text().count("\n") <= 45, step

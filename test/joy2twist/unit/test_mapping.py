@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from joy_to_twist.mapping import BadJoyError, Mapping, approach, limit_speed
 from joy_to_twist.parameters import load
 from node_kit.rules.arming import ZERO
+from tutorial_testing.claims import claim
 
 AXES = (0.3, 0.4, 0.5, 0.6, 0.7, 0.8)
 PAD = {"enable_button": 0, "enable_turbo_button": 1}
@@ -26,6 +27,7 @@ TURBO_MAP = {**SIX_AXES, "enable_turbo_button": 1, "scale_linear_turbo": {"x": 2
 CAR = {"inverted_reverse": True}
 
 
+@claim("The tutorial's node: each ...", because="every axis and button")
 @pytest.mark.parametrize(
     ("about", "given", "axes", "buttons", "expected"),
     [

@@ -5,7 +5,9 @@ from dataclasses import asdict
 import pytest
 
 from joy_to_twist.parameters import Axis, Parameters, load
+from tutorial_testing.claims import claim
 
+pytestmark = claim("Every parameter has the bounds of its table, and the presets are within them")
 LINEAR_X, LINEAR_Y, LINEAR_Z, ROLL, PITCH, YAW = range(6)
 
 

@@ -11,8 +11,13 @@ from joy_to_twist.parameters import load
 from joy_to_twist.safety import Safety
 from joy_to_twist.states import Notice, State
 from node_kit.rules.arming import ZERO
+from tutorial_testing.claims import claim
 from tutorial_testing.over_time import over_time
 
+pytestmark = claim(
+    "Dead-man button, timeout, age, arming, soft ...",
+    because="every rule at its limit",
+)
 S = State
 FORWARD = (0.5, 0.0, 0.0, 0.0, 0.0, 0.0)
 BACKWARD = (-0.5, 0.0, 0.0, 0.0, 0.0, 0.0)
@@ -119,6 +124,7 @@ def test_a_joystick_that_leaves_a_moving_robot_is_named():
     assert warnings == [Notice.LEFT]
 
 
+@claim("A gamepad out ...", because="a gamepad out of reach")
 def test_a_held_joystick_that_is_silent_is_stopped_as_one_that_does_not_change():
     machine = safety(**{**ARMS, "joy_timeout": 0, "vigilance_timeout": 1.0})
     sent = [ACTS["release"](machine, 0.0), ACTS["forward"](machine, 0.0), machine.tick(0.9)]

@@ -7,8 +7,10 @@ import pytest
 
 from joy_to_twist.parameters import load
 from joy_to_twist.teleoperation import Teleoperation
+from tutorial_testing.claims import claim
 from tutorial_testing.over_time import over_time
 
+pytestmark = claim("The table of reported faults")
 NAN = float("nan")
 HELD, RELEASED = ((0.0, 1.0), (1, 0, 0)), ((0.0, 0.0), (0, 0, 0))
 
@@ -57,6 +59,7 @@ def test_an_old_message_is_not_driven(longest_s, age_ns, drives):
     assert drives or f"{longest_s:.1f} s old" in warnings[0]
 
 
+@claim("A held key or ...", because="as long as it is held")
 @pytest.mark.parametrize("step", [0.0, 2.0**-15])
 def test_a_stick_held_for_eight_seconds_is_stopped_unless_it_trembles(step):
     """step: of 65,536 in the whole way of an axis, one."""

@@ -3,6 +3,8 @@
 import pytest
 from roslib.message import get_message_class, get_service_class
 
+from tutorial_testing.claims import claim
+
 # getMD5() of what rosserial generated from the released package, as several public repositories
 # have it (firmware/libraries/ros_lib/kobuki_msgs in verlab/hero_common has all).
 KOBUKI = {
@@ -40,6 +42,7 @@ REAL = {f"kobuki_msgs/{k}": v for k, v in KOBUKI.items()}
 REAL.update({f"turtlesim/{k}": v for k, v in TURTLESIM.items()})
 
 
+@claim("kobuki_msgs and turtlesim have the MD5 sums of the real packages")
 @pytest.mark.parametrize("name", REAL)
 def test_a_message_has_the_md5_sum_of_the_real_one(name):
     assert (get_message_class(name) or get_service_class(name))._md5sum == REAL[name]

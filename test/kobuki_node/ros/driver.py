@@ -24,6 +24,7 @@ from tf2_msgs.msg import TFMessage
 
 from kobuki_protocol import commands
 from kobuki_protocol.identity import FirmwareVersion
+from tutorial_testing.claims import claim
 from tutorial_testing.kobuki_on_a_line import KobukiOnALine
 from tutorial_testing.nodes import node_path, pid_of
 from tutorial_testing.processes import suspended
@@ -43,6 +44,11 @@ AHEAD, ZERO = (0.3, 0.5), (0.0, 0.0)
 TIMEOUT_S = 0.6
 
 
+@claim(
+    "The driver publishes what a Kobuki reports, and commands it once for each packet; after a "
+    "loss, a suspension, a restart or a mistake the robot stands until the next command; its pose "
+    "does not jump"
+)
 class DriverTest(RosTest):
     def setUp(self):
         self.link = str(self.folder() / "kobuki")
@@ -145,6 +151,9 @@ class DriverTest(RosTest):
         wait_for(lambda: "not a finite number; ignored" in self.said(), "line", seen=self.said)
         self.drive()
 
+    @claim(
+        "Each fault of the port or the line is one line that says what to do, and the driver waits"
+    )
     def test_without_a_port_it_waits_and_a_robot_that_is_plugged_in_stands(self):
         self.begin()
         wait_for(lambda: f"there is no {self.link}" in self.said(), "line", seen=self.said)
@@ -205,6 +214,7 @@ class DriverTest(RosTest):
         wait_for(lambda: "were damaged; the others are used" in self.said(), "line", seen=self.said)
         self.assertEqual(self.said().count("were damaged"), 1)
 
+    @claim("Another major version of the firmware is not driven")
     def test_another_firmware_is_not_driven(self):
         self.robot.firmware = FirmwareVersion(0, 0, 2)
         self.plugged()

@@ -11,6 +11,7 @@ import pytest
 import rosgraph
 
 from node_kit.ros.graph.ros_api import call
+from tutorial_testing.claims import claim
 from tutorial_testing.hands import DRIVE, RELEASED
 from tutorial_testing.nodes import pid_of
 from tutorial_testing.processes import signal_all, suspend
@@ -26,6 +27,10 @@ LONGEST_REST_S = 0.6  # over it; the machine adds to that
 WATCHED_S = 1.2  # after the fault
 
 
+@claim(
+    "Killed, ended or suspended, without its cable, robot or master: a Kobuki's driver leaves "
+    "wheels that rest in time, and the robot is driven again after a release"
+)
 @pytest.mark.long
 class LineFaults(RosTest):
     def check_rest(self, rig, begin, end):

@@ -4,7 +4,12 @@ import pytest
 
 from kobuki_driver.choice import BaseOptions as Options
 from kobuki_driver.choice import choose
+from tutorial_testing.claims import claim
 
+pytestmark = claim(
+    "Launch files drive the port that is named, and never simulate in its place; a world is never "
+    "driven in by a real robot; one line says which of the two"
+)
 USB = "/dev/ttyUSB0"
 USUAL = "/dev/kobuki"  # as turtlebot_bringup's hook sets the variable
 

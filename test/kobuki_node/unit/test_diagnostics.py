@@ -5,7 +5,9 @@ from diagnostic_msgs.msg import DiagnosticStatus
 from kobuki_driver.robot.diagnostics import entries
 from kobuki_protocol.battery import Battery
 from kobuki_protocol.feedback import Cliff, Core, Current, Feedback, Inertia, Inputs
+from tutorial_testing.claims import claim
 
+pytestmark = claim("/diagnostics has kobuki_node's entries")
 OK, WARN, ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
 
 

@@ -5,7 +5,12 @@ from math import inf, nan
 import pytest
 
 from kobuki_driver.robot.velocity_control import VelocityControl, VelocityResult
+from tutorial_testing.claims import claim
 
+pytestmark = claim(
+    "A command expires; motors that are off, a robot that is offline and what is not finite move "
+    "nothing"
+)
 AHEAD = (0.3, 0.5)
 REST = (0.0, 0.0)
 

@@ -8,6 +8,7 @@ from kobuki_driver.link.port_advice import Port
 from kobuki_driver.robot.identification import Identification
 from kobuki_protocol.commands import GetController, Request
 from kobuki_protocol.identity import Controller, FirmwareVersion, HardwareVersion, UniqueId
+from tutorial_testing.claims import claim
 
 KOBUKI = Port("/dev/ttyUSB1", is_kobuki=True, description="iClebo Kobuki")
 ARDUINO = Port("/dev/ttyACM0", description="Arduino Uno")
@@ -48,6 +49,7 @@ def test_damaged_packets_are_reported_once_and_not_the_first_one():
     assert monitor.take(81, 1, 50, 0.08) == []
 
 
+@claim("Each fault of the port ...", because="every fault of the line")
 @pytest.mark.parametrize(
     ("line", "parts"),
     [

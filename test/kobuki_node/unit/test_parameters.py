@@ -5,8 +5,10 @@ import yaml
 
 from kobuki_driver.parameters import KobukiParameters, parse_parameters
 from kobuki_protocol.battery import Limits
+from tutorial_testing.claims import claim
 from tutorial_testing.processes import REPOSITORY
 
+pytestmark = claim("The parameters are those of kobuki_node's base.yaml; a mistake is one line")
 BASE = REPOSITORY / "common/stand_ins/kobuki_node/param/base.yaml"
 
 

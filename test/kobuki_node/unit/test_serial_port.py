@@ -9,6 +9,9 @@ import pytest
 from kobuki_driver.errors import PortError
 from kobuki_driver.io import serial_port
 from kobuki_driver.io.serial_port import SerialPort
+from tutorial_testing.claims import claim
+
+pytestmark = claim("Each fault of the port ...", because="every fault of the port")
 
 
 @pytest.fixture

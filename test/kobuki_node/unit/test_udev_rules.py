@@ -7,6 +7,12 @@ import pytest
 from kobuki_driver.io import create_udev_rules
 from kobuki_driver.io.ports import PRODUCT, SERIAL, VENDOR
 from kobuki_driver.link.udev_rules import RULES
+from tutorial_testing.claims import claim
+
+pytestmark = claim(
+    "`create_udev_rules` makes the cable /dev/kobuki for the group dialout, with a latency timer "
+    "of 1 ms; each obstacle is one line"
+)
 
 
 def test_the_rule_knows_the_cable_by_its_numbers_and_sets_the_latency_timer():

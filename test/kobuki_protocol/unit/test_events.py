@@ -15,7 +15,9 @@ from kobuki_msgs.msg import (
 from kobuki_protocol.battery import Battery, Level, Limits
 from kobuki_protocol.events import events
 from kobuki_protocol.feedback import Cliff, Core, Feedback, Inputs
+from tutorial_testing.claims import claim
 
+pytestmark = claim("Events and battery levels are those of a Kobuki's own driver")
 FULL = Feedback(core=Core(battery=164), cliff=Cliff(1, 2, 3))
 
 

@@ -5,7 +5,9 @@ import random
 import pytest
 
 from kobuki_protocol.framing import Framer, packet
+from tutorial_testing.claims import claim
 
+pytestmark = claim("After any damage of the stream each whole packet is delivered, and no other")
 STREAMS = 10_000
 PACKETS = 6
 BASE_CONTROL = bytes.fromhex("aa 55 06 01 04 64 00 00 00 67")

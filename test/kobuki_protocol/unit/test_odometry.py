@@ -6,7 +6,11 @@ import pytest
 
 from kobuki_protocol.feedback import Core, Inertia
 from kobuki_protocol.odometry import RAD_PER_TICK, Odometry, signed
+from tutorial_testing.claims import claim
 
+pytestmark = claim(
+    "A Kobuki that was restarted, unplugged or driven by a suspended driver keeps its pose"
+)
 TICKS_PER_M = 11724.4  # 11.7244 ticks/mm (kobuki_driver's appendix)
 
 

@@ -23,7 +23,12 @@ from kobuki_protocol.feedback import (
 )
 from kobuki_protocol.framing import Framer
 from kobuki_protocol.identity import Controller, FirmwareVersion, HardwareVersion, UniqueId
+from tutorial_testing.claims import claim
 
+pytestmark = claim(
+    "The bytes for and from a Kobuki are those of its protocol; each velocity, packet and event "
+    "comes back as it was sent"
+)
 RUNS = 10_000
 
 

@@ -8,6 +8,7 @@ import rospy
 from rospy import AnyMsg
 
 from node_kit.ros.graph.ros_api import known_nodes
+from tutorial_testing.claims import claim
 from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.rostests import RosTest
@@ -52,6 +53,7 @@ def started_by(command):
     return Program(*words)
 
 
+@claim("A start never harms what runs; of two nodes with one name the older ends")
 @pytest.mark.long
 class StartsTest(RosTest):
     def watch(self, topic):

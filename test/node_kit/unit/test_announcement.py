@@ -12,7 +12,11 @@ import pytest
 
 from node_kit.ros.lifecycle import announcement
 from node_kit.ros.lifecycle.announcement import announce
+from tutorial_testing.claims import claim
 
+pytestmark = claim(
+    "A node's services are registered before it loads rospy, and withdrawn if its start fails"
+)
 SERVICES = ("spawn", "turtle1/set_pen")
 
 

@@ -9,6 +9,7 @@ from sensor_msgs.msg import Joy
 
 from node_kit.ros.rospy_patches import connections
 from node_kit.rules.throttle import Throttle, ThrottleEach
+from tutorial_testing.claims import claim
 
 WRONG_LENGTH = b"\x03\0\0\0abc"  # three bytes are no Joy
 
@@ -36,6 +37,7 @@ def read(monkeypatch):
     return read
 
 
+@claim("A message that cannot be read is reported once a second")
 def test_unreadable_messages_are_reported_once_a_second(read):
     for number in range(25):
         lines, messages = read(WRONG_LENGTH, 0.1 * number)

@@ -7,7 +7,12 @@ import pytest
 
 from node_kit.ros.rospy_patches import newest_only
 from node_kit.ros.rospy_patches.newest_only import NewestOnly
+from tutorial_testing.claims import claim
 
+pytestmark = claim(
+    "A side that does not read gets the newest message; one that was cut is driven only after a "
+    "release"
+)
 SIZE = 52  # [bytes] a Twist on the wire
 DEADLINE_S = 20.0
 STOP = bytes(SIZE)

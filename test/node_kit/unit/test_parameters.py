@@ -14,6 +14,12 @@ from node_kit.parameters.declaration import (
     text,
     whole_number,
 )
+from tutorial_testing.claims import claim
+
+pytestmark = claim(
+    "Every mistake in a parameter is one line that says what is allowed; one that an earlier "
+    "launch left has the command that deletes it"
+)
 
 
 @dataclass(frozen=True)

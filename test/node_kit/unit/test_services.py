@@ -13,6 +13,7 @@ from node_kit.errors import ServiceError
 from node_kit.ros.graph import services
 from node_kit.ros.graph.services import call_service, kind_of
 from node_kit.rules.answer import Answer
+from tutorial_testing.claims import claim
 
 
 @pytest.fixture
@@ -67,6 +68,7 @@ def test_an_answer_arrives_and_a_failure_is_its_text(serve):
         asked()
 
 
+@claim("A service that ...", because="given up in time")
 @pytest.mark.parametrize(
     ("answer", "why"),
     [
@@ -84,6 +86,7 @@ def test_a_service_that_does_not_answer_or_wrongly_is_one_line(serve, answer, wh
         asked()
 
 
+@claim("A type that a page, a master ...", because="a service")
 def test_its_type_is_one_that_genpy_made(serve):
     serve(after_header(b""))
     assert kind_of("/x") is SetBool

@@ -3,8 +3,10 @@
 import pytest
 
 from node_kit.ros.lifecycle.start import remedy
+from tutorial_testing.claims import claim
 
 
+@claim("Every mistake in ...", because="one that an earlier launch left")
 @pytest.mark.parametrize(
     ("error", "stored", "line"),
     [

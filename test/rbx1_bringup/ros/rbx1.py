@@ -6,6 +6,7 @@ import tf2_ros
 from sensor_msgs.msg import JointState, LaserScan
 from tf2_msgs.msg import TFMessage
 
+from tutorial_testing.claims import claim
 from tutorial_testing.rostests import RosTest
 from tutorial_testing.waiting import wait_for
 
@@ -25,6 +26,7 @@ PLACES = {
 }
 
 
+@claim("rbx1's fake TurtleBot has the names of the original's node, joints and frames")
 class Rbx1Test(RosTest):
     def test_node_joints_and_clock_are_those_of_arbotix(self):
         joints, master = self.record("joint_states", JointState), rosgraph.Master(rospy.get_name())

@@ -6,6 +6,9 @@ import pytest
 from geometry_msgs.msg import Quaternion
 
 from rbx1_nav.transform_utils import normalize_angle, quat_to_angle
+from tutorial_testing.claims import claim
+
+pytestmark = claim("Programs after ROS by Example find quat_to_angle and normalize_angle")
 
 
 @pytest.mark.parametrize("yaw", [0.0, 1.0, -1.0, 3.1, -3.1])

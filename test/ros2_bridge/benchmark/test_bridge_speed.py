@@ -12,12 +12,19 @@ from live import delays, processor_time
 from nav_msgs.msg import Odometry
 
 from node_kit import ros2_python
+from tutorial_testing.claims import claim
 from tutorial_testing.processes import Program, descendants
 from tutorial_testing.waiting import wait_for
 
-pytestmark = pytest.mark.skipif(
-    not ros2_python.is_there(), reason="no ROS 2 here: ./tutorial ros2 --yes sets it up"
-)
+pytestmark = [
+    claim(
+        "The bridge's figures: milliseconds for a Joy and its Twist, 1,000 odometry messages a "
+        "second each way"
+    ),
+    pytest.mark.skipif(
+        not ros2_python.is_there(), reason="no ROS 2 here: ./tutorial ros2 --yes sets it up"
+    ),
+]
 PROGRAM = CLASS.with_name("publish_twist.py")
 MANY = Path(__file__).with_name("many.py")
 COUNT, RATE = 1000, 50.0

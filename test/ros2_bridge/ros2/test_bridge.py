@@ -18,6 +18,7 @@ from std_msgs.msg import String
 from node_kit import ros2_python
 from node_kit.ros.graph.raw_messages import RawPublisher, senders, subscribe
 from node_kit.ros.rospy_patches.connections import header_of, sender_of
+from tutorial_testing.claims import claim
 from tutorial_testing.robot import Robot
 from tutorial_testing.waiting import DEADLINE_S, wait_for
 
@@ -37,6 +38,7 @@ def latched(topic, message):
     return publisher
 
 
+@claim("Every Joy becomes one Twist through the bridge, equal to the bit and in order")
 def test_every_joy_becomes_one_twist_equal_to_the_bit(bridge, start, start_ros2, ear, stick):
     """One after the other, without an age limit: so none is late on a busy machine."""
     bridge({"/joy": "to_ros2", **VELOCITY})
@@ -50,6 +52,10 @@ def test_every_joy_becomes_one_twist_equal_to_the_bit(bridge, start, start_ros2,
     wait_for_doctor(start, "bridge carries between ROS 1 and ROS 2")
 
 
+@claim(
+    "The recording drives the robot through ROS 2: `ros2:=true` has the bridge in place of "
+    "joy2twist, and `./tutorial ros2 new_joy2twist` drives then"
+)
 def test_the_launch_file_has_the_bridge_in_place_of_joy2twist(start):
     """The two commands of the page on ROS 2."""
     start("roslaunch", "joy2twist", "launch_bag.launch", "ros2:=true", *WITHOUT_SCREEN)
@@ -60,6 +66,10 @@ def test_the_launch_file_has_the_bridge_in_place_of_joy2twist(start):
     rospy.delete_param("/fake_turtlebot")  # as it is in this file, it never stops by itself
 
 
+@claim(
+    "Drivers of any quality of service are carried in turn, to a busy subscriber, too; with an age "
+    "limit none is latched"
+)
 @pytest.mark.parametrize("topics", [None, VELOCITY], ids=["with our age limit", "without a limit"])
 def test_drivers_of_any_quality_are_carried_in_turn(bridge, start, start_ros2, topics):
     """Also to a subscriber that is busy while the next one is carried to another subscriber.
@@ -91,6 +101,10 @@ def test_drivers_of_any_quality_are_carried_in_turn(bridge, start, start_ros2, t
     subscriber.unregister()
 
 
+@claim(
+    "A subscription fits all publishers; late subscribers in ROS 2 get what latched senders sent, "
+    "not what gone ones did"
+)
 def test_quality_of_service_and_what_is_kept_for_late_subscribers(start_ros2):
     """All publishers are heard; with an age limit, or what this node keeps, nothing old is.
 
@@ -122,6 +136,7 @@ def test_the_first_message_of_a_connection_is_known_and_who_is_connected():
     subscriber.unregister()
 
 
+@claim("Latched messages come to late subscribers of the other side, both ways, ten megabytes too")
 def test_what_is_latched_is_carried_to_late_subscribers_ten_megabytes_too(bridge, start_ros2, ear):
     note = latched("/note", String(HOSTILE))
     bridge({"/note": "to_ros2", "/reply": "to_ros1", "/picture": "to_ros2"})
@@ -134,6 +149,9 @@ def test_what_is_latched_is_carried_to_late_subscribers_ten_megabytes_too(bridge
     picture.unregister()
 
 
+@claim(
+    "A type that ROS 2 lacks, or that changes, is one line, in the doctor too, and the others go on"
+)
 def test_a_type_that_ros2_lacks_or_that_changes_is_one_line_and_others_go_on(
     bridge, start, start_ros2, ear
 ):
@@ -157,6 +175,7 @@ def test_a_type_that_ros2_lacks_or_that_changes_is_one_line_and_others_go_on(
         publisher.unregister()
 
 
+@claim("Nothing comes back on a topic of both directions")
 def test_a_topic_of_both_directions_has_no_echo(bridge, start_ros2, ear):
     bridge()
     start_ros2(PROGRAMS / "talker.py")
@@ -177,6 +196,7 @@ def test_a_topic_of_both_directions_has_no_echo(bridge, start_ros2, ear):
     assert len(own) == len(set(own)) and all("hello" in text for text in own)
 
 
+@claim("A bridge that cannot start says why in one line")
 @pytest.mark.parametrize(
     ("python", "text", "line"),
     [
@@ -194,6 +214,7 @@ def test_a_failed_start_is_one_line(start, monkeypatch, tmp_path, python, text, 
     assert line in program.output and "Traceback" not in program.output
 
 
+@claim("colcon builds the programs in ROS 2 by the page's commands")
 @pytest.mark.skipif(not shutil.which("colcon"), reason="no colcon in this system's archive")
 def test_the_package_is_built_by_colcon_and_runs(start, tmp_path):
     """The commands of the page on colcon."""

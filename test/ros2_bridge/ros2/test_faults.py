@@ -15,6 +15,7 @@ from drive import CLASS, RATE, REST_S, ZERO, Bridge, Stick, carried, wait_for_do
 from geometry_msgs.msg import Twist
 
 from node_kit import ros2_python
+from tutorial_testing.claims import claim
 from tutorial_testing.processes import signal_all
 from tutorial_testing.robot import Robot
 from tutorial_testing.waiting import HOP_S, tolerance, wait_for
@@ -72,6 +73,7 @@ def way(whole_way, stick):
     return whole_way
 
 
+@claim("No velocity comes late: what waited for a suspended side moves nothing")
 @pytest.mark.parametrize("side", ["ROS 1", "ROS 2"])
 def test_what_waited_for_a_suspended_side_does_not_move_the_robot(way, stick, side, start):
     way.send(side, signal.SIGSTOP)
@@ -94,6 +96,7 @@ def test_what_waited_for_a_suspended_side_does_not_move_the_robot(way, stick, si
     way.robot.wait_for_rest()
 
 
+@claim("`Ctrl-C` of the class in ROS 2 ends with zeros")
 def test_ctrl_c_of_the_class_ends_with_zeros(way):
     way.program.interrupt()
     assert way.program.wait() == 0, way.program.output
@@ -127,6 +130,10 @@ def trial(seed, way):
     assert late and not any(late), f"{faults}: (f) it moved after the release"
 
 
+@claim(
+    "(d), (f), (h) Faults of the bridge to ROS 2 leave a robot that rests in time and can be "
+    "driven again; a side that is killed is restarted with a line"
+)
 def test_random_faults_of_the_bridge_leave_a_robot_that_rests_in_time(whole_way, request):
     option, way = request.config.getoption, whole_way
     for seed in range(option("--seed"), option("--seed") + option("--trials")):

@@ -9,8 +9,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ros2_bridge.io.connection import Frame, Sender, frames, is_late
+from tutorial_testing.claims import claim
 from tutorial_testing.waiting import DEADLINE_S
 
+pytestmark = claim(
+    "Frames arrive as sent; a side that exits, or an incomplete frame, harms nothing"
+)
 NAMES = st.text(st.characters(blacklist_characters="\0", blacklist_categories=["Cs"]), min_size=1)
 FRAME = Frame("/a", "b/msg/C", b"12345678", 1.0)
 
@@ -47,6 +51,7 @@ def test_an_incomplete_frame_is_dropped(ends, cut):
     assert not list(frames(other))
 
 
+@claim("The newest velocity never waits behind old ones")
 def test_the_newest_velocity_does_not_wait_behind_old_ones(ends):
     """While nothing reads, one topic keeps the newest and another all; they take turns."""
     sender = Sender(ends[0], {"/map": 1, "/cmd_vel": 1, "/odom": 1000}.get)

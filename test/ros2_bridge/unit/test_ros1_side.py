@@ -13,6 +13,7 @@ from node_kit.ros.graph.raw_messages import RawMessage
 from ros2_bridge.io.connection import Frame, frames
 from ros2_bridge.ros import ros1_side
 from ros2_bridge.routes import Route
+from tutorial_testing.claims import claim
 from tutorial_testing.waiting import DEADLINE_S, wait_for
 
 STRING, END = "std_msgs/msg/String", b"end"
@@ -96,6 +97,7 @@ def test_what_a_latched_sender_sent_is_kept_while_it_is_connected_and_forgotten_
     assert made.carried() == [FORGET]
 
 
+@claim("With an age limit nothing of unknown age is carried")
 def test_what_has_an_age_limit_is_not_latched_and_not_carried_with_an_unknown_age(room):
     made = room(longest_s=0.5)
     made.there = {"/joy_node"}

@@ -6,10 +6,12 @@ import pytest
 
 from ros2_bridge.ros.ros1_side import LIST, load
 from ros2_bridge.routes import ECHO_S, Echoes, read_routes
+from tutorial_testing.claims import claim
 
 OURS = Path(__file__).resolve().parents[3] / "common/ros2_bridge/config/bridge.yaml"
 
 
+@claim("Our list of topics keeps only the newest velocity, and counts without another")
 def test_our_list_keeps_only_the_newest_velocity_and_no_old_one():
     routes = {route.topic: route for route in read_routes(OURS.read_text())}
     velocity = routes["/cmd_vel"]
@@ -18,6 +20,7 @@ def test_our_list_keeps_only_the_newest_velocity_and_no_old_one():
     assert routes["/odom"].depth == 100  # the default
 
 
+@claim("Our list of topics ...", because="without another list")
 @pytest.mark.parametrize("given", [{}, {"topics": ""}, {"topics": str(OURS)}], ids=str)
 def test_our_list_counts_without_another(given, tmp_path):
     assert load(tmp_path, given) == read_routes(OURS.read_text())

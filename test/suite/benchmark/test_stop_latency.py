@@ -2,6 +2,7 @@
 
 from statistics import median, quantiles
 
+from tutorial_testing.claims import claim
 from tutorial_testing.two_hosts.scene import Scene
 from tutorial_testing.waiting import wait_for
 
@@ -9,6 +10,7 @@ TRIALS = 200
 LONGEST_S = 0.060  # for 99 of 100; 20 ms of it may pass until the next odometry
 
 
+@claim("From LB released to wheels at rest over two hosts: the figure")
 def test_stop_latency(figure):
     with Scene() as scene:
         scene.launch_robot()

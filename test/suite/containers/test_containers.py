@@ -14,12 +14,14 @@ from pathlib import Path
 
 import pytest
 
+from tutorial_testing.claims import claim
 from tutorial_testing.cockpit.chromium import Chromium
 from tutorial_testing.cockpit.hands import Keys
 from tutorial_testing.processes import Program, free_port
 from tutorial_testing.robot import OBSERVER, Robot
 from tutorial_testing.waiting import DEADLINE_S, wait_for
 
+pytestmark = claim("Classroom, two hosts, devcontainer and autograder run in containers")
 SOURCE = Path(os.environ.get("CHECKED_SOURCE") or Path(__file__).resolve().parents[3])
 INSIDE = "/home/student/ros1_tutorial"
 PORT = free_port()  # 8080 may be another test's
@@ -122,6 +124,7 @@ def ends_by_itself(container):
     return run("docker", "inspect", "-f", "{{.State.ExitCode}}", container).strip() != "137"
 
 
+@claim("The image is small, and not root's")
 def test_the_image_is_small_and_its_user_is_not_root():
     about = json.loads(run("docker", "image", "inspect", "ros1_tutorial"))[0]
     assert about["Size"] <= LARGEST
@@ -129,6 +132,7 @@ def test_the_image_is_small_and_its_user_is_not_root():
     assert about["Config"]["Healthcheck"] and about["Config"]["Labels"]
 
 
+@claim("A container shows a moving robot on its host alone, and its page drives")
 def test_up_shows_a_moving_robot_on_this_host_alone():
     with Compose() as compose, Chromium() as browser:
         compose("up", "-d")
@@ -151,6 +155,7 @@ def test_up_shows_a_moving_robot_on_this_host_alone():
         assert ends_by_itself(container)
 
 
+@claim("A container shows ...", because="its page")
 def test_the_page_drives_and_the_robot_rests_when_it_is_let_go_or_all_ends():
     with Compose() as compose, Chromium() as browser:
         compose("up", "-d", "drive")
@@ -179,6 +184,7 @@ def workspace(tmp_path):
     return folder
 
 
+@claim("A student's workspace stays the student's; terminals begin there")
 def test_a_students_workspace_stays_the_students(workspace):
     owner = workspace.stat().st_uid
     exercise = f"""cd ~/catkin_ws/src && {MAKE} &&
@@ -193,6 +199,7 @@ def test_a_students_workspace_stays_the_students(workspace):
     assert re.search(r"^  ok +C\d+", inside, re.M) and re.search(r"^  WRONG +C\d+", inside, re.M)
 
 
+@claim("A student's workspace stays the student's; terminals begin there", because="terminals")
 def test_a_terminal_starts_in_the_workspace_and_ends_at_once(workspace):
     owner = workspace.stat().st_uid
     if owner == STUDENT:  # so that the image's own user may not write there

@@ -11,6 +11,7 @@ import roslaunch.rlutil
 import rospy
 from sensor_msgs.msg import Joy
 
+from tutorial_testing.claims import claim
 from tutorial_testing.processes import REPOSITORY
 from tutorial_tools.demo.program import NODES, RVIZ_NODE
 
@@ -43,6 +44,7 @@ ARGUMENTS = {
 }
 
 
+@claim("roslaunch reads every launch file and finds what it names; upstream's arguments are taken")
 @pytest.mark.parametrize("file", FILES, ids=lambda file: str(file.relative_to(REPOSITORY)))
 def test_a_launch_file_is_read_and_all_that_it_names_is_found(file, monkeypatch):
     # roslaunch reads the arguments of its own command line; student.launch needs this one.
@@ -50,6 +52,7 @@ def test_a_launch_file_is_read_and_all_that_it_names_is_found(file, monkeypatch)
     assert roslaunch.rlutil.check_roslaunch(str(file), use_test_depends=True) is None
 
 
+@claim("roslaunch reads every ...", because="upstream's arguments")
 @pytest.mark.parametrize("file", ARGUMENTS)
 def test_arguments_of_public_launch_files(file, tmp_path, monkeypatch):
     monkeypatch.setattr("sys.argv", ["roslaunch"])
@@ -67,6 +70,7 @@ def test_arguments_of_public_launch_files(file, tmp_path, monkeypatch):
         assert (places["initial_x"], places["initial_y"], places["initial_yaw"]) == (1.5, 1, 1)
 
 
+@claim("Copies of a TurtleBot's own launch files find what they include")
 def test_a_copy_of_upstreams_own_launch_files_finds_what_these_include(tmp_path, monkeypatch):
     """turtlebot_bringup's minimal.launch and turtlebot_teleop's logitech.launch."""
     monkeypatch.setattr("sys.argv", ["roslaunch"])
@@ -111,6 +115,7 @@ def loaded(monkeypatch, file, *arguments):
     return roslaunch.config.load_config_default([str(path)], None, verbose=False)
 
 
+@claim("A mistake in a launch argument, such as a recording without a joystick, starts nothing")
 @pytest.mark.parametrize(
     ("file", "arguments", "line"),
     [
@@ -136,6 +141,11 @@ def test_a_mistake_in_an_argument_starts_nothing(
     assert f"roslaunch: {words[-1]}: {line}" in capfd.readouterr().err
 
 
+@claim("`joy_pkg` takes another ...", because="`joy_node`")
+@claim(
+    "On a TurtleBot: remapped to the multiplexer, with a dead-man, arming and limits, by a gamepad "
+    "or a recording"
+)
 @pytest.mark.parametrize(
     ("file", "preset", "limits"),
     [
@@ -163,6 +173,7 @@ def test_a_preset_without_limits_gets_those_of_a_turtlebot(monkeypatch, tmp_path
         assert given.params[f"/myjoystick2twist/max_{part}_speed"].value == limit
 
 
+@claim("`joy_pkg` takes another package's node; `joy_node` leaves no parameter")
 def test_joy_pkg_is_the_package_whose_node_reads_the_device(monkeypatch):
     given = loaded(monkeypatch, "launch_joy_node.launch", "joy_pkg:=joy", "joy_dev:=/tmp/a b")
     (node,) = (one for one in given.nodes if one.name == "joy_node")

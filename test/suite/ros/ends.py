@@ -11,6 +11,7 @@ import rosgraph
 from geometry_msgs.msg import Twist, Vector3
 
 from node_kit.ros.graph.ros_api import call
+from tutorial_testing.claims import claim
 from tutorial_testing.hands import DRIVE, RELEASED
 from tutorial_testing.nodes import pid_of
 from tutorial_testing.processes import suspended
@@ -21,6 +22,7 @@ from tutorial_testing.waiting import BUSY_S, wait_for
 LONGEST_END_S = 1.5 + BUSY_S
 
 
+@claim("(a) to (i), as the table of FAULTS.md has them", because="end to end, at the end")
 @pytest.mark.long
 class FaultsAtTheEnd(RosTest):
     def check_each(self, rig, number, meanwhile):

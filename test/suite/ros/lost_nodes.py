@@ -11,6 +11,7 @@ import pytest
 import rospy
 from geometry_msgs.msg import Twist, Vector3
 
+from tutorial_testing.claims import claim
 from tutorial_testing.nodes import pid_of
 from tutorial_testing.processes import signal_all, suspend
 from tutorial_testing.rig import BASE, DRIVER, MUX, TIMEOUT_S, Rig
@@ -21,6 +22,7 @@ from tutorial_testing.waiting import tolerance, wait_for
 WATCHED_S = 1.2  # after a node is back
 
 
+@claim("(a) to (i), as the table of FAULTS.md has them", because="end to end, of lost nodes")
 @pytest.mark.long
 class LostNodes(RosTest):
     def check_rest(self, rig, began_s, ended_s, what, rests_s=0.0):

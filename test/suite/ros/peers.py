@@ -12,6 +12,7 @@ from sensor_msgs.msg import Joy
 
 from node_kit.ros.graph.ros_api import call
 from tutorial_faults.live.table import HELD, LB, RawJoy
+from tutorial_testing.claims import claim
 from tutorial_testing.nodes import node_path, serialised
 from tutorial_testing.rig import BASE, DRIVER, MUX
 from tutorial_testing.rostests import RosTest
@@ -22,6 +23,10 @@ INPUTS = '[{"name": "a", "topic": "input", "timeout": 1.0, "priority": 1}]'
 JOY2TWIST = node_path("joy2twist", "joy2twist.py")
 
 
+@claim(
+    "(b) A second joystick is not armed by the first; (h) an unreadable message is reported and "
+    "stops no node from receiving; a silent peer holds up no node"
+)
 class FaultsOfThePeers(RosTest):
     def setUp(self):
         self.velocities = self.record("cmd_vel", Twist)

@@ -4,9 +4,12 @@ import re
 
 import pytest
 
+from tutorial_testing.claims import claim
+
 LAST_LINE = r"(\d+) trials, (\d+) faults, (\d+) violations, worst time to rest (\d+\.\d+) s"
 
 
+@claim("`./tutorial test faults` finds nothing in ours")
 @pytest.mark.parametrize("base", [(), ("--serial",)], ids=["simulated", "on a serial line"])
 def test_random_faults_violate_nothing(call, base):
     code, output = call("test", "faults", *base, "--trials", "5", deadline_s=900)
@@ -15,6 +18,7 @@ def test_random_faults_violate_nothing(call, base):
     assert int(hits) >= int(trials) > 0
 
 
+@claim("`./tutorial test faults` finds what is wrong, and a seed repeats it")
 @pytest.mark.parametrize(
     ("fault", "violation"),
     [

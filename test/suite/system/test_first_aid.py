@@ -9,9 +9,14 @@ import shutil
 
 import pytest
 
+from tutorial_testing.claims import claim
 from tutorial_testing.processes import REPOSITORY, Program
 from tutorial_testing.waiting import LONGEST_S
 
+pytestmark = claim(
+    "The problems of beginners, also of Pythons, ROS 2 and workspaces of a terminal: the page has "
+    "the sentence that is printed, the doctor its words"
+)
 PATH = REPOSITORY / "common/doc/TROUBLE.md"
 PAGE = PATH.read_text()
 SENTENCES = PAGE.split("## By message")[1].split("## By what you see")[0]

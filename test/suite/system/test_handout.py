@@ -8,6 +8,7 @@ import re
 
 import pytest
 
+from tutorial_testing.claims import claim
 from tutorial_testing.processes import REPOSITORY
 from tutorial_testing.waiting import wait_for
 
@@ -73,6 +74,7 @@ def nothing_of_ours(student):
     return not any(f"{REPOSITORY}/{package}" in found for package in packages)
 
 
+@claim("The handout can be typed word for word; nothing of our solutions is found")
 @pytest.mark.long
 def test_the_handout_from_its_first_command_to_its_last_and_its_check(student):
     student.do(PACKAGES)

@@ -8,6 +8,7 @@ import re
 
 import pytest
 
+from tutorial_testing.claims import claim
 from tutorial_testing.processes import REPOSITORY
 from tutorial_testing.student import CTRL_C, END
 
@@ -201,6 +202,7 @@ def uncomment_messages(package):
     path.write_text(text.replace("#  CATKIN_DEPENDS roscpp", "  CATKIN_DEPENDS message_runtime"))
 
 
+@claim("So can the pages of the wiki that it links, and those that follow them")
 @pytest.mark.night  # test/check_bare_machine runs it at each commit
 def test_the_pages_that_the_handout_links_from_their_first_command_to_the_last(student):
     student.do([*FILESYSTEM, *CREATING_A_PACKAGE, *WORKSPACES, *NODES, *TOPICS])

@@ -11,9 +11,11 @@ import sys
 
 import pytest
 
+from tutorial_testing.claims import claim
 from tutorial_testing.two_hosts.scene import REPOSITORY, ROBOT, WORKSTATION
 from tutorial_testing.waiting import wait_for
 
+pytestmark = claim("All stays on this machine until the user names an address")
 CPP_NODES = {"/rosout", "/robot_state_publisher", "/rosbag"}
 MASTER_PORT = 11311
 # Tries each port of an address, and prints those that answer.

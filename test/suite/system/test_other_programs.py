@@ -15,6 +15,7 @@ from typing import NamedTuple
 import pytest
 
 from tutorial_check.checking import causes
+from tutorial_testing.claims import claim
 from tutorial_testing.keys import Tmux
 from tutorial_testing.processes import REPOSITORY, Program, free_port
 from tutorial_testing.robot import OBSERVER, PERIOD_S, Robot
@@ -136,6 +137,7 @@ def places(tmp_path_factory):
         yield {name: stack.enter_context(Place(folder, name)) for name in LAUNCH}
 
 
+@claim("OTHER_PROGRAMS.md: each line drives or prints by a program of the same imports")
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row.names)
 def test_a_program_drives_or_prints_what_it_does_on_a_robot(row, places):
     place = places[row.robot]
@@ -157,6 +159,7 @@ def test_a_program_drives_or_prints_what_it_does_on_a_robot(row, places):
     place.wait_for_rest()
 
 
+@claim("A key that is held drives without a break")
 def test_a_key_that_x11_repeats_drives_without_a_break(places):
     place = places[KEYBOARD.robot]
     command = place.command(f"rosrun others {KEYBOARD.command}")
@@ -188,6 +191,7 @@ def packages(what):
     return {name for name, row in lines().items() if row[1].strip() == what}
 
 
+@claim("OTHER_PROGRAMS.md: each line ...", because="each line")
 def test_each_line_of_the_page_is_run_here():
     said = {name: (row.how, row.robot) for row in (*ROWS, KEYBOARD) for name in row.names.split()}
     said.update({name: (why, "") for name, why in WAIT.items()})
@@ -196,6 +200,7 @@ def test_each_line_of_the_page_is_run_here():
         assert how in lines()[name][1] and robot in lines()[name][2], name
 
 
+@claim("What Debian lacks, what takes its place, and what nobody serves")
 def test_what_debian_lacks_and_what_takes_its_place(places):
     topics = places["TurtleBot"].run("rostopic list")
     assert "move_base" not in topics and "camera/rgb" not in topics
@@ -214,6 +219,7 @@ def shown(*packages):
     return set(re.findall(r"^Package: (\S+)$", text, re.MULTILINE))
 
 
+@claim("Debian has each package that a hint names")
 def test_debian_has_what_hints_name():
     tables = (causes.OTHER_MODULES, causes.OTHER_PACKAGES)
     listed = [row.partition(":")[0].replace("*", "") for t in tables for row in t.splitlines()]

@@ -9,6 +9,7 @@ import re
 
 import pytest
 
+from tutorial_testing.claims import claim
 from tutorial_testing.processes import REPOSITORY
 from tutorial_testing.waiting import wait_for
 
@@ -75,6 +76,7 @@ def roscore(tutorial, host, master_uri):
         yield
 
 
+@claim("The commands of README and pages run, section by section")
 @pytest.mark.long
 @pytest.mark.parametrize("blocks", sections())
 @pytest.mark.usefixtures("roscore")

@@ -2,6 +2,7 @@
 
 from math import dist
 
+from tutorial_testing.claims import claim
 from tutorial_testing.two_hosts.scene import REPOSITORY, ROBOT, WORKSTATION
 from tutorial_testing.waiting import tolerance, wait_for
 
@@ -14,6 +15,7 @@ def ends_with(topic, text):
     return text in "".join(topic.output.split("---")[-2:])
 
 
+@claim("The page's two machines drive; doctor and graph see both")
 def test_the_readme_commands_drive_the_recording_across_and_the_tools_see_it(scene, tmp_path):
     scene.launch_robot()
     scene.launch_workstation()
@@ -34,6 +36,7 @@ def test_the_readme_commands_drive_the_recording_across_and_the_tools_see_it(sce
         assert f'subgraph "cluster {scene.address(host)}"' in drawn
 
 
+@claim("A pulled cable stops the robot; late commands do not move it; neutral lets it drive again")
 def test_a_pulled_cable_stops_the_robot_which_drives_again_after_neutral(scene):
     scene.launch_robot()
     scene.launch_workstation(TURTLEBOT)

@@ -3,8 +3,10 @@
 import pytest
 
 from tutorial_faults.live.judge import BEGINS, ENDS, HANDS, WHEELS, Event, Trial, velocity
+from tutorial_testing.claims import claim
 from tutorial_testing.hands import DRIVE, RELEASED
 
+pytestmark = claim("The hunt sees a base that drives as soon as it is restarted")
 DRIVES, RESTS = velocity(0.3, 0.0), velocity(0.0, 0.0)
 
 

@@ -12,6 +12,8 @@ from xml.etree import ElementTree
 import pytest
 import yaml
 
+from tutorial_testing.claims import claim
+
 REPOSITORY = Path(__file__).resolve().parents[3]
 PACKAGES = sorted(
     str(path.parent.relative_to(REPOSITORY))
@@ -21,6 +23,7 @@ PACKAGES = sorted(
 )
 
 
+@claim("Package versions, launch arguments and imports are declared where they should be")
 @pytest.mark.parametrize("package", PACKAGES)
 def test_version_is_the_newest_in_the_changelog(package):
     folder = REPOSITORY / package
@@ -29,6 +32,7 @@ def test_version_is_the_newest_in_the_changelog(package):
     assert newest and newest[1] == version
 
 
+@claim("Package versions, launch ...", because="launch arguments")
 @pytest.mark.parametrize("package", PACKAGES)
 def test_every_launch_argument_is_explained(package):
     for launch in sorted((REPOSITORY / package / "launch").glob("*.launch")):
@@ -54,6 +58,7 @@ DEBIAN = {
 UNDECLARED = {"rosbags", "rclpy"}  # PyPI's, which package.xml cannot name
 
 
+@claim("Package versions, launch ...", because="imports")
 @pytest.mark.parametrize("package", [p for p in PACKAGES if p != "common/tutorial_check"])
 def test_what_is_imported_is_declared(package):
     root = ElementTree.parse(REPOSITORY / package / "package.xml").getroot()
@@ -81,6 +86,7 @@ def is_of_python(name):
     return standard or origin in ("built-in", "frozen")
 
 
+@claim("A file is read in five minutes")
 @pytest.mark.parametrize("path", [*SOURCES, *SCRIPTS], ids=lambda path: path.name)
 def test_a_file_is_read_in_five_minutes_and_a_script_only_starts_its_program(path):
     is_start = path in SCRIPTS and path.parts[-3] != "beginner_tutorials"
@@ -99,6 +105,7 @@ def test_no_class_of_the_checker_has_more_than_twelve_attributes():
                 assert len(fields | own) <= 12, f"{path}: {one.name}"
 
 
+@claim("pip installs no ...", because="only what a lock has")
 def test_pip_installs_only_what_a_lock_has():
     """What is asked for stands in the lock, which test/lock makes; each release has its hashes."""
     locks = dict(re.findall(r'"(\w+)": \("(\S+)"', (REPOSITORY / "test/lock").read_text()))
@@ -130,6 +137,7 @@ def test_ci_has_an_environment_like_a_users():
     assert '/as_user" "${BASH_SOURCE[0]}"' in (REPOSITORY / ".ci/run").read_text()
 
 
+@claim("Workflows may only read, and take actions by their commit")
 def test_workflows_may_only_read_and_take_actions_by_their_commit():
     made = REPOSITORY / "common/tutorial_check/src/tutorial_check/commands/autograder/check.yml"
     for text in map(Path.read_text, [made, *(REPOSITORY / ".github/workflows").glob("*.yml")]):
@@ -139,6 +147,7 @@ def test_workflows_may_only_read_and_take_actions_by_their_commit():
         )
 
 
+@claim("The compose files open nothing to other machines")
 @pytest.mark.parametrize("name", ["compose.yaml", "two_hosts.yaml"])
 def test_nothing_of_a_container_is_open_to_other_machines(name):
     for service in yaml.safe_load((REPOSITORY / "docker" / name).read_text())["services"].values():
@@ -150,6 +159,7 @@ def test_nothing_of_a_container_is_open_to_other_machines(name):
         assert service["pids_limit"] and service["mem_limit"]
 
 
+@claim("No program and no test needs more than Python 3.8")
 @pytest.mark.skipif(not find_spec("vermin"), reason="vermin missing: ./tutorial setup")
 def test_no_program_and_no_test_needs_more_than_python_3_8():
     """As far as vermin (PyPI) knows; annotations that 3.8 evaluates are found by ruff (FA102)."""

@@ -14,7 +14,12 @@ from fake_turtlebot_sim.mux.parameters import Input
 from tutorial_faults.arbiter_world import ZERO, ArbiterWorld, Command
 from tutorial_faults.teleoperation_world import LEFT, Message, TeleoperationWorld
 from tutorial_faults.worlds import SUSPENDED, TICK
+from tutorial_testing.claims import claim
 
+pytestmark = [
+    claim("Late commands move nothing; a stick must rest first"),
+    claim("(a) to (i), as the table of FAULTS.md has them"),
+]
 SETTINGS = settings(
     max_examples=200,
     stateful_step_count=40,

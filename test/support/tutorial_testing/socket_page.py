@@ -133,7 +133,8 @@ class SocketPage(Started):
     def wait_for(self, kind, fits=lambda message: True):
         return wait_for(lambda: next(filter(fits, self.of(kind)), None), f"message {kind}")
 
-    def sit_down(self):
+    def sit_down(self, then=REST):
+        """Take the session, with a joystick that is released until it is armed."""
         count = len(self.of("session"))
         self.say("drive", robot="", mode="D")
         self.hand = REST
@@ -148,3 +149,4 @@ class SocketPage(Started):
             return any(session["yours"] and session["armed"] for session in sessions)
 
         wait_for(is_armed, "session that is armed")
+        self.hand = then

@@ -4,6 +4,7 @@ import rospy
 from geometry_msgs.msg import Twist
 from sensor_msgs.msg import Joy
 
+from tutorial_testing.claims import claim
 from tutorial_testing.keys import Tmux
 from tutorial_testing.processes import Program
 from tutorial_testing.robot import Robot
@@ -19,6 +20,7 @@ def pair(twist):
     return round(twist.linear.x, 6), round(twist.angular.z, 6)
 
 
+@claim("turtlebot_teleop drives by keys and gamepads as the real one")
 class TeleopTest(RosTest):
     def test_a_key_speeds_up_in_steps_and_its_release_slows_down(self):
         robot, sent = self.enter(Robot()), self.record(TELEOP, Twist)

@@ -12,6 +12,7 @@ from turtlesim import srv
 from turtlesim.msg import Color, Pose
 
 from node_kit.ros.graph import ros_api
+from tutorial_testing.claims import claim
 from tutorial_testing.keys import Tmux
 from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
@@ -26,6 +27,7 @@ def call(name, kind, *values):
     return rospy.ServiceProxy(name, kind)(*values)
 
 
+@claim("turtlesim drives, draws, serves and logs as the real one")
 class TurtlesimTest(RosTest):
     def setUp(self):
         call(f"{FIRST}reset", Empty)

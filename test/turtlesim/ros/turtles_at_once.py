@@ -11,6 +11,7 @@ from rosgraph.network import read_ros_handshake_header, write_ros_handshake_head
 from turtlesim.srv import Spawn
 
 from simulated_turtles.services import AT_THE_START
+from tutorial_testing.claims import claim
 from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.rostests import RosTest
@@ -48,6 +49,10 @@ def processor_s(pid):
     return sum(int(text.split()[0]) for text in times) / 1e9
 
 
+@claim(
+    "turtlesim answers /spawn half a second after its start, and `rosservice call` beside it in a "
+    "launch file"
+)
 class AtOnceTest(RosTest):
     def services(self):
         _, _, services = rosgraph.Master("/test").getSystemState()

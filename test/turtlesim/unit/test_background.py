@@ -7,8 +7,10 @@ import pytest
 import rospy
 
 from simulated_turtles.ros.turtlesim_node import background
+from tutorial_testing.claims import claim
 
 
+@claim("turtlesim's background is read as roscpp reads whole numbers")
 @pytest.mark.parametrize(
     ("value", "red"),
     [

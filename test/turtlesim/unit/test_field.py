@@ -8,7 +8,9 @@ import pytest
 from PIL import Image, ImageChops, ImageDraw
 
 from simulated_turtles.field import COLORS, FIELD_M, START, Field
+from tutorial_testing.claims import claim
 
+pytestmark = claim("A turtle's motion is exact; names, pens, walls and colors are upstream's")
 BLUE, RED = (69, 86, 255), (255, 0, 0)
 PEN = (179, 184, 255)  # as upstream's DEFAULT_PEN
 PIXEL_M = 1 / 45

@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 
 from simulated_turtles.pen import covered
+from tutorial_testing.claims import claim
 
+pytestmark = claim("Pens of turtlesim draw the pixels that Qt's draw")
 LINES = {
     (2 + 2j, 6 + 2j, 3): """
         .........

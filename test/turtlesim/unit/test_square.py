@@ -10,10 +10,12 @@ import rospy
 
 from simulated_turtles.field import START, Field
 from simulated_turtles.ros.turtlesim_node import PERIOD_S
+from tutorial_testing.claims import claim
 
 SCRIPT = f"{rospkg.RosPack().get_path('turtlesim')}/scripts/draw_square"
 
 
+@claim("draw_square returns to its start, and logs each goal and that it is reached")
 def test_four_sides_return_to_the_start():
     field = Field(lambda: (0, 0, 0), 0.0)
     square, corners, lines, now_s = runpy.run_path(SCRIPT)["square"](), [], [], 0.0

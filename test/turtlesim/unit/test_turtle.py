@@ -6,7 +6,9 @@ import math
 import pytest
 
 from simulated_turtles.field import FIELD_M, Field, Turtle
+from tutorial_testing.claims import claim
 
+pytestmark = claim("A turtle's motion ...", because="the motion and the walls")
 MIDDLE = FIELD_M / 2
 
 

@@ -7,8 +7,10 @@ import pytest
 import rospy
 
 from simulated_turtles.ros import turtlesim_node
+from tutorial_testing.claims import claim
 
 
+@claim("Without tkinter or a screen turtlesim runs without a window")
 @pytest.mark.parametrize(("display", "lines"), [("", 0), (":no", 1)])
 @pytest.mark.parametrize("hidden", [{}, {"tkinter": None}])
 def test_no_screen_no_window(monkeypatch, display, lines, hidden):

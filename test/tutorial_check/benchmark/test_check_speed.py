@@ -7,11 +7,13 @@ import time
 from tutorial_check.course.definition import read_course
 from tutorial_check.examining.examination import examine
 from tutorial_check.submission.order import Order
+from tutorial_testing.claims import claim
 from tutorial_testing.processes import REPOSITORY
 
 ONE_S, ALL_S = 15.0, 90.0  # on two processors with nothing else to do
 
 
+@claim("An exercise is checked within 15 s, all within 90 s")
 def test_each_exercise_and_all_of_them(tmp_path, figure):
     for name in ("beginner_tutorials", "joy2twist"):
         shutil.copytree(REPOSITORY / name, tmp_path / "ws" / "src" / name)

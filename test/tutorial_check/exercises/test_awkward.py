@@ -10,6 +10,7 @@ from edits import chmod, put
 from solution import JOY2TWIST, TALKER
 
 from tutorial_check.report.memory import LATER
+from tutorial_testing.claims import claim
 from tutorial_testing.processes import Program, command_line, descendants, lives
 from tutorial_testing.waiting import LONGEST_S, wait_for
 
@@ -32,6 +33,10 @@ def check(underlay, *words):
     return done.returncode, done.stdout, done.stderr
 
 
+@claim(
+    "The first failure says what is wrong, the second how to fix it, with whole paths; --hints and "
+    "--no-hints choose"
+)
 def test_wrong_is_exit_code_1_and_the_second_time_there_is_a_hint(literal, underlay):
     """With whole paths, as a shell wants them."""
     workspace = literal.parent.rename(literal.parent.with_name("my ws"))
@@ -47,6 +52,7 @@ def test_wrong_is_exit_code_1_and_the_second_time_there_is_a_hint(literal, under
     assert "hint" not in check(underlay, "--in", workspace, "3", "--no-hints")[1]
 
 
+@claim("Exit code 0 is right, 1 wrong, 2 no verdict, with one line that says why")
 @pytest.mark.parametrize("folder", [None, "nowhere", SOURCE.parents[2]])
 def test_what_cannot_be_checked_is_exit_code_2(tmp_path, underlay, folder):
     """Without an underlay, without a workspace, with this suite's own solutions."""
@@ -57,6 +63,8 @@ def test_what_cannot_be_checked_is_exit_code_2(tmp_path, underlay, folder):
     assert words in error and "no verdict" in error
 
 
+@claim("In a class, checked side by side, each student has the verdict of their own programs")
+@claim("Each folder or zip of a class has a report, a row of the table and a page")
 def test_a_class_has_a_table_and_reports(literal, underlay, tmp_path):
     """Side by side, of one right, one wrong, one that hangs, a zip, and one that is no zip."""
     group = tmp_path / "group"
@@ -84,6 +92,7 @@ def examines(program):
     )
 
 
+@claim("Ctrl-C ends the check of all, and leaves nothing running")
 def test_ctrl_c_ends_the_check_of_all(literal, underlay, tmp_path):
     for number in range(4):
         shutil.copytree(literal.parent, tmp_path / "group" / str(number))
@@ -99,6 +108,7 @@ def test_ctrl_c_ends_the_check_of_all(literal, underlay, tmp_path):
         assert not (tmp_path / "group" / "check" / "table.csv").exists()
 
 
+@claim("--watch checks again when a file is saved; build and devel are not watched")
 def test_watch_checks_again_once_a_file_is_saved(literal, underlay, tmp_path):
     """Wherever the workspace is."""
     workspace = Path(shutil.move(str(literal.parent), str(tmp_path / "build")))

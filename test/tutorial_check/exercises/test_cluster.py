@@ -17,6 +17,7 @@ from test_mistakes import OF_HANDOUT
 
 from tutorial_check.examining.examination import examine
 from tutorial_check.submission.order import Order
+from tutorial_testing.claims import claim
 from tutorial_testing.processes import Program, command_line, descendants, signal_all
 from tutorial_testing.two_hosts.network import Network
 from tutorial_testing.waiting import wait_for
@@ -114,6 +115,10 @@ def verdicts(results):
     return [(result["id"], result["status"], result["title"]) for result in results]
 
 
+@claim(
+    "Whichever of worker, scheduler and call ends, nothing is lost; what ends two workers is "
+    "abandoned"
+)
 @pytest.mark.night
 @pytest.mark.parametrize("ended", ["worker", "scheduler", "client"])
 def test_whatever_ends_nothing_is_lost(literal, folder, scheduler, worker, client, ended):
@@ -137,6 +142,7 @@ def test_whatever_ends_nothing_is_lost(literal, folder, scheduler, worker, clien
     assert len(checked(folder)) == SUBMISSIONS + 1 and "Traceback" not in call.output
 
 
+@claim("Results are those of one machine")
 def test_results_are_those_of_one_machine(literal, folder, underlay, scheduler, worker, client):
     hand_in(literal, folder, 4)
     scheduler()
@@ -150,6 +156,7 @@ def test_results_are_those_of_one_machine(literal, folder, underlay, scheduler, 
         assert verdicts(checks) == verdicts(map(vars, outcome.results)), report.stem
 
 
+@claim("Whichever of worker, scheduler ...", because="what ends two workers")
 @pytest.mark.night
 def test_a_submission_that_ends_workers_is_abandoned(scheduler, worker, client):
     """Killed each time it has started to check it, as by the kernel when memory is short."""
@@ -176,6 +183,10 @@ except BaseException as error:
 """
 
 
+@claim(
+    "A student's program does not reach the scheduler; a worker that cannot isolate refuses to "
+    "start"
+)
 @pytest.mark.parametrize("more", [(), *at_night(("--not-isolated",))])
 def test_a_students_program_does_not_reach_the_scheduler(
     tmp_path, folder, scheduler, worker, client, key, monkeypatch, more
@@ -196,6 +207,7 @@ def test_a_students_program_does_not_reach_the_scheduler(
     assert ("isolated by Landlock alone" in report or "not isolated" in report) == bool(more)
 
 
+@claim("Who has no key is not let in, nothing listens elsewhere, pages are empty")
 def test_who_has_no_key_is_not_let_in_nor_is_a_worker_without_a_scheduler(
     scheduler, client, start, key
 ):
@@ -215,6 +227,7 @@ def test_who_has_no_key_is_not_let_in_nor_is_a_worker_without_a_scheduler(
     assert call.output == "worker: no Dask scheduler at 127.0.0.1:1: Connection refused\n"
 
 
+@claim("Who has no key ...", because="nothing listens, and pages are empty")
 @pytest.mark.parametrize("host", ["teacher", *at_night("one")])
 def test_nothing_listens_elsewhere_and_pages_are_empty(scheduler, worker, start, host):
     scheduler()

@@ -7,6 +7,7 @@ import subprocess
 import pytest
 
 from tutorial_check.commands.self_test import patch
+from tutorial_testing.claims import claim
 from tutorial_testing.processes import REPOSITORY
 
 SQUARE, WIKI = REPOSITORY / "common/courses/square", REPOSITORY / "common/courses/wiki"
@@ -18,6 +19,10 @@ def check(*words):
     return done.returncode, done.stdout + done.stderr
 
 
+@claim(
+    "The solutions of square and wiki come to what they should, and a self-test finds a check that "
+    "passes everything"
+)
 @pytest.mark.night
 @pytest.mark.parametrize(("name", "count"), [("square", 5), ("wiki", 69)])
 def test_the_solutions_come_to_what_they_should(name, count):
@@ -26,6 +31,10 @@ def test_the_solutions_come_to_what_they_should(name, count):
     assert output.count("\nok ") + output.startswith("ok ") == count, output
 
 
+@claim(
+    "A student of a course reads its words: mistakes in a service, a launch file and a transform, "
+    "at their line; whose mistake a type is"
+)
 def test_a_student_of_the_wiki_reads_line_and_cause(tmp_path):
     src = shutil.copytree(WIKI / "solutions/right", tmp_path / "ws" / "src")
     for name in ("W6_another_field", "W9_swapped", "W15_another_parent"):
@@ -43,6 +52,7 @@ def test_a_student_of_the_wiki_reads_line_and_cause(tmp_path):
     assert (code, "no exercise 9; there are 1, 2" in output) == (2, True), output
 
 
+@claim("The solutions of square ...", because="the self-test")
 def test_a_self_test_finds_a_check_that_passes_everything(tmp_path):
     course = shutil.copytree(SQUARE, tmp_path / "square")
     for solution in (course / "solutions").iterdir():

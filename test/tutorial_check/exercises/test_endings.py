@@ -17,6 +17,7 @@ from tutorial_check.recording.launcher import prepared
 from tutorial_check.recording.worker_process import Worker
 from tutorial_check.sandbox import bubblewrap
 from tutorial_check.submission.order import Order
+from tutorial_testing.claims import claim
 from tutorial_testing.processes import Program, command_line, descendants, lives
 from tutorial_testing.waiting import wait_for
 
@@ -60,6 +61,7 @@ def bare(tmp_path, monkeypatch):
     monkeypatch.setenv("PATH", path_without_namespaces(tmp_path))
 
 
+@claim("Without namespaces the verdicts are the same, or none and why")
 @pytest.mark.night
 @pytest.mark.usefixtures("bare")
 def test_right_is_right_or_not_judged_without_namespaces(literal, underlay):
@@ -70,6 +72,7 @@ def test_right_is_right_or_not_judged_without_namespaces(literal, underlay):
     assert "WRONG" not in out
 
 
+@claim("Without namespaces the verdicts ...", because="where programs may not enter")
 @pytest.mark.skipif(os.geteuid() != 0, reason="only root can run programs as another user")
 @pytest.mark.night
 @pytest.mark.usefixtures("bare")
@@ -96,6 +99,7 @@ def environment(request, tmp_path, scratch, underlay):
     return underlay, {"PYTHONPATH": PYTHONPATH, "PATH": path, "TMPDIR": str(scratch)}
 
 
+@claim("However the checker ends, no process and no folder is left")
 @pytest.mark.parametrize("work", WORKS)
 @pytest.mark.parametrize("how", [signal.SIGKILL, *at_night(signal.SIGTERM, signal.SIGHUP)])
 def test_nothing_is_left(literal, environment, scratch, how, work):
@@ -117,6 +121,7 @@ def test_nothing_is_left(literal, environment, scratch, how, work):
         assert "Traceback" not in checker.output
 
 
+@claim("However the checker ...", because="a worker that starts")
 @pytest.mark.skipif(not bubblewrap.granted().options, reason="no namespaces here")
 def test_a_worker_that_is_ended_while_it_starts_leaves_nothing(literal, underlay, tmp_path):
     folder = tmp_path / "folder"

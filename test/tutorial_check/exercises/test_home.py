@@ -10,6 +10,7 @@ from solution import LAUNCH_BAG, TALKER, J
 from tutorial_check.examining.examination import examine
 from tutorial_check.sandbox import bubblewrap
 from tutorial_check.submission.order import Order
+from tutorial_testing.claims import claim
 
 pytestmark = pytest.mark.skipif(
     not bubblewrap.granted().options, reason="no isolation here: nothing is hidden"
@@ -41,6 +42,7 @@ def test_a_workspace_that_is_a_link_was_built_over_the_suite(literal, underlay, 
     assert "on top of this suite" in verdicts("2", home / "catkin_ws")["C1"].seen
 
 
+@claim("A link out of what ...", because="end to end")
 @pytest.mark.night
 @pytest.mark.parametrize(("what", "exercise"), [("", "2"), (J, "4.3"), (TALKER, "3")])
 def test_ones_own_links_are_followed(literal, home, verdicts, what, exercise):
@@ -50,6 +52,7 @@ def test_ones_own_links_are_followed(literal, home, verdicts, what, exercise):
     verdicts(exercise)
 
 
+@claim("A recording elsewhere is played by its whole path")
 def test_a_recording_in_the_home_folder_is_played_by_its_whole_path(literal, home, verdicts):
     (home / "git").mkdir()
     shutil.move(str(literal / J / "bag"), str(home / "git" / "bag"))

@@ -14,6 +14,7 @@ from tutorial_check.examining.examination import examine
 from tutorial_check.report.text import lines_of
 from tutorial_check.sandbox import bubblewrap
 from tutorial_check.submission.order import Order
+from tutorial_testing.claims import claim
 from tutorial_testing.processes import command_line
 
 FIRST = "#!/usr/bin/env python3\nimport os\n"
@@ -88,6 +89,10 @@ def scratch(folder, monkeypatch):
     return folder
 
 
+@claim(
+    "Programs that fork, kill, fill, print without end, end the master or forge have an honest "
+    "verdict, and harm none beside them"
+)
 @pytest.mark.parametrize("what", JOINED)
 def test_a_hostile_joy2twist_has_a_verdict_and_harms_no_file(literal, underlay, what):
     victim = literal / "joy2twist" / "package.xml"
@@ -100,6 +105,7 @@ def test_a_hostile_joy2twist_has_a_verdict_and_harms_no_file(literal, underlay, 
     assert check in checks.split() and words in report, report
 
 
+@claim("What a program leaves in the checker's home folder runs in no program of the checker's")
 def test_what_a_program_leaves_in_our_home_folder_runs_in_no_program_of_ours(literal, underlay):
     """In 4.4 the simulated robot starts after it."""
     lines = textwrap.indent(PLANTS_PYTHON, "    ")
@@ -108,6 +114,7 @@ def test_what_a_program_leaves_in_our_home_folder_runs_in_no_program_of_ours(lit
     assert outcome.passed, (first_wrong(outcome), outcome.trouble)
 
 
+@claim("The checker writes through no link that a program planted")
 def test_a_link_planted_where_the_checker_writes_is_not_followed(
     literal, bare_underlay, scratch, monkeypatch
 ):
@@ -120,6 +127,7 @@ def test_a_link_planted_where_the_checker_writes_is_not_followed(
     assert not os.path.lexists(f"{scratch}/planted")
 
 
+@claim("Programs that fork, kill, fill, print ...", because="a talker")
 def test_a_hostile_talker_harms_none_beside_or_after_it(literal, underlay, tmp_path, scratch):
     """Two at a time, as check --all has it: before and after each hostile one comes a right one."""
     students = [tmp_path / "right_0"]

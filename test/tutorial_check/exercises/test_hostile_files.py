@@ -13,6 +13,7 @@ from tutorial_check.errors import CannotCheck
 from tutorial_check.examining.examination import examine
 from tutorial_check.sandbox.privileges import MOST_CPU_S, MOST_MB
 from tutorial_check.submission.order import Order
+from tutorial_testing.claims import claim
 
 # Stands for bubblewrap and the worker in it: each build prints what is in a file beside it.
 WORKER = """#!/usr/bin/python3 -IS
@@ -108,6 +109,9 @@ NUMBERS = [
 ]
 
 
+@claim(
+    "Whatever files were handed in, reading them has bounds of time and memory, and ends in a line"
+)
 @pytest.mark.parametrize("number", NUMBERS)
 def test_what_no_student_wrote_is_read_in_bounded_time_and_memory(hostile, underlay, number):
     workspace = hostile(number)

@@ -18,6 +18,7 @@ from test_endings import path_without_namespaces
 from test_hostile import processes_like
 
 from tutorial_check.sandbox import bubblewrap, landlock
+from tutorial_testing.claims import claim
 from tutorial_testing.isolation import old_bubblewrap
 
 REPOSITORY = Path(__file__).resolve().parents[3]
@@ -126,6 +127,10 @@ def words(mode, folder):
     return [*machine, "setpriv", f"--reuid={STRANGER}", f"--regid={STRANGER}", "--clear-groups"]
 
 
+@claim(
+    "A hostile program reaches what the README's table says, in each of six modes, and with "
+    "bubblewrap 0.4 and the Landlock of Linux 5.13"
+)
 def test_a_hostile_program_reaches_what_the_readme_says(
     literal, older, mode, folder, bare_underlay, words, variables
 ):

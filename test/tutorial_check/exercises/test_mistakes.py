@@ -12,6 +12,7 @@ from tutorial_check.course.definition import read_course
 from tutorial_check.examining.examination import examine
 from tutorial_check.report.text import lines_of
 from tutorial_check.submission.order import Order
+from tutorial_testing.claims import claim
 
 OF_HANDOUT = mistakes_packages.ROWS + mistakes_nodes.ROWS + mistakes_launch.ROWS + grammar.WRONG
 ROWS = OF_HANDOUT + mistakes_world.ROWS
@@ -28,6 +29,12 @@ def wrong_of(outcomes):
     return [result for outcome in outcomes for result in outcome.wrong]
 
 
+@claim("A devel folder ...", because="a folder that is not whole")
+@claim("An error of CMake, compiler ...", because="end to end")
+@claim(
+    "Each mistake in packages, files, nodes, launch files, the class and the world (76 of a "
+    "grammar) is found at the right check, with its cause and its line"
+)
 @pytest.mark.parametrize("row", ROWS, ids=str)
 def test_a_mistake_is_found(row, literal, examined):
     apply(row.edits, literal)
@@ -38,6 +45,7 @@ def test_a_mistake_is_found(row, literal, examined):
     assert is_found, f"should be {row.check}, {row.words}:\n{report}"
 
 
+@claim("A mistake keeps no other exercise from a verdict")
 @pytest.mark.parametrize("row", OF_HANDOUT, ids=str)
 def test_a_mistake_is_found_in_all_exercises(row, literal, underlay):
     """Its cause is reported, maybe by an earlier check, and keeps no other one from a verdict."""

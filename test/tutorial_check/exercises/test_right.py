@@ -16,6 +16,7 @@ from tutorial_check.course.definition import read_course
 from tutorial_check.examining.examination import examine
 from tutorial_check.report.text import lines_of
 from tutorial_check.submission.order import Order
+from tutorial_testing.claims import claim
 from tutorial_testing.processes import REPOSITORY
 
 CHECKS = checks_of(read_course())
@@ -38,12 +39,18 @@ def check(examined):
     return judge
 
 
+@claim(
+    "The suite's own solutions, and a literal solution of the handout, are right; what the "
+    "handout's listings do is a note"
+)
+@claim("The three steps display, publish and end as the handout has it, 45 lines each")
 def test_the_solutions_of_the_suite_are_right(tmp_path, check):
     for name in ("beginner_tutorials", "joy2twist"):
         shutil.copytree(REPOSITORY / name, tmp_path / "ws" / "src" / name)
     check(tmp_path / "ws", [*read_course().by_default, "7"])
 
 
+@claim("The suite's own solutions, and a literal ...", because="a literal solution")
 def test_a_literal_solution_is_right_and_noted(literal, check):
     exercises = read_course().by_default
     seen = check(literal.parent, exercises)
@@ -53,6 +60,7 @@ def test_a_literal_solution_is_right_and_noted(literal, check):
     assert seen["C29"].where == "scripts/new_joy2twist.py:11"  # on_shutdown before the publisher
 
 
+@claim("What is right and worth knowing is a note, with its line")
 @pytest.mark.parametrize("row", NOTES, ids=str)
 def test_a_right_solution_is_noted(row, literal, check):
     apply(row.edits, literal)
@@ -62,6 +70,10 @@ def test_a_right_solution_is_noted(row, literal, check):
         assert is_reported(results[name], words), lines_of(results[name])
 
 
+@claim(
+    "A devel folder must be whole and built over this suite, or over a ROS in /opt/ros; a "
+    "committed one of another home, or without setup.*, is ignored"
+)
 @pytest.mark.parametrize(
     ("below", "status"), [("underlay", "ok"), ("nothing of the suite", "wrong")]
 )
@@ -77,6 +89,11 @@ def test_below_what_a_workspace_was_built(literal, underlay, below, status):
     assert next(result.status for result in outcome.results if result.id == "C1") == status
 
 
+@claim(
+    "Other right solutions (shebangs, folders, topics, limits, dead-man buttons, launch files, "
+    "worlds; classes, of several the last; recordings, of several that of /joy; 68 of a grammar) "
+    "are not blamed"
+)
 @pytest.mark.parametrize("row", variants.ROWS, ids=str)
 def test_a_variant_is_right(row, literal, check):
     apply(row.edits, literal)

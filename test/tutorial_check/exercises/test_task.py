@@ -9,7 +9,12 @@ from solution import TALKER, J
 from tutorial_check.course.definition import read_course
 from tutorial_check.course.tasks import drawn
 from tutorial_check.report.text import lines_of
+from tutorial_testing.claims import claim
 
+pytestmark = claim(
+    "A right solution of a student's own task is right, that of another is wrong, and only hints "
+    "show values"
+)
 COURSE = read_course()
 TOPICS = {"joy", "cmd_vel"}
 FEW = {"axis_linear": 5, "axis_angular": 2, "scale_linear": -2.0, "rate": 1}  # else the handout's

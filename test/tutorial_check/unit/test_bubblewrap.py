@@ -12,9 +12,11 @@ from tutorial_check.cluster import dask_cluster as cluster
 from tutorial_check.errors import CannotCheck
 from tutorial_check.sandbox import bubblewrap, landlock
 from tutorial_check.sandbox.bubblewrap import Isolation
+from tutorial_testing.claims import claim
 from tutorial_testing.isolation import old_bubblewrap
 
 
+@claim("What the system does not provide is said first")
 @pytest.mark.parametrize(
     ("granted", "version", "words"),
     [
@@ -59,6 +61,7 @@ def test_threads_that_ask_at_once_get_one_answer(monkeypatch):
 NOT_ISOLATED = "cannot isolate programs: bwrap: refused: a student's program could reach the"
 
 
+@claim("A student's program ...", because="a worker that cannot isolate")
 @pytest.mark.parametrize(
     ("begin", "why"),
     [

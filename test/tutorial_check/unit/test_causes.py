@@ -10,10 +10,12 @@ from tutorial_check.checking.causes import TABLES, advice, explain, explained, i
 from tutorial_check.checking.launch_errors import package_hint
 from tutorial_check.submission.python_facts import PythonFacts
 from tutorial_check.submission.tracebacks import first_traceback
+from tutorial_testing.claims import claim
 
 FORMAT = "TypeError: not enough arguments for format string"
 
 
+@claim("An error of Python, in a program that fails or cannot be read, has its cause")
 @pytest.mark.parametrize(
     ("error", "line", "word"),
     [
@@ -36,6 +38,7 @@ def test_an_error_of_python_has_a_cause(error, line, word):
     assert explain("ZeroDivisionError: division by zero", line) == ""
 
 
+@claim("A program in Python 2 is named as such, and the command of its hint makes it Python 3")
 @pytest.mark.parametrize(
     "line",
     [
@@ -59,6 +62,7 @@ def test_a_program_in_python_2_is_named_as_such(line):
     assert hint.startswith("this is Python 2: 2to3 -w /x.py") or is_legal_now
 
 
+@claim("A program in ...", because="the command of the hint")
 def test_the_hint_for_python_2_works(tmp_path):
     """Its command makes a program of what Python 3 refuses; Debian 13 has this one alone."""
     pytest.importorskip("fissix")
@@ -76,6 +80,7 @@ def test_another_error_is_not_called_python_2(line):
     assert "Python 2" not in explain(facts.error, facts.error_text, section="syntax")
 
 
+@claim("An error of Python, in ...", because="a program that cannot be read")
 @pytest.mark.parametrize(
     ("text", "line", "word"),
     [
@@ -127,6 +132,10 @@ def test_an_error_at_the_end_of_rospy_is_no_mistake(no_mistake):
         assert first_traceback(both, "/tmp/ws/joy2twist").error.startswith("TypeError: 'tuple' ob")
 
 
+@claim(
+    "An error of CMake, compiler or linker has its line and its cause; the student's own comes "
+    "before another package's"
+)
 @pytest.mark.parametrize(
     ("words", "hint"),
     [
@@ -154,6 +163,7 @@ def test_an_error_of_catkin_make_has_a_cause(words, hint):
     assert hint in "".join(explained("catkin_make", words))
 
 
+@claim("A real package that Debian lacks is not called misspelt")
 def test_a_real_package_that_debian_lacks_is_not_called_misspelt():
     """Even one with a name like that of a package which is here; a misspelt one is."""
     assert is_lacking("turtlebot3_bringup") and not is_lacking("turtlebot_brinup")

@@ -9,7 +9,12 @@ import pytest
 from tutorial_check.checking.results import NOTE, OK, UNREACHED, WRONG, Outcome, Result
 from tutorial_check.report import class_page
 from tutorial_check.report.class_page import POLICY, Student, table_csv, table_html
+from tutorial_testing.claims import claim
 
+pytestmark = [
+    claim("The page shows how many fail what, why, and what changed, and can be opened meanwhile"),
+    claim("No script runs in the page and no cell of the table is a formula"),
+]
 NOTED = Outcome("2", [Result("C1", NOTE, "one", seen="a name")], 1.0, True)
 BAD = Outcome("2", [Result("C1", WRONG, "one", seen="=none", hint="mkdir src")], 1.0, True)
 FILES = Result("C20", OK, "files", seen="launch/joy.launch")

@@ -10,7 +10,12 @@ from tutorial_check.commands import command_line
 from tutorial_check.commands.options import parse
 from tutorial_check.commands.watch import stamps
 from tutorial_check.report.formats import FORMATS
+from tutorial_testing.claims import claim
 
+pytestmark = claim(
+    "A section is all its exercises, in a shell of a workspace that one is meant, and words that "
+    "do not fit are refused"
+)
 UNDERLAY = ["--underlay", "setup.bash"]
 BEFORE = [*UNDERLAY, "--in", "ws"]
 WELL = Outcome("2", [Result("C1", OK, "one")], 1.0, True)
@@ -40,6 +45,7 @@ def test_in_a_shell_of_a_workspace_that_is_meant(monkeypatch):
     assert (options.all, options.jobs, options.hints) == ("/class", 2, 2)
 
 
+@claim("A command's help has its options alone, and `check --help` all")
 @pytest.mark.parametrize(
     ("words", "command"),
     [
@@ -110,6 +116,7 @@ def main(monkeypatch):
     return called
 
 
+@claim("Exit code 0 is ...", because="right and wrong")
 @pytest.mark.parametrize(
     ("outcomes", "code"), [([WELL], 0), ([BAD], 1), ([WELL, NO_VERDICT], 2), ([BAD, NO_VERDICT], 2)]
 )
@@ -131,6 +138,7 @@ def test_no_file_has_hints_if_there_are_none(main, tmp_path):
     assert not [one for one in (kept, tmp_path / "report") if "mkdir src" in one.read_text()]
 
 
+@claim("A bug of the checker, or a file that cannot be written, is no fault of the student's")
 @pytest.mark.parametrize("name", FORMATS)
 def test_a_bug_of_the_checker_is_no_fault_of_the_students(main, tmp_path, capsys, name):
     (tmp_path / "file").write_text("last week's")
@@ -150,6 +158,7 @@ def test_a_reader_that_has_seen_enough_is_no_fault(main, monkeypatch, capsys):
     assert main(closed) == 2 and not capsys.readouterr().err
 
 
+@claim("A bug of the checker, or ...", because="a file that cannot be written")
 def test_a_file_that_cannot_be_written(main, tmp_path, capsys):
     """The other files are written; a fault that is known before the work prevents the work."""
     files = "--json", tmp_path / "json", "--junit", tmp_path / "junit"
@@ -160,6 +169,7 @@ def test_a_file_that_cannot_be_written(main, tmp_path, capsys):
     assert capsys.readouterr().err.count(why) == 2
 
 
+@claim("--watch checks again ...", because="build and devel")
 @pytest.mark.parametrize("folder", ["ws", "build/ws", "me~/devel"])
 def test_build_devel_and_files_of_editors_are_not_watched(tmp_path, folder):
     names = "src/package.xml build/CMakeCache.txt devel/setup.bash src/.joy2twist.py.swp src/a.py~"

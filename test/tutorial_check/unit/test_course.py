@@ -10,7 +10,9 @@ from tutorial_check.checking.results import UNREACHED, Outcome, Result, Wrong
 from tutorial_check.commands.self_test import complaint_of, patch
 from tutorial_check.course.definition import read_course
 from tutorial_check.errors import CannotCheck
+from tutorial_testing.claims import claim
 
+pytestmark = claim("A course has its exercises and checks in its order; a fault in it is one line")
 YAML = 'title: T\ndocument: sheet\nexercises: {"2": two, "1": {title: one, points: 3}}\n'
 CHECKS = '''
 from tutorial_check.checking.checks import check
@@ -104,6 +106,7 @@ def test_wrong_checks_are_one_line(course, checks, why):
     assert why in str(error.value) and "\n" not in str(error.value)
 
 
+@claim("A course of the suite is known by its name; a wrong solution may be a diff")
 def test_a_course_that_is_shipped_has_a_name():
     assert read_course("wiki").folder.name == "wiki"
     with pytest.raises(CannotCheck, match="or one of handout, square, wiki"):
@@ -122,6 +125,7 @@ def test_page_and_hint_of_the_wiki_name_the_same_dependencies(make_submission):
         assert wrong.value.hint == f"catkin_create_pkg {name} {depends}"
 
 
+@claim("A course of the suite ...", because="a diff")
 def test_a_patch_changes_adds_and_removes(tmp_path):
     for name in ("changed", "removed"):
         (tmp_path / name).write_text("a\nb\n\na\nc\n")

@@ -18,6 +18,7 @@ from tutorial_check.recording import client_node
 from tutorial_check.recording.client import Client, FrameTransform, Seen, ServiceAnswer
 from tutorial_check.recording.launch_file_reader import facts_of
 from tutorial_check.recording.launch_files import Launch
+from tutorial_testing.claims import claim
 from tutorial_testing.waiting import wait_for
 
 ENDS = {}
@@ -104,6 +105,7 @@ def test_what_is_no_list_of_plain_values_is_refused(ros, answers):
         Client(ros).seen(SimpleNamespace(ran="p"), answers=answers)
 
 
+@claim("A student of a course ...", because="whose mistake a type is")
 @pytest.mark.parametrize(
     ("kind", "values", "why"),
     [

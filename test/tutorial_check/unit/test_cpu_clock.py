@@ -5,7 +5,11 @@ import os
 import pytest
 
 from tutorial_check.processes.cpu_clock import SLOWEST, CpuClock, times
+from tutorial_testing.claims import claim
 
+pytestmark = claim(
+    "A program that could work and does not is not waited for; one without a processor is"
+)
 OURS, THEIRS = 1, 2
 MS = 1_000_000  # nanoseconds
 
@@ -33,6 +37,7 @@ class Machine:
         return self.clock.now() - self.began_s
 
 
+@claim("Deadlines go by the time that the programs had")
 @pytest.mark.parametrize(
     ("passed", "programs_s", "busy", "overloaded"),
     [

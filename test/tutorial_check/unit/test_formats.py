@@ -8,7 +8,11 @@ import pytest
 from tutorial_check.checking.results import NOTE, OK, UNREACHED, WRONG, Outcome, Result
 from tutorial_check.report.formats import as_classroom, as_gradescope, as_json, as_junit
 from tutorial_check.report.text import summary
+from tutorial_testing.claims import claim
 
+pytestmark = claim(
+    "JSON, JUnit, Gradescope and Classroom 50 get what they want, and why there is no verdict"
+)
 NAMES = ("id", "status", "title", "expected", "seen", "where", "hint")
 VALUES = ("C16", WRONG, "three", "a < b", "c\x00\x1b & d", "f.py:3", "do it")
 ABOUT = {"section": "handout 4.3", "look": "rostopic echo"}

@@ -6,8 +6,10 @@ import pytest
 
 from tutorial_check.errors import CannotCheck
 from tutorial_check.processes.helper_process import Helper
+from tutorial_testing.claims import claim
 
 
+@claim("A helper that was late is asked no more")
 def test_a_helper_that_was_late_is_asked_no_more(request, tmp_path):
     gate = tmp_path / "gate"  # for which read_text() waits
     os.mkfifo(gate)

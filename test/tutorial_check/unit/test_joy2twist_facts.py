@@ -11,7 +11,12 @@ from courses.handout.driving.joy2twist_run import Connections, Joy2TwistRun, Num
 from courses.handout.task import CMD_VEL, JOY, JoystickTask
 from tutorial_check import Wrong, first_of
 from tutorial_check.submission.python_facts import PythonFacts
+from tutorial_testing.claims import claim
 
+pytestmark = claim(
+    "What no program shows reliably, joy2twist or talker and listener, has its diagnosis from "
+    "recorded facts, and a machine that stuttered is not blamed on the student"
+)
 SCRIPT = "joy2twist.py"
 ANSWERS = [(0.1 * k, 0.0, 0.0, 0.0, 0.0, 0.5) for k in range(20)]
 ZERO = (0.0,) * 6

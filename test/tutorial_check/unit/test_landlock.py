@@ -8,6 +8,7 @@ from contextlib import suppress
 import pytest
 
 from tutorial_check.sandbox import landlock, privileges
+from tutorial_testing.claims import claim
 
 # The first rights stand in linux/landlock.h since Linux 5.13.
 SYSTEM = ("/usr", "/lib", "/lib64", "/bin", "/proc")
@@ -19,6 +20,7 @@ def test_no_version_is_asked_for_rights_that_it_does_not_know(version, rights):
     assert landlock.rights_of(version) == rights
 
 
+@claim("What the system does not provide is said first", because="Landlock")
 def test_landlock_is_not_used_on_an_unknown_machine_or_kernel(monkeypatch):
     monkeypatch.setattr(platform, "machine", lambda: "riscv64")
     assert landlock.version.__wrapped__() == 0
@@ -60,6 +62,7 @@ def reached(version, attempts, shown, own, monkeypatch):
     return names
 
 
+@claim("A hostile program ...", because="every version of Landlock")
 @pytest.mark.parametrize("version", RIGHTS)
 def test_files_of_others_stay_as_they_are_under_each_version(version, tmp_path, monkeypatch):
     if landlock.version() < version:

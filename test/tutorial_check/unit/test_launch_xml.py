@@ -7,11 +7,13 @@ import pytest
 
 from tutorial_check.checking.launch_errors import QUOTES, launch_error, not_xml
 from tutorial_check.submission.launch_xml import Fault
+from tutorial_testing.claims import claim
 
 ENCODING = 'Python cannot read the encoding of its first line: write encoding="utf-8"'
 NODE = '  <node pkg="rosbag" type="play" name="x" args="--loop a.bag"/>\n'
 
 
+@claim("A launch file that is no XML has a line and a hint")
 @pytest.mark.parametrize(
     ("text", "line", "words"),
     [

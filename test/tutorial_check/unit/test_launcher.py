@@ -14,7 +14,9 @@ from tutorial_check.examining.ask_once import AskOnce
 from tutorial_check.recording import worker_process
 from tutorial_check.sandbox import bubblewrap
 from tutorial_check.submission.order import Order, Question, Reply
+from tutorial_testing.claims import claim
 
+pytestmark = claim("What was found before a worker ended, or its 15 minutes were over, is reported")
 READY, SEEN = "{}", json.dumps({"recording": {"number": 1}})
 
 

@@ -8,6 +8,7 @@ from tutorial_check.checking.results import NOTE, OK, WRONG, Outcome, Result
 from tutorial_check.course.definition import read_course
 from tutorial_check.errors import CannotCheck
 from tutorial_check.report.memory import AGAIN, ALWAYS, LATER, NEVER, Memory, show_solution
+from tutorial_testing.claims import claim
 
 WRONG_SIGN = Result("C16", WRONG, "axes", seen="angular.z = -1.00 * axes[0]", hint="no minus")
 WRONG_AXIS = Result("C16", WRONG, "axes", seen="axis 2 drives", hint="axes[1]")
@@ -58,6 +59,7 @@ def test_a_memory_that_cannot_be_read_is_empty(memory, tmp_path, text):
     assert isinstance(json.loads((tmp_path / "cache/checked.json").read_text()), dict)
 
 
+@claim("A solution is shown only when its exercise is done, and is a file of the course")
 def test_a_solution_is_shown_when_its_exercise_is_done(memory, capsys):
     course = read_course()
     with pytest.raises(CannotCheck, match=r"4\.3 is not done yet"):
@@ -69,6 +71,7 @@ def test_a_solution_is_shown_when_its_exercise_is_done(memory, capsys):
         show_solution(course, ["4.4"], memory())
 
 
+@claim("A solution is ...", because="a file of the course")
 @pytest.mark.parametrize("file", ["../secret", "link", "../course_2/x", "/etc/passwd"])
 def test_a_solution_is_a_file_of_the_course(memory, tmp_path, file):
     folder = tmp_path / "course"

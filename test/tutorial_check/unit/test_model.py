@@ -8,7 +8,12 @@ from tutorial_check.checking.checks import Check, CheckRunner, checks_of
 from tutorial_check.checking.results import OK, UNREACHED, WRONG, Note, Outcome, Wrong
 from tutorial_check.course.definition import read_course
 from tutorial_check.errors import CannotCheck
+from tutorial_testing.claims import claim
 
+pytestmark = claim(
+    "A check is made after those it needs, one cause is reported once, and a check that cannot "
+    "work keeps no other from it"
+)
 NEEDS = {"A": ("1", ()), "B": ("1", ("A",)), "C": ("2", ("B",)), "D": ("2", ())}
 CHECKS = [Check(name, one, name, one, print, needs) for name, (one, needs) in NEEDS.items()]
 ONE, OTHER = Check("A", "1", "a", "1", print), Check("B", "2", "b", "2", print)
@@ -105,6 +110,10 @@ def test_what_cannot_be_checked_keeps_no_other_check_from_it(error, why):
     assert one.trouble("1").startswith(why) and one.trouble("2") == ""
 
 
+@claim(
+    "A check that does not hold is made again if the machine was busy or no line is to blame; with "
+    "too little time there is no verdict"
+)
 @pytest.mark.parametrize(
     ("about", "busy", "overloaded", "looks", "status"),
     [

@@ -11,7 +11,12 @@ import yaml
 from tutorial_check.commands.package import package
 from tutorial_check.course.definition import read_course
 from tutorial_check.errors import CannotCheck
+from tutorial_testing.claims import claim
 
+pytestmark = claim(
+    "--package writes a zip for Gradescope without solutions, its exit codes, and a workflow for "
+    "GitHub at this commit"
+)
 SQUARE = Path(__file__).resolve().parents[3] / "common/courses/square"
 
 

@@ -11,6 +11,7 @@ from tutorial_check.course.tasks import Task
 from tutorial_check.recording.worker import reply_to
 from tutorial_check.submission.order import Question, Reply
 from tutorial_check.submission.places import Places
+from tutorial_testing.claims import claim
 
 HERE = Places({"submission": Path("/tmp/a/ws"), "scratch": Path("/tmp/a"), "all": Path("/")})
 THERE = Places({"submission": Path("/var/b/handed_in"), "scratch": Path("/var/b")})
@@ -48,6 +49,10 @@ def record(workspace) -> Printed:
     return Printed(f"{workspace.source}/a and /usr")
 
 
+@claim(
+    "A recording names no path of a machine: folders have words, and are another machine's folders "
+    "there"
+)
 def test_a_worker_sends_no_path_of_its_machine_and_a_submission_has_its_own(
     make_submission, order, tmp_path
 ):

@@ -3,8 +3,10 @@
 import pytest
 
 from tutorial_check.sandbox.privileges import unused_user
+from tutorial_testing.claims import claim
 
 
+@claim("As root, programs run as a user that nobody else has")
 @pytest.mark.parametrize(
     ("uid_map", "lowest", "highest"),
     [

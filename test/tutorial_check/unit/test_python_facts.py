@@ -6,6 +6,7 @@ import pytest
 
 from tutorial_check.submission.python_facts import PythonFacts
 from tutorial_check.submission.python_text import flipped_anonymous, unmasked, without_name
+from tutorial_testing.claims import claim
 
 ANONYMOUS = functools.partial(flipped_anonymous, wanted=True)
 NO_JOY = functools.partial(without_name, name="Joy")
@@ -27,6 +28,7 @@ def test_a_warning_is_no_error_and_not_shown(recwarn):
     assert not recwarn
 
 
+@claim("A character of a PDF that ends no line for Python moves no line number")
 @pytest.mark.parametrize("odd", ["\f", "\v", "\x1c", "\x85", "\u2028"])  # copied from a PDF
 def test_a_character_that_ends_no_line_for_python_ends_none_here(odd):
     wrong = PythonFacts(f"# {odd}\nfrom std msgs.msg import String")
@@ -41,6 +43,7 @@ def test_a_character_that_ends_no_line_for_python_ends_none_here(odd):
 IMPORT = "if True:\n    from sensor_msgs.msg import (\n        Joy,\n    )\n"
 
 
+@claim("A program is tried again with one thing changed, and nothing else")
 @pytest.mark.parametrize(
     ("change", "text", "changed"),
     [

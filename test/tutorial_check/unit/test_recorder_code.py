@@ -3,6 +3,8 @@
 import pytest
 from recorder_code import closure, modules_of
 
+from tutorial_testing.claims import claim
+
 SECTIONS = ("talker_listener", "driving", "launch_files", "world")
 RECORDERS = [f"courses.handout.{section}.record" for section in SECTIONS]
 
@@ -13,6 +15,7 @@ def test_a_change_of_a_check_or_a_report_makes_no_recording_old(recorder):
     assert not [name for name in closure(recorder) if name.startswith(later)]
 
 
+@claim("Every row of mistakes ...", because="what counts as the recorders of today")
 @pytest.mark.parametrize("recorder", RECORDERS)
 def test_a_change_of_what_runs_programs_or_reads_them_makes_recordings_old(recorder):
     checker = ("processes.runner", "processes.cpu_clock", "submission.python_facts")

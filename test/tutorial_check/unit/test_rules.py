@@ -15,7 +15,11 @@ from courses.handout.driving.joys import (
 from courses.handout.driving.probe_diagnoses import probe_verdict
 from courses.handout.driving.replies import Replies
 from tutorial_check import Note, Wrong
+from tutorial_testing.claims import claim
 
+pytestmark = claim(
+    "Axes, factors, curves, steps and numbers that are none are named from pairs of Joy and Twist"
+)
 JOYS = numbered_joys(20)
 AXES = [axes for axes, _ in JOYS]
 NAN, INF = float("nan"), float("inf")
@@ -93,6 +97,7 @@ def test_how_many_values_are_shown(shape, count):
     assert values_displayed(JOYS, "\n".join(lines)) == count
 
 
+@claim("All six values in one line, with two decimals, count as displayed")
 @pytest.mark.parametrize("shape", ["[" + "{:.2f}," * 6 + "]", "{:.4f} " * 6 + "buttons 0 1"])
 def test_joys_on_one_line_each_are_displayed(shape):
     lines = [f"[INFO] [1700000000.1]: /listener: {shape.format(*axes)}" for axes in AXES[3:9]]

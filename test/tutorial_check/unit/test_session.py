@@ -15,6 +15,7 @@ from tutorial_check.course.tasks import Task
 from tutorial_check.errors import CannotCheck, CutShort
 from tutorial_check.recording.launcher import must_start_programs
 from tutorial_check.submission.order import Question, Reply
+from tutorial_testing.claims import claim
 
 
 def test_a_folder_in_which_nothing_can_be_started_is_named(order, monkeypatch):
@@ -70,6 +71,7 @@ def test_what_was_recorded_is_recorded_once_until_it_is_forgotten(order, busy, o
     assert submission.recording(look).number == 1
 
 
+@claim("What leaves the isolation is a recording, and another answer is no verdict")
 @pytest.mark.parametrize(
     ("reply", "error", "words"),
     [

@@ -16,7 +16,13 @@ from test_task import (  # noqa: F401
     wrong_of,
 )
 
+from tutorial_testing.claims import claim
 
+
+@claim(
+    "Every row of mistakes and right solutions is judged at each commit from stored recordings, by "
+    "the recorders of today"
+)
 def test_recordings_are_by_the_recorders_of_today():
     rows = [
         row for file in stored.FOLDER.glob("*.jsonl.xz") for row in stored.rows_of(file).values()

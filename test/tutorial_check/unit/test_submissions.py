@@ -15,8 +15,16 @@ from tutorial_check.commands import check_all as submissions
 from tutorial_check.course.definition import read_course
 from tutorial_check.errors import CannotCheck
 from tutorial_check.report.memory import digest_of_checks
+from tutorial_testing.claims import claim
 from tutorial_testing.waiting import wait_for
 
+pytestmark = [
+    claim("Each folder or ...", because="odd names"),
+    claim(
+        "Only what changed or had no verdict is checked again; results of an earlier check are no "
+        "student"
+    ),
+]
 WELL = Outcome("2", [Result("C1", OK, "one")], 1.0, True)
 NO_VERDICT = Outcome("2", [Result("C1", UNREACHED, "one")], 1.0, True, "C1: no space")
 
@@ -144,6 +152,7 @@ def test_only_what_changed_or_had_no_verdict_is_checked_again(group, capsys):
     assert group.started[5:] == ["ada", "bob", "eve"] * 2
 
 
+@claim("The page shows ...", because="opened meanwhile")
 def test_the_page_can_be_read_while_it_is_made(group):
     pages = []
 

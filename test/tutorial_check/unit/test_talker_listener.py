@@ -9,7 +9,9 @@ from courses.handout.talker_listener.record import STRINGS, Talk
 from courses.handout.task import BEGINNER
 from tutorial_check.checking.results import Wrong
 from tutorial_check.processes.started_program import Ran
+from tutorial_testing.claims import claim
 
+pytestmark = claim("What no program ...", because="talker and listener")
 LISTENER = """from std_msgs.msg import String
 def callback(data):
     loginfo(data)

@@ -12,7 +12,9 @@ from courses.handout.task import JoystickTask
 from tutorial_check.course.definition import read_course
 from tutorial_check.course.tasks import drawn, read_variant, sheet, variant_of
 from tutorial_check.errors import CannotCheck
+from tutorial_testing.claims import claim
 
+pytestmark = claim("What a seed draws is allowed and stays the same; a student's file comes first")
 COURSE = read_course()
 ALL = yaml.safe_load(
     "{axis_linear: 3, axis_angular: 4, scale_linear: 0.5, joy: /stick, cmd_vel: /drive,"
@@ -89,6 +91,7 @@ def test_a_task_sheet_has_all_values_and_the_file():
     assert sheet(own, ALL, "{file}") == f"{{file}}: {odd}"
 
 
+@claim("A right solution ...", because="only hints show values")
 def test_words_name_the_values_of_a_task_in_hints_alone():
     task = JoystickTask(ALL)
     names, answers = task.names, task.answers

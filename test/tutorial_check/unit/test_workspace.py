@@ -12,7 +12,15 @@ from tutorial_check.errors import CannotCheck
 from tutorial_check.submission import handed_in, packages, submission_files
 from tutorial_check.submission.handed_in import copy, find_layout, hand_in, unpack
 from tutorial_check.submission.packages import Layout, packages_below
+from tutorial_testing.claims import claim
 
+pytestmark = [
+    claim(
+        "A workspace is found any number of folders deep, but not below a home folder; of several, "
+        "the one with the packages is named"
+    ),
+    claim("A zip, alone or in a folder, is unpacked with its rights, and no path leads outside"),
+]
 XML = """<package format="2"><name>{}</name><version>0.0.0</version><description>x</description>
 <maintainer email="a@b.example">a</maintainer><license>x</license>
 <depend>rospy</depend></package>"""
@@ -68,6 +76,7 @@ def test_a_dangling_link_to_catkins_toplevel_file_is_left_to_catkin_make(tmp_pat
     assert not os.path.lexists(copied(tmp_path / "ws", tmp_path) / "CMakeLists.txt")
 
 
+@claim("The suite's own solutions are refused")
 @pytest.mark.parametrize("given", ["suite", "suite/joy2twist", "ws"])
 def test_the_suites_own_solutions_are_refused(tmp_path, given):
     """Linked into a workspace as well, as those are that the suite builds for itself."""
@@ -147,6 +156,9 @@ def make(folder, *entries):
             os.mkfifo(path) if "|" in name else path.write_text(XML.format("joy2twist"))
 
 
+@claim(
+    "A link out of what others handed in is not followed; one's own is, also into the home folder"
+)
 @pytest.mark.parametrize(
     ("entries", "of_others", "own"),
     [

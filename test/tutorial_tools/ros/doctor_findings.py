@@ -5,6 +5,7 @@ from geometry_msgs.msg import TransformStamped, Twist
 from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
+from tutorial_testing.claims import claim
 from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.robot import Robot
@@ -34,6 +35,7 @@ class FindingsTest(RosTest):
         self.assertEqual((code, missing), (1, []), lines)
         return lines
 
+    @claim("It finds these on a live system, within 15 s")
     def test_beside_a_drive_all_is_well_and_then_one_thing_after_the_other_is_not(self):
         robot = self.enter(Robot())
         launch = ("joy2twist", "launch_bag.launch", "cockpit:=false", "rviz:=false")

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from tutorial_testing.claims import claim
 from tutorial_testing.processes import Program, free_port
 from tutorial_testing.waiting import DEADLINE_S, lost_s, wait_for
 
@@ -35,6 +36,7 @@ def check_demo(program, seconds):
     wait_for(lambda: not program.left_behind(), "end of every process")
 
 
+@claim("It fails if the robot stands")
 def test_demo_says_so_when_the_robot_stands(call, tmp_path):
     still = tmp_path / "still.bag"
     assert call("run", "rosbag", "filter", str(BAG), str(still), "not any(m.axes)")[0] == 0
@@ -43,6 +45,7 @@ def test_demo_says_so_when_the_robot_stands(call, tmp_path):
     assert "RViz is left out" not in output  # by the user's own wish
 
 
+@claim("Ctrl-C ends it and leaves nothing")
 def test_ctrl_c_ends_a_demo_that_loads_and_nothing_is_left(tutorial):
     with Program(tutorial, "demo", "--for", "600", "rviz:=false") as demo:
         wait_for(lambda: "process[fake_turtlebot" in demo.output, "robot")
@@ -51,6 +54,7 @@ def test_ctrl_c_ends_a_demo_that_loads_and_nothing_is_left(tutorial):
         wait_for(lambda: not demo.left_behind(), "end of every process")
 
 
+@claim("Ctrl-C ends it and leaves nothing", because="while it drives")
 def test_ctrl_c_ends_a_demo_that_drives_with_its_line_and_nothing_is_left(tutorial):
     with Program(tutorial, "demo", "rviz:=false") as first:
         wait_for(lambda: "first /odom" in first.output, "robot")
@@ -60,6 +64,8 @@ def test_ctrl_c_ends_a_demo_that_drives_with_its_line_and_nothing_is_left(tutori
         wait_for(lambda: not first.left_behind(), "end of every process")
 
 
+@claim("A second one is refused with a master of its own to take; of two at once one drives")
+@claim("It drives, counts, and says where to look without a screen")
 def test_of_two_demos_at_once_one_drives_and_says_where_to_look_without_a_screen(tutorial):
     command = (tutorial, "demo", "--for", "5", f"cockpit_port:={free_port()}")
     both = [Program(*command, DISPLAY="") for _ in range(2)]
@@ -73,6 +79,10 @@ def test_of_two_demos_at_once_one_drives_and_says_where_to_look_without_a_screen
         assert look in drives.output, drives.output
 
 
+@claim(
+    "It counts its own nodes' messages alone, a dead node hinders nothing, and no line of a log "
+    "asks the master"
+)
 def test_demo_drives_beside_a_dead_node_and_counts_no_messages_of_others(
     tutorial, call, master_uri
 ):

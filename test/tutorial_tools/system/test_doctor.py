@@ -5,6 +5,7 @@ import contextlib
 import pytest
 
 from node_kit.ros.graph.ros_api import known_nodes
+from tutorial_testing.claims import claim
 from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
@@ -39,6 +40,9 @@ def doctor(start):
     return [line for line in program.output.splitlines() if line.startswith("wrong")]
 
 
+@claim(
+    "Beside real nodes it names types that differ, and nodes that a restarted master does not know"
+)
 def test_a_string_for_velocities_and_nodes_of_a_master_that_was_restarted(
     start, roscore, master_uri
 ):

@@ -5,6 +5,7 @@ import shutil
 
 import pytest
 
+from tutorial_testing.claims import claim
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 from tutorial_tools.io.command import build
@@ -58,6 +59,7 @@ def bare_system(tmp_path, monkeypatch, own_workspace):
     return tmp_path
 
 
+@claim("What the archive lacks is reported once, and done without")
 def test_what_the_archive_lacks_is_reported_once_and_done_without(call, bare_system):
     code, first = call("run", "true", LACKING="rviz graphviz")
     line = r"^tutorial: done without, as the archive of .* lacks it: rviz graphviz$"
@@ -67,6 +69,9 @@ def test_what_the_archive_lacks_is_reported_once_and_done_without(call, bare_sys
     assert {"rviz", "graphviz"} <= set((bare_system / "installed").read_text().split())
 
 
+@claim(
+    "A clone below a path with spaces works, beside another Python and over a ROS of its own prefix"
+)
 @pytest.mark.usefixtures("master_uri")
 @pytest.mark.night
 def test_a_clone_below_a_path_with_spaces_beside_another_python_over_a_ros_in_a_prefix_of_its_own(
@@ -93,6 +98,7 @@ def test_a_clone_below_a_path_with_spaces_beside_another_python_over_a_ros_in_a_
     assert "ros-one-ros-base" in installed and "python3-rospy" not in installed
 
 
+@claim("Why nothing can be installed is said")
 def test_why_nothing_can_be_installed_is_reported(call, bare_system):
     lacking = call("demo", LACKING="rviz python3-rospy")
     assert lacking[0] == 1 and "lacks python3-rospy, without which nothing drives" in lacking[1]
@@ -104,6 +110,7 @@ def test_why_nothing_can_be_installed_is_reported(call, bare_system):
     assert offline[0] == 1 and not (bare_system / "installed").read_text()
 
 
+@claim("It installs nothing")
 def test_the_doctor_installs_nothing(call, bare_system):
     missing = r"\d\d Debian packages are missing, such as python3-roslaunch"
     line = rf"tutorial: doctor: nothing can drive: {missing}; ./tutorial setup installs them\n"
@@ -112,6 +119,10 @@ def test_the_doctor_installs_nothing(call, bare_system):
     assert not (bare_system / "calls").exists()  # apt-get was not called
 
 
+@claim(
+    "The set-up shows how far it is, by sudo too, and asks again for what an archive out of reach "
+    "has"
+)
 def test_set_up_shows_how_far_it_is_and_asks_again_for_what_an_archive_out_of_reach_has(
     call, bare_system
 ):
@@ -130,6 +141,7 @@ def test_set_up_shows_how_far_it_is_and_asks_again_for_what_an_archive_out_of_re
 INTERRUPTED = "tutorial: interrupted; ./tutorial setup goes on where it stopped"
 
 
+@claim("Ctrl-C ends a download, and waits for dpkg")
 def test_ctrl_c_ends_a_download_and_waits_for_dpkg(tutorial, bare_system):
     with Program(tutorial, "demo", SLOW="download") as demo:
         wait_for(lambda: "50 %" in demo.output, "download")
@@ -147,6 +159,7 @@ def test_ctrl_c_ends_a_download_and_waits_for_dpkg(tutorial, bare_system):
     assert "python3-rospy\n" in (bare_system / "installed").read_text()
 
 
+@claim("Without PyPI all works but replay_bag")
 def test_without_pypi_only_replay_bag_is_missing(call, bare_system):
     assert call("setup", "system")[0] == 0
     (bare_system / "ws" / "python").unlink()
@@ -161,6 +174,7 @@ def test_without_pypi_only_replay_bag_is_missing(call, bare_system):
     assert call("run", "echo", "went on", **offline) == (0, "went on\n")
 
 
+@claim("pip installs no file of another hash, and only what a lock has")
 def test_pip_installs_no_file_of_another_hash(tmp_path, monkeypatch):
     lock = tmp_path / "test/locks/own.txt"
     lock.parent.mkdir(parents=True)
@@ -175,6 +189,7 @@ def test_pip_installs_no_file_of_another_hash(tmp_path, monkeypatch):
     assert "DO NOT MATCH THE HASHES" in (tmp_path / "ws/pip.log").read_text()
 
 
+@claim("After a failed build nothing counts as built")
 def test_after_a_build_that_failed_nothing_counts_as_built(clone, own_workspace, tmp_path):
     copy = tmp_path / "copy"
     shutil.copytree(clone, copy, symlinks=True)

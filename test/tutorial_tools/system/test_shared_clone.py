@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from tutorial_testing.claims import claim
 from tutorial_testing.processes import MARK, Program
 
 USER = 54321  # an unused id
@@ -33,6 +34,10 @@ def folder():
         yield Path(made)
 
 
+@claim(
+    "A user without rights builds, drives and checks from a clone of another user, such as a "
+    "teacher's"
+)
 @pytest.mark.long
 @pytest.mark.skipif(os.geteuid() != 0, reason="only root can be another user")
 @pytest.mark.usefixtures("master_uri")

@@ -4,6 +4,7 @@ import re
 import socket
 import subprocess
 
+from tutorial_testing.claims import claim
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import LONGEST_S
 
@@ -14,12 +15,14 @@ MANIFEST = """\
 """
 
 
+@claim("Words, kinds of tests and options complete in bash")
 def test_completion_in_bash(tutorial, call):
     script = 'eval "$("$0" completion)"; COMP_WORDS=("$0" test ex) COMP_CWORD=2; _tutorial'
     done = call("run", "bash", "-ec", f"{script}; echo ${{COMPREPLY[*]}}", tutorial)
     assert done == (0, "exercises\n")
 
 
+@claim("A port that another program has is named")
 def test_a_port_taken_by_another_program_is_named(call):
     with socket.create_server(("localhost", 0)) as taken:
         port = taken.getsockname()[1]
@@ -29,6 +32,7 @@ def test_a_port_taken_by_another_program_is_named(call):
     assert f"port {port} of localhost is taken by a program that is not a ROS master" in line
 
 
+@claim("A check that cannot be set up blames no student")
 def test_a_check_that_cannot_be_set_up_blames_no_student(call, tmp_path):
     workspace = str(tmp_path / "with space")
     code, output = call("check", "--in", str(tmp_path), TUTORIAL_WORKSPACE=workspace)
@@ -38,6 +42,7 @@ def test_a_check_that_cannot_be_set_up_blames_no_student(call, tmp_path):
     assert code == 2
 
 
+@claim("The shell finds all, and changes no file of the user's")
 def test_a_shell_sees_the_workspace_and_touches_no_file(tutorial, suite_workspace, tmp_path):
     home = tmp_path / "home"
     home.mkdir()
@@ -97,6 +102,7 @@ add_library(without_ros std.cpp plain.c)
 """
 
 
+@claim("C++ builds as the ROS wiki has it, `boost::bind(..., _1)`, and other C++ and C as before")
 def test_cpp_builds_as_the_wiki_has_it(call, tmp_path):
     """boost::bind(..., _1), beside C, C++ without ROS, and a user's own flags and headers."""
     package = tmp_path / "ws/src/cpp"
@@ -120,6 +126,7 @@ def test_cpp_builds_as_the_wiki_has_it(call, tmp_path):
     assert code == 0 and "does not build" not in output, output
 
 
+@claim("Of two calls at once one builds, and both go on")
 def test_of_two_calls_at_once_one_builds_and_both_go_on(tutorial, tmp_path):
     command = [tutorial, "run", "--in", str(tmp_path / "catkin_ws"), "rospack", "find", "joy"]
     with Program(*command) as one, Program(*command) as other:
@@ -127,6 +134,9 @@ def test_of_two_calls_at_once_one_builds_and_both_go_on(tutorial, tmp_path):
         assert (one.output + other.output).count("tutorial: building") == 1
 
 
+@claim(
+    "The first build of a student's workspace shows CMake's message, in English in every terminal"
+)
 def test_the_first_build_shows_an_error_of_cmake_with_its_message_in_english(call, tmp_path):
     package = tmp_path / "src" / "mine"
     package.mkdir(parents=True)
@@ -140,6 +150,7 @@ def test_the_first_build_shows_an_error_of_cmake_with_its_message_in_english(cal
     assert (code, output.count("does not build")) == (0, 1) and output.endswith("went on\n")
 
 
+@claim("A broken package.xml is named before all fails over it")
 def test_a_broken_package_xml_is_named_before_everything_fails_over_it(call, tmp_path):
     package = tmp_path / "src" / "mine" / "package.xml"
     command = ["run", "--in", str(tmp_path), "true"]

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from tutorial_testing.claims import claim
 from tutorial_testing.waiting import LONGEST_S
 
 # No workspace sourced.
@@ -22,6 +23,7 @@ def shell(script, **environment):
     return done.stdout
 
 
+@claim("The suite works in a catkin workspace of one's own, and installed without its sources")
 @pytest.mark.night  # it builds all packages
 def test_the_installed_suite_is_whole_and_drives_without_its_sources(clone, tmp_path, master_uri):
     """Built in a catkin workspace that has a link to the clone in its src folder."""

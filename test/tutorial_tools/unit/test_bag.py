@@ -5,8 +5,10 @@ from xml.etree import ElementTree
 
 import pytest
 
+from tutorial_testing.claims import claim
 from tutorial_tools.ros.rqt_bag import curves, main, svg
 
+pytestmark = claim("rqt_bag draws what moves, and a damaged bag is one line")
 WHOLE = (Path(__file__).resolve().parents[3] / "common/gamepad/bag/joy.bag").read_bytes()
 RECORDED = [  # time [s], axes, buttons
     (10.0, (0.0, 0.0, 1.0), (0, 0)),

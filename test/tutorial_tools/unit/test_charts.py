@@ -7,7 +7,13 @@ import tarfile
 import pytest
 
 from cockpit_server.io import web_server
+from tutorial_testing.claims import claim
 from tutorial_tools.io.command import charts
+
+pytestmark = claim(
+    "Where the archive lacks the page's charts or zstandard, the set-up fetches them, by their "
+    "hashes"
+)
 
 
 @pytest.fixture

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from tutorial_testing.claims import claim
 from tutorial_tools.io.command import build
 from tutorial_tools.io.command.environment import environment_of_help
 from tutorial_tools.io.command.subcommands import OWN_PARSER, candidates, plan, read
@@ -17,6 +18,7 @@ SECTIONS = {"demo": ["demo", "more"], "test": ["demo", "more", "test"], "doctor"
 SECTIONS["browser"] = [*SECTIONS["test"], "browser"]
 
 
+@claim("Each word of `./tutorial` sets up and starts what its help says")
 @pytest.mark.parametrize(
     ("line", "sections", "program", "rest"),
     [
@@ -44,6 +46,7 @@ def test_what_a_word_sets_up_and_starts(monkeypatch, line, sections, program, re
     assert "student" not in made
 
 
+@claim("The help of check, cockpit, scheduler and worker is printed at once, with nothing built")
 @pytest.mark.parametrize("word", OWN_PARSER)
 def test_the_help_of_a_program_needs_nothing_built(word):
     made = plan(word, ["more", "--help"])
@@ -52,6 +55,7 @@ def test_the_help_of_a_program_needs_nothing_built(word):
     assert said.startswith("usage: ") and f"{word} [-h]" in said.splitlines()[0]
 
 
+@claim("A student's workspace comes last, and what cannot be one is refused")
 def test_a_students_workspace_is_absolute_and_built_last(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     made = plan("run", ["--in", "ws", "env", "--in", "x"])
@@ -62,6 +66,7 @@ def test_a_students_workspace_is_absolute_and_built_last(tmp_path, monkeypatch):
     assert plan("doctor", [])["student"] == ["/mine"]
 
 
+@claim("A mistake in the words of `./tutorial` is one line with what to do")
 @pytest.mark.parametrize(
     ("line", "words"),
     [
@@ -92,6 +97,7 @@ def test_the_list_of_words_names_courses(capsys):
     assert "workspace; --course wiki, or FOLDER: others\n" in capsys.readouterr().out
 
 
+@claim("Words, kinds of tests and options complete in bash", because="all of them")
 @pytest.mark.parametrize(
     ("typed", "found"),
     [
@@ -105,6 +111,7 @@ def test_completion_of_words_kinds_and_options(typed, found):
     assert candidates(typed) == found
 
 
+@claim("A student's workspace comes ...", because="what is refused")
 @pytest.mark.parametrize(
     ("folder", "why"),
     [
@@ -125,6 +132,7 @@ def test_what_cannot_be_a_students_workspace(tmp_path, monkeypatch, folder, why)
     assert why in build.why_no_workspace(tmp_path / "cache", tmp_path / folder)
 
 
+@claim("A real package that is installed later replaces its stand-in")
 def test_all_is_built_again_when_a_real_package_came_and_not_after_a_test(tmp_path, monkeypatch):
     for name in ("common/stand_ins/joy/package.xml", f"{MODEL}/scripts/rqt_gui", "test/a/ros/b.py"):
         (tmp_path / name).parent.mkdir(parents=True)

@@ -7,6 +7,7 @@ import pytest
 import rosbag
 from std_msgs.msg import String
 
+from tutorial_testing.claims import claim
 from tutorial_tools.demo.launch import DriveReport
 from tutorial_tools.demo.program import check_bag, in_the_way, refusal
 from tutorial_tools.launch_arguments import launch_arguments
@@ -18,6 +19,7 @@ NODES = ["/fake_turtlebot", "/myjoystick2twist", "/rosbag"]
 TOPICS = ("/joy", "/cmd_vel", "/odom")
 
 
+@claim("A wrong argument or bag is named before the start", because="a bag")
 def test_a_bag_without_a_joystick_is_refused(tmp_path):
     with rosbag.Bag(str(tmp_path / "a.bag"), "w") as bag:
         bag.write("/chatter", String("hello"))
@@ -25,6 +27,7 @@ def test_a_bag_without_a_joystick_is_refused(tmp_path):
         check_bag(str(tmp_path / "a.bag"))
 
 
+@claim("A wrong argument or bag is named before the start")
 @pytest.mark.parametrize(
     ("argument", "line"),
     [

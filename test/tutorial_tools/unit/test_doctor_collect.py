@@ -10,6 +10,7 @@ from sensor_msgs.msg import JointState
 from tf2_msgs.msg import TFMessage
 
 from node_kit.rules.answer import Answer
+from tutorial_testing.claims import claim
 from tutorial_testing.nodes import serialised
 from tutorial_tools.doctor.facts import Joystick, Mux, Offset, Transform
 from tutorial_tools.hidden_stand_ins import hidden_stand_ins
@@ -31,6 +32,7 @@ def stamped(late_s):
     return wire(joints)
 
 
+@claim("Clocks are compared by the fastest message")
 def test_the_fastest_message_shows_the_offset_of_a_clock():
     seconds, topic = offset("/joint_states", [stamped(late) for late in (0.3, 0.01, 0.2)])
     assert (seconds, topic) == (pytest.approx(-0.01, abs=1e-6), "/joint_states")
@@ -81,6 +83,7 @@ def package(folder, launch=""):
     (folder / "launch" / "fake_turtlebot.launch").write_text(f"<launch>{launch}</launch>")
 
 
+@claim("A package that hides a stand-in and lacks another one is named")
 def test_only_what_lacks_a_package_is_reported(tmp_path):
     src, share = tmp_path / "src", tmp_path / "share"
     package(share / "rviz")

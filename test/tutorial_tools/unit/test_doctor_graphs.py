@@ -7,9 +7,14 @@ from dataclasses import replace
 import pytest
 
 from node_kit.rules.answer import Answer
+from tutorial_testing.claims import claim
 from tutorial_tools.doctor.facts import Facts, Mux, MuxInput, Node, Stray
 from tutorial_tools.doctor.judgement import judge
 
+pytestmark = claim(
+    "Of any graph, with a joystick or without, it says what fits and is missing, in lines that do "
+    "not contradict each other"
+)
 TYPES = {
     "Joy": "sensor_msgs/Joy", "Twist": "geometry_msgs/Twist", "String": "std_msgs/String",
     "Int32": "std_msgs/Int32", "Odometry": "nav_msgs/Odometry", "Scan": "sensor_msgs/LaserScan",

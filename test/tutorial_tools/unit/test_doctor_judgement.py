@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from node_kit.rules.answer import Answer
+from tutorial_testing.claims import claim
 from tutorial_tools.doctor import connections, ends, judgement, links, transforms
 from tutorial_tools.doctor.facts import Facts, Joystick, Mux, MuxInput, Node, Offset, Transform
 from tutorial_tools.doctor.judgement import judge
@@ -176,17 +177,20 @@ def has(line, words):
     return re.search(".*".join(map(re.escape, words.split(" ... "))), line)
 
 
+@claim("Of one mistake one line says what to do")
 @pytest.mark.parametrize(("words", "facts"), WRONG.items(), ids=WRONG)
 def test_of_one_mistake_one_line_says_what_to_do(words, facts):
     (line,) = lines(facts, "wrong")
     assert has(line, words) and len(line) < 300, line
 
 
+@claim("Its lines have levels; what is no mistake is not called one")
 @pytest.mark.parametrize(("facts", "level", "words"), LINES)
 def test_a_line_has_the_level_and_the_words(facts, level, words):
     assert any(has(line, words) for line in lines(facts, level))
 
 
+@claim("Its lines have ...", because="what is no mistake")
 @pytest.mark.parametrize(
     "facts",
     [
@@ -216,6 +220,7 @@ def test_no_way_leads_through_a_dead_node():
     assert not [line for line in lines(through_dead, "ok") if " -> " in line]
 
 
+@claim("Its README lists what is looked at")
 def test_the_readme_lists_what_is_looked_at():
     package = Path(judgement.__file__).resolve().parents[3]
     modules = (judgement, connections, transforms, links, ends)

@@ -10,10 +10,15 @@ from kobuki_protocol import robot_packets
 from kobuki_protocol.battery import Battery
 from kobuki_protocol.feedback import Core, Feedback
 from kobuki_protocol.identity import FirmwareVersion
+from tutorial_testing.claims import claim
 from tutorial_tools.doctor.facts import Facts
 from tutorial_tools.doctor.judgement import judge
 from tutorial_tools.ros.doctor.messages import base
 
+pytestmark = claim(
+    "The doctor's row Kobuki: port, permission, rule, latency timer, packets, firmware, battery, "
+    "charger; or what a driver that runs says"
+)
 WELL = {
     "latency_ms": 1, "packets": 50, "count": 4000,
     "firmware": FirmwareVersion(0, 2, 1), "battery": Battery(16.4),

@@ -9,7 +9,10 @@ import time
 import pytest
 
 from node_kit.rules.answer import Answer
+from tutorial_testing.claims import claim
 from tutorial_tools.ros.doctor import network
+
+pytestmark = claim("An answer comes in time, whatever the other end is")
 
 
 @pytest.fixture(autouse=True)

@@ -5,6 +5,7 @@ import os
 import pytest
 
 from node_kit.rules.answer import Answer
+from tutorial_testing.claims import claim
 from tutorial_tools.doctor.facts import Stray
 from tutorial_tools.ros.doctor import processes
 from tutorial_tools.ros.doctor.processes import Running
@@ -53,6 +54,7 @@ def proc(tmp_path, monkeypatch):
     return process
 
 
+@claim("Only nodes are asked whether they are nodes")
 def test_nodes_are_found_by_the_log_of_rospy_or_by_roscpp_and_no_other_program_is_asked(proc):
     proc(71, [5000, 5001], log="talker-1.log")
     proc(72, [5002], maps="/usr/lib/libroscpp.so.4", environ=f"A=b\0ROS_MASTER_URI={OTHER}\0")

@@ -5,9 +5,11 @@ import shutil
 
 import pytest
 
+from tutorial_testing.claims import claim
 from tutorial_tools.ros import draw_graph
 from tutorial_tools.ros.draw_graph import dot_text
 
+pytestmark = claim("The graph has what talks, frames for machines, any name, four formats")
 TALK = (
     [["/rosout", ["/talker", "/listener"]], ["/rosout_agg", ["/rosout"]],
      ["/chatter", ["/talker"]], ["/unheard", ["/talker"]]],
@@ -64,6 +66,7 @@ def test_the_ending_of_the_file_chooses_the_format(drawn, tmp_path):
     assert (tmp_path / "a.PDF").read_bytes().startswith(b"%PDF-")
 
 
+@claim("What cannot be drawn is one line, and writes nothing")
 def test_what_cannot_be_drawn_is_one_line_and_writes_nothing(drawn, tmp_path, monkeypatch):
     assert drawn("graph.gif") == "draw_graph: graph.gif must end in .png, .svg, .pdf or .dot"
     assert drawn("no/a.dot") == "draw_graph: cannot write no/a.dot: No such file or directory"

@@ -3,9 +3,11 @@
 import pytest
 
 from node_kit.rules.answer import Answer
+from tutorial_testing.claims import claim
 from tutorial_tools.ros import join
 from tutorial_tools.ros.join import JoinError, check_host, check_master, check_robot
 
+pytestmark = claim("join refuses a host, a master and a robot in one line each")
 URI, OWN = "http://10.0.0.1:11311", "10.0.0.2"
 
 
@@ -75,6 +77,7 @@ def test_a_host_a_master_and_a_robot_that_are_free(answers):
     check_robot(URI, "robot_1")
 
 
+@claim("A mistake in join's arguments is reported before the master is asked")
 @pytest.mark.parametrize(
     ("argument", "line"),
     [

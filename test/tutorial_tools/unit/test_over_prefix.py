@@ -5,6 +5,7 @@ import subprocess
 
 import pytest
 
+from tutorial_testing.claims import claim
 from tutorial_tools.io.command import build
 from tutorial_tools.io.command.environment import environment_of
 
@@ -31,6 +32,9 @@ def student(tmp_path, monkeypatch):
     return made
 
 
+@claim(
+    "A student's workspace that was built over a ROS in /opt/ros is used as it is, with the suite"
+)
 @pytest.mark.parametrize(
     ("below", "chain", "words"),
     [

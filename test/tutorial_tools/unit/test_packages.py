@@ -9,11 +9,15 @@ from xml.etree import ElementTree
 
 import pytest
 
+from tutorial_testing.claims import claim
 from tutorial_testing.noetic import META
 from tutorial_tools.command.requirements import names_of
 from tutorial_tools.io.command.build import SHARE, lock_of
 from tutorial_tools.io.system import packages as system_packages
 
+pytestmark = claim(
+    "Over a ROS in /opt/ros, ros-base and the listed packages are all that the demo needs"
+)
 REPOSITORY = Path(__file__).resolve().parents[3]
 NOETICS = {*META, *" ".join(META.values()).split(), "diagnostic_updater", "tf_conversions"}
 NOETICS |= {path.parent.name for path in SHARE.glob("*/package.xml")}
@@ -84,6 +88,7 @@ def test_what_a_section_has_beside_ros_it_has_for_opt_too(brought, section, monk
     assert beside - of_opt - {"libgl1-mesa-dri"} == set()  # RViz of Noetic brings it
 
 
+@claim("Where the archive ...", because="zstandard")
 @pytest.mark.parametrize(("minor", "has_it"), [(8, True), (10, True), (11, False)])
 def test_zstandard_comes_from_pypi_where_older_archives_lack_it(minor, has_it):
     """Without it rosbags, and so replay_bag, is missing."""
