@@ -185,7 +185,7 @@ def test_a_start_that_is_given_counts_also_at_zero(tmp_path):
     path = write_map(tmp_path, building(), origin=[-0.5, -0.5, 0], start=start)
     assert start_of(path, initial_x="") == (1.0, 0.9, 0.5)
     wall = np.zeros((80, 80), np.uint8)  # 4 m thick
-    with pytest.raises(ValueError, match=r"\(0, 0\) would be inside of a wall"):
+    with pytest.raises(ValueError, match=r"\(0, 0\) would be inside a wall"):
         start_of(write_map(tmp_path, wall, origin=[-2, -2, 0]), initial_x=0.0)
     with pytest.raises(ValueError, match="no free place where a robot has room; give another"):
         start_of(write_map(tmp_path, wall, origin=[-2, -2, 0]))

@@ -30,7 +30,7 @@ def test_version_battery_and_charger_are_built_in():
         ({"other_firmware": "2"}, "~other_firmware: '2': must be empty, or major.minor.patch"),
         ({"charger": "sun"}, "~charger: 'sun': must be none, dock or adapter"),
         ({"wrold": "room"}, "did you mean ~world"),
-        ({"world": "room", "initial_x": 4.0}, "inside of a wall"),
+        ({"world": "room", "initial_x": 4.0}, "inside a wall"),
     ],
 )
 def test_a_mistake_is_one_line(given, words):

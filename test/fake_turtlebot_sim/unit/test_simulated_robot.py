@@ -58,16 +58,16 @@ def test_the_pose_depends_on_the_commands_and_not_on_the_rate(model, looks):
 @pytest.mark.parametrize("velocity", [(0.7, 1.0), (-0.7, 0.0), (0.0, 0.0)])
 def test_the_robot_stops_at_the_instant_of_the_timeout(velocity):
     robot, moves = SimulatedRobot(KOBUKI), any(velocity)
-    assert not robot.is_driven
+    assert not robot.is_commanded
     robot.command(velocity, 0)
     assert not robot.advance(SECOND * 6 // 10 - 1)
-    assert (robot.state()[3:5], robot.is_driven, robot.is_moving) == (velocity, True, moves)
+    assert (robot.state()[3:5], robot.is_commanded, robot.is_moving) == (velocity, True, moves)
     assert robot.advance(SECOND * 6 // 10) == moves
-    assert (robot.state()[3:5], robot.is_driven, robot.is_moving) == ((0.0, 0.0), False, False)
+    assert (robot.state()[3:5], robot.is_commanded, robot.is_moving) == ((0.0, 0.0), False, False)
     state = robot.state()
     robot.advance(SECOND // 2)  # a time that has passed changes nothing
     assert robot.state() == state
-    assert not robot.advance(SECOND) and not robot.is_driven
+    assert not robot.advance(SECOND) and not robot.is_commanded
 
 
 def test_a_ramp_takes_as_long_as_the_slower_part():

@@ -153,7 +153,7 @@ class FakeTurtlebot:
         status.summary(level, text)
         self._reported_rejected = rejected
         status.add("robots", len(self._topics))
-        status.add("robots under command", sum(t.robot.is_driven for t in self._topics))
+        status.add("robots under command", sum(t.robot.is_commanded for t in self._topics))
         status.add("rate [Hz]", self._rate)
         status.add("periods missed in the last second", self._missed)
         status.add("commands rejected since the start", rejected)

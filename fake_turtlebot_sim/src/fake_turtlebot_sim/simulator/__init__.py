@@ -1,1 +1,1 @@
-"""The simulated TurtleBot."""
+"""The rules of the simulated TurtleBot."""

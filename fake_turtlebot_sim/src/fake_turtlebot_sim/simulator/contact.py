@@ -1,9 +1,9 @@
-"""When a round robot on its path touches something, but for rounding (pure).
+"""The contact of a round robot with obstacles on its path, exact up to rounding.
 
 The robot is a disc. An obstacle is a segment with a radius: a wall has the radius 0, a post or
-another robot the length 0. The robot drives its path until it touches; while it pushes it turns on
-the spot, as its wheels can, until its heading leads along the obstacle or away. It never slides.
-All is in one frame, in metres, radians and seconds.
+another robot the length 0. The robot drives its path until it touches an obstacle. While it pushes,
+it can only turn on the spot, until its heading leads along the obstacle or away from it. It never
+slides. Everything is in one frame, in metres, radians and seconds.
 """
 
 from __future__ import annotations
@@ -13,10 +13,10 @@ from typing import Callable, NamedTuple, Sequence, Tuple
 
 from fake_turtlebot_sim.simulator.differential_drive import Pose, Velocity, arc, between, drive
 
-TOUCH_M = 1e-11  # a gap that counts as none: some hundred times the rounding of a place in metres
+TOUCH_M = 1e-11  # a smaller gap is a touch: about a hundred times the rounding of a position
 TANGENT = 1e-9  # the sine of an angle below which a motion leads along an obstacle, not into it
-MOST_LINES = 50  # Each line leaves at most a quarter of a gap.
-HALVINGS = 52  # halving a time this often reaches its rounding
+MOST_LINES = 50  # each line leaves at most a quarter of the gap
+HALVINGS = 52  # so many halvings of a time reach its rounding
 
 Obstacle = Tuple[float, float, float, float, float]  # x1, y1, x2, y2, radius [m]
 
@@ -27,10 +27,10 @@ class Piece(NamedTuple):
     velocity: Velocity
     end_velocity: Velocity
     dt: float
-    is_blocked: bool = False  # something is in the way: the robot only turns
+    is_blocked: bool = False  # by an obstacle: the robot only turns
 
     def until(self, dt: float) -> Piece:
-        """Return its part before a time [s]."""
+        """Return the part of this piece before a time [s]."""
         end = between(self.velocity, self.end_velocity, dt / self.dt if self.dt else 0.0)
         return Piece(self.velocity, end, dt)
 
@@ -46,7 +46,7 @@ def nearest(x: float, y: float, obstacle: Obstacle) -> tuple[float, float]:
 
 
 def gap(x: float, y: float, radius: float, obstacle: Obstacle) -> float:
-    """Return the distance [m] between a robot and an obstacle; negative inside of it."""
+    """Return the distance [m] between a robot and an obstacle, negative inside it."""
     px, py = nearest(x, y, obstacle)
     return hypot(px - x, py - y) - radius - obstacle[4]
 
@@ -60,15 +60,15 @@ def direction_to(pose: Pose, obstacle: Obstacle) -> float:
 def first_contact(
     pose: Pose, whole: Piece, radius: float, obstacles: Sequence[Obstacle]
 ) -> tuple[float, Obstacle] | None:
-    """Return after which time [s] of a drive a disc touches which obstacle, or None.
+    """Return the time [s] until a driving disc touches an obstacle, and the obstacle, or None.
 
-    What it touches already counts only if it drives into it. The path is cut where it reverses or
-    turns back, and into quarters of a turn.
+    An obstacle that it touches already counts only if the disc drives into it. The path is cut
+    where it reverses or turns back, and into quarters of a turn.
     """
     velocity, end_velocity, dt, _ = whole
     longest = dt * max(abs(velocity[0]), abs(end_velocity[0]))
     x, y, _ = pose
-    near = [one for one in obstacles if gap(x, y, radius, one) <= longest] if longest else []
+    near = [wall for wall in obstacles if gap(x, y, radius, wall) <= longest] if longest else []
     if not near:
         return None
     quarters = ceil(max(abs(velocity[1]), abs(end_velocity[1])) * dt / (pi / 2))
@@ -89,10 +89,10 @@ def first_contact(
 
 
 def _contact_on_part(pose: Pose, part: Piece, radius: float, obstacle: Obstacle) -> float | None:
-    """Return after which time [s] of a part of a drive the robot touches an obstacle, or None.
+    """Return the time [s] until the robot touches an obstacle in a part of a drive, or None.
 
-    No point of an obstacle is nearer than the line through its nearest one, across the way to
-    there. The robot drives to that line, and to the next, until it touches.
+    All of an obstacle is beyond the line through its nearest point, perpendicular to the direction
+    of that point. The robot drives to this line, then to the next one, until it touches.
     """
     rest = part
     for _ in range(MOST_LINES):
@@ -101,7 +101,7 @@ def _contact_on_part(pose: Pose, part: Piece, radius: float, obstacle: Obstacle)
             break
         fastest = max(abs(rest.velocity[0]), abs(rest.end_velocity[0]))
         if not fastest or free > rest.dt * fastest or free <= -radius - obstacle[4]:
-            return None  # too far, or both have one middle: every way leads out
+            return None  # too far, or both have the same centre, from which every way leads out
         time = _time_to_line((-free, 0.0, pose[2] - direction_to(pose, obstacle)), rest)
         if not time:
             return None if time is None else part.dt - rest.dt
@@ -111,9 +111,9 @@ def _contact_on_part(pose: Pose, part: Piece, radius: float, obstacle: Obstacle)
 
 
 def _time_to_line(pose: Pose, part: Piece) -> float | None:
-    """Return after which time [s] of a part the robot gets to x = 0, on which it drives on.
+    """Return the time [s] until the robot crosses the line x = 0 in a part of a drive, or None.
 
-    Yaw does not turn by more than a quarter, so x grows in one stretch of time, or not at all.
+    Yaw changes by at most a quarter of a turn, so x grows in a single interval of time, or never.
     """
     sign = copysign(1.0, part.velocity[0] + part.end_velocity[0])
 
@@ -132,7 +132,7 @@ def _time_to_line(pose: Pose, part: Piece) -> float | None:
 
 
 def _halved(is_later: Callable[[float], bool], low: float, high: float) -> float:
-    """Return the last time [s] between low and high before it is later, by halving."""
+    """Return the last time [s] between low and high before is_later becomes true, by bisection."""
     if not is_later(high):
         return high
     for _ in range(HALVINGS):
@@ -144,15 +144,15 @@ def _halved(is_later: Callable[[float], bool], low: float, high: float) -> float
 def drive_among(
     pose: Pose, whole: Piece, radius: float, obstacles: Sequence[Obstacle]
 ) -> tuple[list[Piece], float | None]:
-    """Split a drive into Pieces without a touch and turns on the spot.
+    """Split a drive into Pieces free of contact and turns on the spot.
 
-    Returns them with the direction [rad] of what the robot pushes at the end, or None. Once it
-    pushes while its velocity changes, it only turns for the rest.
+    Returns them with the direction [rad] of the obstacle that the robot pushes at the end, or None.
+    If it touches one while its velocity changes, it only turns for the rest of the drive.
     """
     velocity, end_velocity, left, _ = whole
     is_ramp = velocity != end_velocity
     pieces = []
-    for _ in range(2 * len(obstacles) + 2):  # each may be met, and turned away from, once or twice
+    for _ in range(2 * len(obstacles) + 2):  # each obstacle may be touched once or twice
         rest = Piece(velocity, end_velocity, left)
         met = first_contact(pose, rest, radius, obstacles)
         free = met[0] if met else left
@@ -173,10 +173,10 @@ def drive_among(
 
 
 def _time_to_turn_away(yaw: float, velocity: Velocity, direction: float) -> float:
-    """Return for how long [s] the robot must turn until it no longer drives into a direction."""
+    """Return the time [s] that the robot must turn until it no longer drives in a direction."""
     v, w = velocity
     if not w:
         return inf
     ahead = yaw if v > 0 else yaw + pi
-    side = (copysign(1.0, w) * (direction - ahead) + pi) % tau - pi  # positive: yet to be passed
+    side = (copysign(1.0, w) * (direction - ahead) + pi) % tau - pi  # positive: still ahead
     return max(0.0, side + pi / 2) / abs(w)

@@ -1,9 +1,9 @@
-"""Kinematics of a robot with two driven wheels, exact for any velocity and any step; its limits.
+"""Kinematics of a differential drive, exact for any velocity and any step, and its limits.
 
 x points forward, y to the left, yaw grows counter-clockwise (REP-103); metres, radians, seconds.
-A constant velocity traces an arc of a circle. Its chord is ``v dt sin(h) / h`` long, where ``h``
-is half the change of yaw, and points along the heading in the middle of the arc. Unlike the
-usual formula with the radius v / w, this one keeps all its digits as w goes to zero.
+A constant velocity traces an arc of a circle. The chord of the arc is ``v dt sin(h) / h`` long,
+where ``h`` is half the change of yaw, and points along the heading in the middle of the arc.
+Unlike the usual formula with the radius v / w, this one stays precise as w goes to zero.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import Tuple
 
 import numpy as np
 
-# Nodes and weights of Gauss-Legendre quadrature on [-1, 1], for the one path without a closed form.
+# Nodes and weights of Gauss-Legendre quadrature on [-1, 1], for ramps, which have no closed form.
 _NODES, _WEIGHTS = (
     values.tolist()
     for values in np.polynomial.legendre.leggauss(8)  # type: ignore[no-untyped-call, unused-ignore]
@@ -29,7 +29,7 @@ def wrap_angle(angle: float) -> float:
 
 
 def composed(frame: Pose, pose: Pose) -> Pose:
-    """Return a pose that is given in a frame, in the frame in which that one is given."""
+    """Return a pose given in a frame, in the parent of that frame."""
     c, s = cos(frame[2]), sin(frame[2])
     x, y = frame[0] + c * pose[0] - s * pose[1], frame[1] + s * pose[0] + c * pose[1]
     return x, y, frame[2] + pose[2]
@@ -47,9 +47,9 @@ def arc(pose: Pose, velocity: Velocity, dt: float) -> Pose:
 
 
 def ramp(pose: Pose, velocity: Velocity, end_velocity: Velocity, dt: float) -> Pose:
-    """Drive while the velocity changes linearly in time to end_velocity; units as in arc().
+    """Return the pose after dt [s] in which the velocity changes linearly to end_velocity.
 
-    Yaw has a closed form. The path does not: it is integrated by Gauss-Legendre quadrature over
+    Yaw has a closed form. The path has none: it is integrated by Gauss-Legendre quadrature over
     pieces of at most 1 rad, which leaves only rounding errors.
     """
     x, y, yaw = pose
@@ -68,14 +68,14 @@ def ramp(pose: Pose, velocity: Velocity, end_velocity: Velocity, dt: float) -> P
 
 
 def drive(pose: Pose, velocity: Velocity, end_velocity: Velocity, dt: float) -> Pose:
-    """Drive from one velocity to another: arc() if they are equal, otherwise ramp()."""
+    """Return the pose after a drive: arc() if both velocities are equal, otherwise ramp()."""
     if velocity == end_velocity:
         return arc(pose, velocity, dt)
     return ramp(pose, velocity, end_velocity, dt)
 
 
 def limit(velocity: Velocity, max_linear: float, max_angular: float) -> Velocity:
-    """Return the velocity within the limits, both parts scaled alike: the curvature is kept."""
+    """Return the velocity within the limits; both parts scale alike, which keeps the curvature."""
     v, w = velocity
     scale = 1.0
     if abs(v) > max_linear:
@@ -88,9 +88,9 @@ def limit(velocity: Velocity, max_linear: float, max_angular: float) -> Velocity
 def ramp_time(
     velocity: Velocity, target: Velocity, linear_acceleration: float, angular_acceleration: float
 ) -> float:
-    """Return the least time [s] in which the velocity becomes the target; acceleration 0: no limit.
+    """Return the least time [s] from a velocity to the target; an acceleration of 0 is no limit.
 
-    Both parts take the same time, so the velocity goes straight from the one to the other.
+    Both parts take the same time, so that the velocity changes along a straight line.
     """
     return max(
         abs(target[0] - velocity[0]) / (linear_acceleration or inf),
@@ -99,7 +99,7 @@ def ramp_time(
 
 
 def between(velocity: Velocity, target: Velocity, share: float) -> Velocity:
-    """Return the velocity that is the share (0 to 1) of the way to the target."""
+    """Return the velocity a share (0 to 1) of the way to the target."""
     return (
         velocity[0] + (target[0] - velocity[0]) * share,
         velocity[1] + (target[1] - velocity[1]) * share,

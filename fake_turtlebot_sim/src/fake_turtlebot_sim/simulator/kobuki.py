@@ -1,4 +1,4 @@
-"""What the sensors of a simulated Kobuki report, in the units of its protocol (pure)."""
+"""The feedback of a simulated Kobuki's sensors, in the units of its protocol."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from fake_turtlebot_sim.simulator.sensors import Sensed
     from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
 
-BOTTOM = (1500, 0)  # a cliff sensor above ground and above none, about: the farther, the less
+BOTTOM = (1500, 0)  # of a cliff sensor above the floor and above a cliff, about
 WRAP = 1 << 16  # counters have 16 bits
 TICKS_PER_TURN = 52 * 6545 / 132  # encoder and gears: 2578.33 (kobuki_driver's appendix)
 FULL_RATE = 0.7 / 0.035  # [rad/s] of a wheel at full voltage: 0.7 m/s (Kobuki's specifications)
@@ -22,7 +22,7 @@ BATTERY = 164  # [0.1 V] of 4 lithium cells that are almost full
 
 
 def felt(sensed: Sensed) -> Feedback:
-    """Return what bumpers, cliff sensors and wheels report."""
+    """Return the feedback of bumpers, cliff sensors and wheel drop switches."""
     right_to_left = [bits_of(reversed(flags)) for flags in (sensed.bumpers, sensed.wheels)]
     cliffs = sensed.cliffs[::-1]
     core = Core(bumper=right_to_left[0], wheel_drop=right_to_left[1], cliff=bits_of(cliffs))
@@ -30,7 +30,7 @@ def felt(sensed: Sensed) -> Feedback:
 
 
 def sensors(now_ns: int, robot: SimulatedRobot, pressed: Sequence[bool]) -> Feedback:
-    """Return what all sensors but the gyro report; pressed: buttons 0 to 2."""
+    """Return the feedback of all sensors but the gyro; pressed: buttons 0 to 2."""
     state, touch = robot.state(), felt(robot.sensed())
     left, right = (floor(angle / tau * TICKS_PER_TURN) % WRAP for angle in robot.turned)
     rates = state.left_rate, state.right_rate
@@ -49,10 +49,10 @@ def sensors(now_ns: int, robot: SimulatedRobot, pressed: Sequence[bool]) -> Feed
 
 
 def with_gyro(sensed: Feedback, heading: float, rate: float, rates: Sequence[float]) -> Feedback:
-    """Return sensors() with the gyro's part.
+    """Return the feedback with that of the gyro, which no reset of the odometry changes.
 
-    heading [rad], rate [rad/s]: of the gyro, which no reset changes. rates: of its raw readings.
+    heading [rad], rate [rad/s]: the gyro's. rates [rad/s]: its raw readings.
     """
-    frame = sensed.core.time_stamp // 10  # a reading is 10 ms
+    frame = sensed.core.time_stamp // 10  # a reading lasts 10 ms
     turning = [(0.0, 0.0, raw) for raw in rates]
     return sensed.updated([Inertia.of(heading, rate), RawGyro.of(frame, turning)])

@@ -1,7 +1,7 @@
-"""What a laser scanner measures among walls, posts and robots, exactly (pure, numpy).
+"""The ranges that a laser scanner measures among walls, posts and robots, exactly.
 
-Beams leave one point at even angles. Each obstacle is met by the beams between the directions in
-which its ends are seen; only for these pairs is a distance computed. Points are complex numbers.
+Beams leave one point at even angles. An obstacle is met by the beams between the directions of its
+ends; only for these pairs is a distance computed. Points are complex numbers.
 """
 
 from __future__ import annotations
@@ -16,30 +16,30 @@ from fake_turtlebot_sim.simulator.differential_drive import Pose, composed
 from fake_turtlebot_sim.simulator.parameters import SimulatorParameters
 from fake_turtlebot_sim.simulator.world import REACH_M, World, gaps
 
-SLACK = 1e-9  # [rad] of the ends of a wall, so that no beam slips between two that meet
+SLACK = 1e-9  # [rad] at the ends of a wall, so that no beam passes between two that meet
 
 
 class Scanner:
-    """Beams at angle_min + k * increment [rad], k from 0 to count - 1, at most one turn."""
+    """Beams at angle_min + k * increment [rad], k from 0 to count - 1, in at most one turn."""
 
     def __init__(self, angle_min: float, increment: float, count: int) -> None:
         self._start, self._increment, self._count = angle_min, increment, count
         self._ahead = np.exp(1j * (angle_min + increment * np.arange(count)))
 
     def ranges(self, pose: Pose, walls: Any, discs: Any) -> Any:
-        """Return the distances [m] from a pose (x [m], y [m], yaw [rad]), else infinity.
+        """Return each beam's distance [m] from a pose (x [m], y [m], yaw [rad]), or infinity.
 
         walls: an array (n, 4) of x1, y1, x2, y2 [m]; discs: (m, 3) of x, y, radius [m].
         """
         sensor, turn = complex(*pose[:2]), rect(1.0, -pose[2])
-        one, other, middles = (
+        starts, ends, middles = (
             (of[:, k] + 1j * of[:, k + 1] - sensor) * turn
             for of, k in ((walls, 0), (walls, 2), (discs, 0))
         )
-        beams, ranges = self._to_walls(one, other)
+        beams, ranges = self._to_walls(starts, ends)
         if len(discs):
-            found = (beams, ranges), self._to_discs(middles, discs[:, 2])
-            beams, ranges = (np.concatenate(parts) for parts in zip(*found))
+            pairs = (beams, ranges), self._to_discs(middles, discs[:, 2])
+            beams, ranges = (np.concatenate(parts) for parts in zip(*pairs))
         nearest = np.full(self._count, np.inf)
         if len(beams):
             order = np.argsort(beams, kind="stable")  # small integers: linear time
@@ -49,9 +49,9 @@ class Scanner:
         return nearest
 
     def _pairs(self, begin: Any, width: Any) -> tuple[Any, Any]:
-        """Return (obstacle, beam) of all beams within width [rad] from begin [rad] on."""
+        """Return (obstacle, beam) for all beams from begin [rad] to begin + width."""
         turn = (begin - self._start) % tau
-        # Twice, as a wall may be met by the first beams and, beyond a turn, by the last ones.
+        # Twice, as the first beams and, a turn later, the last beams may meet the same wall.
         low = np.concatenate((turn, turn - tau)) / self._increment
         high = low + np.concatenate((width, width)) / self._increment
         low = np.maximum(np.ceil(low), 0).astype(np.int64)
@@ -61,19 +61,19 @@ class Scanner:
         beams = np.arange(len(obstacles)) + np.repeat(low - np.cumsum(counts) + counts, counts)
         return obstacles, beams.astype(np.int16)
 
-    def _to_walls(self, one: Any, other: Any) -> tuple[Any, Any]:
-        product, way = one.conj() * other, other - one
+    def _to_walls(self, starts: Any, ends: Any) -> tuple[Any, Any]:
+        product, way = starts.conj() * ends, ends - starts
         cross = product.imag  # twice the area of the triangle that the scanner sees
-        begin = np.angle(np.where(cross >= 0, one, other))
+        begin = np.angle(np.where(cross >= 0, starts, ends))
         width = np.arctan2(np.abs(cross), product.real)
         walls, beams = self._pairs(begin - SLACK, width + 2 * SLACK)
         with np.errstate(divide="ignore", invalid="ignore"):
             ranges = cross[walls] / (self._ahead[beams].conj() * way[walls]).imag
-        # A wall in line with the scanner is met at its nearer end.
-        in_line = np.abs(cross) <= 1e-15 * np.abs(way) * np.abs(one)
+        # Beams meet a wall in line with the scanner at its nearer end.
+        in_line = np.abs(cross) <= 1e-15 * np.abs(way) * np.abs(starts)
         if in_line.any():
-            ends = np.minimum(np.abs(one), np.abs(other))
-            ranges = np.where(in_line[walls], ends[walls], ranges)
+            nearer = np.minimum(np.abs(starts), np.abs(ends))
+            ranges = np.where(in_line[walls], nearer[walls], ranges)
         return beams, np.where(ranges >= 0, ranges, np.inf)
 
     def _to_discs(self, middles: Any, radius: Any) -> tuple[Any, Any]:
@@ -89,10 +89,10 @@ class Scanner:
 
 
 class Laser:
-    """Measures the ranges of one scan on a robot; each name draws noise of its own."""
+    """The laser scanner of one robot; each name has noise of its own."""
 
     def __init__(self, parameters: SimulatorParameters, world: World, name: str = "") -> None:
-        """Take the scan_... of the SimulatorParameters; beams are spread evenly over the angle."""
+        """Take the parameters scan_...; the beams are spread evenly over the angle."""
         p = self._parameters = parameters
         gaps = p.scan_beams if p.scan_angle >= tau else max(1, p.scan_beams - 1)
         self.angle_min, self.increment = -0.5 * p.scan_angle, p.scan_angle / gaps
@@ -105,12 +105,15 @@ class Laser:
     def measure(self, pose: Pose, others: Any) -> list[float]:
         """Return the range of each beam [m] for a robot at a pose (x [m], y [m], yaw [rad]).
 
-        others: an array (n, 5) of obstacles beside the world's. What is nearer than the least range
-        is -inf, beyond the largest inf, by REP-117; or both NaN, as depthimage_to_laserscan fills.
+        others: an array (n, 5) of obstacles that the world does not have. A range below the least
+        one is -inf, a range above the largest inf, by REP-117; or both are NaN, as with
+        depthimage_to_laserscan.
         """
         p = self._parameters
         x, y, _ = sensor = composed(pose, (p.scan_x, p.scan_y, 0.0))
-        if not hypot(x - self._at[0], y - self._at[1]) < REACH_M:  # choose again what is in reach
+        if (
+            not hypot(x - self._at[0], y - self._at[1]) < REACH_M
+        ):  # choose the obstacles in reach again
             self._at, reach = (x, y), p.scan_range_max + REACH_M
             near = self._obstacles[gaps(x, y, self._obstacles) <= reach]
             self._walls, self._posts = near[near[:, 4] == 0.0], near[near[:, 4] > 0.0]

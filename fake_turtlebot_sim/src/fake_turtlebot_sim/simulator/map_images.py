@@ -1,6 +1,6 @@
-"""Images of maps as SDL_image 1.2 hands them to map_server: the bytes of each pixel (numpy).
+"""Images of maps as SDL_image 1.2 passes them to map_server: the bytes of each pixel.
 
-A BMP or PBM of 1 bit gives the number of each colour, 0 or 1, and no shade.
+A BMP or PBM of 1 bit has the index of the colour, 0 or 1, instead of a shade.
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ Pixels = Tuple[Any, bool]  # (rows, columns, channels) of uint8; whether the las
 NUMBER = rb"(?:\s|#[^\r\n]*[\r\n])*(\d{1,9})"
 BITS = re.compile(rb"P[14]" + 2 * NUMBER + rb".", re.DOTALL)
 SHADES = re.compile(rb"P[2356]" + 3 * NUMBER + rb".", re.DOTALL)
-ONE_INDEX = re.compile(rb"\xff*\0?\xff*")  # at most one colour of a palette is transparent
+ONE_INDEX = re.compile(rb"\xff*\0?\xff*")  # a palette with at most one transparent colour
 
 
 def read_pixels(data: bytes) -> Pixels:
-    """Return the pixels of a PGM, PNG or BMP. Raises ValueError, or what Pillow raises."""
+    """Return the pixels of a PGM, PNG or BMP. Raises ValueError, or any error of Pillow."""
     if re.match(rb"P[1-6]", data):
         return _pnm(data), False
     if not data.startswith((b"\x89PNG\r", b"BM")):
@@ -38,7 +38,7 @@ def _check_size(columns: int, rows: int) -> None:
 
 
 def _pnm(data: bytes) -> Any:
-    """Return the pixels of a PBM, PGM or PPM, whose kind is its second byte."""
+    """Return the pixels of a PBM, PGM or PPM; the second byte says which."""
     has_bits, is_text = data[1:2] in b"14", data[1:2] in b"123"
     head = (BITS if has_bits else SHADES).match(data)
     if not head:
@@ -76,7 +76,7 @@ def _bits(body: bytes, rows: int, columns: int, is_text: bool) -> Any:
 
 
 def _numbers(body: bytes, count: int) -> Any:
-    """Return numbers that are written as text, each followed by a blank or the end of a line."""
+    """Return numbers written as text, each followed by a blank or the end of a line."""
     text = re.sub(rb"#[^\r\n]*", b"", body)
     if not re.fullmatch(rb"\s*\d[\d\s]*", text):
         raise ValueError("its shades must be numbers from 0 to 255")
@@ -87,7 +87,7 @@ def _numbers(body: bytes, count: int) -> Any:
 
 
 def _bmp(data: bytes) -> Pixels:
-    """Return the pixels of a BMP: numbers of colours, or bytes in their order, B, G and R."""
+    """Return the pixels of a BMP: indices of colours, or bytes in the order B, G, R."""
     start, size = struct.unpack_from("<II", data, 10)
     columns, rows, _, bits = struct.unpack_from("<HHHH" if size == 12 else "<iiHH", data, 18)
     compression = struct.unpack_from("<I", data, 30)[0] if size > 12 else 0
@@ -110,26 +110,28 @@ def _bmp(data: bytes) -> Pixels:
 
 
 def _png(data: bytes) -> Pixels:
-    """Return the pixels of a PNG: numbers of colours, shades, shades with alpha, RGB or RGBA."""
+    """Return the pixels of a PNG: indices of colours, shades, shades with alpha, RGB or RGBA."""
     depth, kind, transparent = data[24], data[25], _transparency(data)
-    if kind == 3:  # a palette; the number of the colour counts
+    if kind == 3:  # a palette: the index of the colour counts
         return _picture(data, "P" if ONE_INDEX.fullmatch(transparent) else "RGBA")
     if kind:
         return _picture(data, "RGB" if kind == 2 else "RGBA")
     values, _ = _picture(data, "I" if depth == 16 else "L")
     shades = (values >> 8 if depth == 16 else values).astype(np.uint8)
     if not shades.any() and values.any():
-        raise ValueError("of its 16 bits map_server reads the higher 8, which are all 0")
+        raise ValueError("map_server reads the higher 8 of its 16 bits, which are all 0")
     if transparent:
         most = (1 << depth) - 1
         level = (int.from_bytes(transparent[:2], "big") & most) * max(1, 255 // most)
         alpha = np.where(values == level, 0, 255).astype(np.uint8)
-        return np.concatenate((shades, alpha), axis=2), False  # its mask is none
+        return np.concatenate(
+            (shades, alpha), axis=2
+        ), False  # SDL_image reports no alpha mask here
     return shades, False
 
 
 def _transparency(png: bytes) -> bytes:
-    """Return what the chunk tRNS of a PNG holds; nothing if there is none before the pixels."""
+    """Return the data of the chunk tRNS of a PNG; empty if there is none before the pixels."""
     place = 8
     while png[place + 4 : place + 8] not in {b"", b"IDAT"}:
         length = int.from_bytes(png[place : place + 4], "big")
@@ -141,9 +143,9 @@ def _transparency(png: bytes) -> bytes:
 
 def _picture(data: bytes, mode: str) -> Pixels:
     """Return an image as Pillow reads it, in one of Pillow's modes."""
-    from PIL import Image  # noqa: PLC0415  a quarter of the node's start, and for these alone
+    from PIL import Image  # noqa: PLC0415  slow, and needed for these formats alone
 
-    Image.MAX_IMAGE_PIXELS = None  # it is checked here
+    Image.MAX_IMAGE_PIXELS = None  # _check_size() limits it
     picture = Image.open(BytesIO(data))
     _check_size(picture.width, picture.height)
     if mode == "P" and picture.mode == "1":  # two colours, black and white

@@ -1,4 +1,4 @@
-"""Why a robot is not where its odometry says: unequal wheels, a wrong track, slipping wheels.
+"""The errors of odometry: unequal wheels, a wrong track, and slipping wheels.
 
 The systematic errors are those of UMBmark (Borenstein and Feng, 1996, "Measurement and correction
 of systematic odometry errors in mobile robots"): E_d, the ratio of the actual wheel diameters,
@@ -6,8 +6,8 @@ right to left, at an unchanged mean, and E_b, the ratio of the actual to the nom
 bend the true path, while the odometry assumes the nominal robot.
 
 The noise is that of Chong and Kleeman (1997, "Accurate odometry and error modelling for a mobile
-robot"): the measured travel of each wheel is off by a normal error whose variance grows with the
-distance, so its size does not depend on how the way is cut into steps.
+robot"): the measured travel of each wheel has a normal error whose variance grows with the
+distance, so that it does not depend on how the path is cut into steps.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from fake_turtlebot_sim.simulator.differential_drive import Pose, Velocity, whee
 
 
 class OdometryErrors:
-    """The errors of one robot: what it truly does, what it measures, how far it can be trusted."""
+    """One robot's true velocity, its measurement, and the covariance of its odometry."""
 
     def __init__(
         self,
@@ -32,7 +32,7 @@ class OdometryErrors:
         wheel_noise: float = 0.0,
         seed: str = "",
     ) -> None:
-        """Take what SimulatorParameters has under these names; the noise is drawn from the seed."""
+        """Take parameters of the simulator; the seed determines the noise."""
         self._separation = wheel_separation
         self._radius_ratio, self._track_ratio = wheel_radius_ratio, track_ratio
         self.wheel_noise = wheel_noise
@@ -40,11 +40,11 @@ class OdometryErrors:
         self.forget()
 
     def forget(self) -> None:
-        """Trust the odometry fully again, as after the robot was put at a known place."""
+        """Reset the covariance to zero, as after the robot was put at a known pose."""
         self.covariance: Any = np.zeros((3, 3))  # x [m], y [m], yaw [rad]
 
     def true_velocity(self, velocity: Velocity) -> Velocity:
-        """Return the velocity of the actual robot whose wheels turn as the nominal one's."""
+        """Return the velocity of the actual robot when its wheels turn like the nominal robot's."""
         left, right = wheel_rates(velocity, self._separation, 1.0)
         ratio = self._radius_ratio
         left *= 2.0 / (1.0 + ratio)
@@ -52,7 +52,7 @@ class OdometryErrors:
         return 0.5 * (left + right), (right - left) / (self._track_ratio * self._separation)
 
     def measured(self, velocity: Velocity, dt: float) -> Velocity:
-        """Return the mean velocity [m/s, rad/s] that the wheels seem to have had during dt [s]."""
+        """Return the mean velocity [m/s, rad/s] that the wheels measure over dt [s]."""
         left, right = (
             rate + self._random.gauss(0.0, self.wheel_noise * sqrt(abs(rate) / dt))
             for rate in wheel_rates(velocity, self._separation, 1.0)
@@ -60,9 +60,9 @@ class OdometryErrors:
         return 0.5 * (left + right), (right - left) / self._separation
 
     def grow(self, before: Pose, after: Pose, velocity: Velocity, dt: float) -> None:
-        """Let the covariance grow by a step between two measured poses (x, y, yaw).
+        """Grow the covariance by a step between two measured poses (x, y, yaw).
 
-        The derivatives are those of a step along the heading in its middle.
+        The derivatives are those of a step along its middle heading.
         """
         middle = before[2] + 0.5 * velocity[1] * dt
         by_pose = np.eye(3)

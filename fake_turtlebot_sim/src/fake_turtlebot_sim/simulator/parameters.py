@@ -34,7 +34,7 @@ _ANGULAR_ACCELERATION = number(0.0, 1000.0, "rad/s2 (0: no limit)")
 
 
 def _robots(value: Any) -> dict[str, Pose | None]:
-    """Check {name: [x, y, yaw]}; of names or a number of robots the poses are None."""
+    """Return {name: pose}; for a list of names or a number of robots the poses are None."""
     if isinstance(value, dict):
         return {_robot_name(robot): _robot_pose(robot, pose) for robot, pose in value.items()}
     if isinstance(value, (list, tuple)) and 1 <= len(value) <= MOST_ROBOTS:
@@ -66,12 +66,12 @@ def _robot_pose(robot: str, pose: Any) -> Pose:
 
 
 def line_up(count: int) -> list[Pose]:
-    """Return poses, the first at the origin, rows of ten, 1 m apart."""
+    """Return poses in rows of ten, 1 m apart, the first at the origin."""
     return [(float(-(k // 10)), float(-(k % 10)), 0.0) for k in range(count)]
 
 
 def _world(value: Any) -> World | None:
-    """Read a world: the path of a file, or the name of one of this package; "" is none."""
+    """Return the World of a file, or of this package by its name; None for ""."""
     if not isinstance(value, str):
         raise ValueError("must be a file, or the name of a world of this package")
     return read_world(find_world(value)) if value else None
@@ -79,11 +79,11 @@ def _world(value: Any) -> World | None:
 
 @dataclass(frozen=True)
 class SimulatorParameters:
-    """What can be set, with the defaults; README.md has them as a table."""
+    """The parameters with their defaults; README.md has them as a table."""
 
     rate: float = parameter(50.0, number(5, 1000, "Hz"), "of odometry, transform and wheels")
     cmd_vel_timeout: float = parameter(
-        0.6, number(0.02, 60.0, "s, or 0: never", off=0.0), "after which a command counts no more"
+        0.6, number(0.02, 60.0, "s, or 0: never", off=0.0), "after which a command expires"
     )
     publish_tf: bool = parameter(
         True, switch, "false leaves the transform to another node, such as a filter"
@@ -109,7 +109,7 @@ class SimulatorParameters:
     wheel_noise: float = parameter(
         0.0,
         number(0.0, 1.0, "m (standard deviation after 1 m)"),
-        "of a wheel's measured travel; it grows with the root of the way",
+        "of a wheel's measured travel; grows with the square root of the distance",
     )
     wheel_radius_ratio: float = parameter(
         1.0, number(0.5, 2.0, "(right / left)"), "of the actual wheels, UMBmark's E_d"
@@ -119,14 +119,14 @@ class SimulatorParameters:
     )
     seed: int = parameter(0, whole_number(), "the same seed (and name) gives the same noise")
     robots: dict[str, Pose | None] = parameter(
-        {}, _robots, "several: how many, `[ada, bob]`, or `{ada: [x, y, yaw], ...}` [m, m, rad]"
+        {}, _robots, "several: a number, `[ada, bob]`, or `{ada: [x, y, yaw], ...}` [m, m, rad]"
     )
     world_frame: str = parameter("world", _FRAME, "common to the odometry frames of several robots")
     world: World | None = parameter(
-        None, _world, "to drive in: `room`, `maze`, `table`, or a file; none: an empty plane", '""'
+        None, _world, "to drive in: `room`, `maze`, `table`, or a file; empty: an empty plane", '""'
     )
     map_frame: str = parameter("map", _FRAME, "that of the world")
-    robots_meet: bool = parameter(True, switch, "in a world robots touch and see each other")
+    robots_meet: bool = parameter(True, switch, "in a world the robots touch and see each other")
     scan_rate: float = parameter(
         10.0, number(0.1, 1000.0, "Hz, or 0: no scan", off=0.0), "of the laser scanner in a world"
     )
@@ -145,10 +145,10 @@ class SimulatorParameters:
     scan_no_return: str = parameter(
         "inf",
         text("inf or nan", ("inf", "nan").__contains__),
-        "what a beam reads that measures nothing: by REP-117, or as on a real TurtleBot 2",
+        "the range of a beam without an obstacle: by REP-117, or as on a real TurtleBot 2",
     )
     scan_noise: float = parameter(
-        0.0, number(0.0, 10.0, "m (standard deviation)"), "of each range, drawn from the seed"
+        0.0, number(0.0, 10.0, "m (standard deviation)"), "of each range; the seed determines it"
     )
 
     def period_ns(self) -> int:
@@ -156,28 +156,28 @@ class SimulatorParameters:
         return round(10**9 / self.rate)
 
     def meeting_reach(self) -> float:
-        """Return the distance [m] between two robots beyond which they do not meet in a step."""
+        """Return the distance [m] beyond which two robots cannot touch in their next steps."""
         if not (self.cmd_vel_timeout and self.max_linear_speed):
             return inf
-        longest_s = self.cmd_vel_timeout + 10.0 / self.rate  # as when the machine was busy
+        longest_s = self.cmd_vel_timeout + 10.0 / self.rate  # steps are longer on a busy machine
         return 1.0 + 2.0 * self.max_linear_speed * longest_s
 
     def start_poses(self) -> dict[str, Pose]:
-        """Return {name: pose}; without ~robots the name is "". Raises ValueError without room."""
+        """Return {name: pose}; without ~robots the name is "". Raises ValueError."""
         poses = self.given_poses()
         count = list(poses.values()).count(None)
         places = self.world.places(count) if self.world and count else line_up(count)
         return {name: pose or places.pop(0) for name, pose in poses.items()}
 
     def given_poses(self) -> Mapping[str, Pose | None]:
-        """Return the start poses that are given; None is one that is yet to be chosen."""
+        """Return the start poses that are given; None where one must still be chosen."""
         initial = self.initial_x, self.initial_y, self.initial_yaw
         x, y, yaw = (float(value or 0.0) for value in initial)
         return self.robots or {"": (x, y, yaw) if set(initial) != {""} else None}
 
 
 def simulated(name: str) -> Any:
-    """Declare a parameter of another program that is one of the simulator's."""
+    """Declare a parameter of another program that the simulator has, too."""
     declaration = declared(SimulatorParameters)[name]
     meta = declaration.metadata
     return parameter(declaration.default, meta["check"], meta["meaning"], meta["default"])
@@ -186,10 +186,10 @@ def simulated(name: str) -> Any:
 def parse_parameters(given: Mapping[str, Any]) -> SimulatorParameters:
     """Return the checked parameters, with defaults filled in. Raises ValueError, one line."""
     parameters = SimulatorParameters(**checked(SimulatorParameters, given))
-    for one, other in (("odom_frame", "base_frame"), ("left_wheel_joint", "right_wheel_joint")):
-        value = getattr(parameters, one)
-        if value == getattr(parameters, other):
-            raise ValueError(f"~{other}: {value!r}: must differ from ~{one}")
+    for left, right in (("odom_frame", "base_frame"), ("left_wheel_joint", "right_wheel_joint")):
+        value = getattr(parameters, left)
+        if value == getattr(parameters, right):
+            raise ValueError(f"~{right}: {value!r}: must differ from ~{left}")
     if parameters.scan_range_min >= parameters.scan_range_max:
         raise ValueError("~scan_range_min: must be less than ~scan_range_max")
     if parameters.world:

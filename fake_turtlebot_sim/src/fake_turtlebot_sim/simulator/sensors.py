@@ -1,4 +1,4 @@
-"""What the Kobuki's bumpers, cliff sensors and wheel switches feel (pure)."""
+"""The states of the Kobuki's bumpers, cliff sensors and wheel drop switches."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from fake_turtlebot_sim.simulator.world import World
 Two = Tuple[bool, bool]  # left, right
 Three = Tuple[bool, bool, bool]  # left, center, right
 
-# Half of the center bumper, and where those at its sides end (kobuki_gazebo_plugins).
+# Half the angle of the center bumper, and the outer end of the side bumpers
+# (kobuki_gazebo_plugins).
 CENTER_RAD, SIDE_RAD = pi / 6, pi / 2
-# Of the left, center and right cliff sensor, x and y [m] in the frame of the base
-# (kobuki.urdf.xacro).
+# x and y [m] of the left, center and right cliff sensor in the base frame (kobuki.urdf.xacro).
 CLIFF_SENSORS = ((0.08734, 0.13601), (0.156, 0.0), (0.085, -0.13601))
-SAME_S = 1e-8  # less than this apart the wheels drop together; a rounding, at 1 mm/s
+SAME_S = 1e-8  # wheels that drop less than this apart drop together: rounding, at 1 mm/s
 
 
 class Sensed(NamedTuple):
-    """bumpers: pressed; cliffs: no ground below; wheels: dropped."""
+    """bumpers: pressed; cliffs: no floor below; wheels: dropped."""
 
     bumpers: Three = (False, False, False)
     cliffs: Three = (False, False, False)
@@ -29,15 +29,15 @@ class Sensed(NamedTuple):
 
 
 def bumpers(contact: float | None) -> Three:
-    """Return which bumpers a push in a direction [rad, ahead is 0, left positive] presses."""
+    """Return the bumpers pressed by contact in a direction [rad, 0 is ahead, left is positive]."""
     if contact is None or abs(contact) > SIDE_RAD:
-        return (False, False, False)  # there is none behind
+        return (False, False, False)  # there is no bumper behind
     left, right = contact > CENTER_RAD, contact < -CENTER_RAD
     return (left, not (left or right), right)
 
 
 def cliffs(pose: Pose, world: World) -> Three:
-    """Return which cliff sensors see no ground below a robot at a pose (x [m], y [m], yaw)."""
+    """Return the cliff sensors that see no floor, for a robot at a pose (x [m], y [m], yaw)."""
     if not world.cliffs:
         return (False, False, False)
     places = (composed(pose, (x, y, 0.0)) for x, y in CLIFF_SENSORS)
@@ -48,10 +48,10 @@ def cliffs(pose: Pose, world: World) -> Three:
 def first_drop(
     pose: Pose, piece: Piece, wheel_separation: float, edges: Sequence[Obstacle]
 ) -> tuple[float, Two] | None:
-    """Return after which time [s] within a Piece which wheels drop over an edge, in closed form.
+    """Return the time [s] until wheels drop over an edge within a Piece, and which, or None.
 
-    The place where a wheel touches the ground drives an arc of its own around the same middle as
-    the robot; it meets an edge as a disc without a radius meets a wall.
+    The point where a wheel touches the floor follows its own arc, around the same centre as the
+    robot's; it meets an edge as a disc of radius 0 meets a wall.
     """
     if not edges:
         return None

@@ -1,8 +1,8 @@
-"""One simulated robot: commands in, state out, exact at any instant.
+"""One simulated robot: takes commands and returns its state, exact at any instant.
 
-Time enters as a whole number of nanoseconds that never decreases. The robot moves only in
-``advance`` and there splits its step where a velocity changes (a command, the end of a ramp, the
-timeout), so what it does depends on when commands came, not on how often it is asked.
+Times are whole numbers of nanoseconds that never decrease. The robot moves only in ``advance``,
+which splits its step where the velocity changes (a command, the end of a ramp, the timeout). So
+its path depends on when commands arrived, not on how often ``advance`` is called.
 """
 
 from __future__ import annotations
@@ -31,11 +31,11 @@ from fake_turtlebot_sim.simulator.world import BASE_RADIUS_M, FARTHEST_PLACE_M, 
 
 REST: Velocity = (0.0, 0.0)
 ON_ITS_WHEELS = (False, False)
-Change = Tuple[Velocity, Velocity]  # a velocity, linear in time: at its start and at its end
+Change = Tuple[Velocity, Velocity]  # the first and the last velocity of a linear change
 
 
 def meet(robots: Sequence[SimulatedRobot], reach: float) -> None:
-    """Let each robot meet those within reach [m]: those that it could touch in its next steps."""
+    """Let each robot meet the robots within reach [m], which it could touch in its next steps."""
     places = np.array([robot.true_pose[:2] for robot in robots])
     away = np.hypot(*(places[:, None] - places).transpose(2, 0, 1))
     np.fill_diagonal(away, np.inf)
@@ -44,10 +44,10 @@ def meet(robots: Sequence[SimulatedRobot], reach: float) -> None:
 
 
 class CommandResult(Enum):
-    """What becomes of a command."""
+    """What the robot does with a command."""
 
     ACCEPTED = "obeyed"
-    LIMITED = "more than the robot can do; scaled down to what it can"
+    LIMITED = "faster than the robot can drive; scaled down to its limits"
     REJECTED = "not a finite number; ignored"
     POWERLESS = "its motors are off, by mobile_base/commands/motor_power; ignored"
 
@@ -60,22 +60,22 @@ class RobotState(NamedTuple):
     yaw: float  # [rad], in (-pi, pi]
     v: float  # [m/s]
     w: float  # [rad/s]
-    left_angle: float  # [rad], never wrapped, as a real robot reports it
+    left_angle: float  # [rad], never wrapped, as on a real robot
     right_angle: float  # [rad]
     left_rate: float  # [rad/s]
     right_rate: float  # [rad/s]
 
 
 class SimulatedRobot:
-    """A robot that obeys its newest command until the timeout, if it has one, then stops."""
+    """A robot that obeys its newest command until the timeout, if there is one, and then stops."""
 
     def __init__(
         self, parameters: SimulatorParameters, start_pose: Pose = ORIGIN, name: str = ""
     ) -> None:
         """Put the robot at rest at start_pose, (x [m], y [m], yaw [rad]), at the time 0.
 
-        Each name draws odometry noise of its own, in company or alone. The pose is in the frame of
-        the SimulatorParameters' world, if there is one, and the odometry starts with it.
+        Each name has odometry noise of its own. The pose is in the frame of the world, if there is
+        one, and the odometry starts there.
         """
         p = self._parameters = parameters
         self._timeout_ns = round(p.cmd_vel_timeout * 1e9) if p.cmd_vel_timeout else inf
@@ -89,18 +89,18 @@ class SimulatedRobot:
         if errors != (1.0, 1.0, 0.0):
             self._errors = OdometryErrors(p.wheel_separation, *errors, f"{p.seed}/{name}")
         self._surroundings = Surroundings(p.world) if p.world else None
-        # Whether the odometry may differ from the truth.
+        # Whether the odometry may differ from the true pose.
         self.odometry_differs = self._errors is not None or self._surroundings is not None
         self._contact: float | None = None
         self._dropped = ON_ITS_WHEELS
-        self.company: Sequence[SimulatedRobot] = ()  # others that may be in the way
+        self.company: Sequence[SimulatedRobot] = ()  # other robots that may be in the way
         self._start_pose = start_pose if p.world else ORIGIN
         self.place(start_pose)
 
     def command(self, velocity: Velocity, now_ns: int) -> CommandResult:
         """Obey the velocity (v [m/s], w [rad/s]) from now on; return the CommandResult on it."""
         if not all(map(isfinite, velocity)):
-            return CommandResult.REJECTED  # and the timeout runs on
+            return CommandResult.REJECTED  # without restarting the timeout
         if not self._has_power:
             return CommandResult.POWERLESS
         self.advance(now_ns)
@@ -111,14 +111,14 @@ class SimulatedRobot:
         return CommandResult.ACCEPTED if self._target == velocity else CommandResult.LIMITED
 
     def switch_motors(self, is_on: bool, now_ns: int) -> None:
-        """Stop and obey nothing while off; what was commanded before does not drive afterwards."""
+        """Stop, and obey no command while the motors are off; earlier commands never resume."""
         self.command(REST, now_ns)
         self._has_power = is_on
 
     def place(self, pose: Pose) -> None:
-        """Lift the robot to a pose (x [m], y [m], yaw [rad]); its wheels and command stay.
+        """Lift the robot to a pose (x [m], y [m], yaw [rad]); wheel angles and command stay.
 
-        Raises ValueError if something is there, or an edge, or if it is too far away.
+        Raises ValueError if an obstacle or an edge is there, or if the pose is too far away.
         """
         if not max(map(abs, pose[:2])) <= FARTHEST_PLACE_M:
             raise ValueError(f"a pose is at most {FARTHEST_PLACE_M:g} m from (0, 0)")
@@ -131,9 +131,9 @@ class SimulatedRobot:
             self._errors.forget()
 
     def reset_odometry(self) -> None:
-        """Zero the odometry and the angles of the wheels, as the Kobuki does on request.
+        """Zero the odometry and the wheel angles, as the Kobuki does on request.
 
-        On an empty plane the robot itself is at the origin then, too.
+        On an empty plane this moves the robot itself to the origin, too.
         """
         if self._surroundings is None:
             self.place(ORIGIN)
@@ -144,12 +144,12 @@ class SimulatedRobot:
         self._turned_at_reset = self.turned
 
     def reset(self) -> None:
-        """Begin again: in a world at the start, else at the origin, with wheels at zero."""
+        """Return to the start of the world, or to the origin without one; zero the wheel angles."""
         self.place(self._start_pose)
         self._turned_at_reset = self.turned
 
     def advance(self, to_ns: int) -> bool:
-        """Move up to to_ns, unless that has passed; return whether the timeout ended a motion."""
+        """Move until to_ns, unless it has passed; return whether the timeout ended a motion."""
         has_timed_out = False
         if self._time_ns < self._expires_ns <= to_ns:
             self._move(int(self._expires_ns))
@@ -166,33 +166,33 @@ class SimulatedRobot:
         return RobotState(*self._pose, *self._velocity, left - zero[0], right - zero[1], *rates)
 
     def true_state(self) -> RobotState:
-        """Return the RobotState as an outside observer sees it: without odometry errors."""
+        """Return the true RobotState, without odometry errors."""
         state = self.state()
         x, y, yaw = self.true_pose
         v, w = self._errors.true_velocity(self._velocity) if self._errors else self._velocity
         return state._replace(x=x, y=y, yaw=yaw, v=v, w=w)
 
     def covariance(self) -> Any:
-        """Return how the odometry errs, 3 x 3 for x [m], y [m], yaw [rad]; None without noise."""
+        """Return the 3 x 3 covariance of x [m], y [m], yaw [rad]; None without noise."""
         return self._errors.covariance if self._errors and self._errors.wheel_noise else None
 
     @property
     def true_pose(self) -> Pose:
-        """Return where the robot is, (x [m], y [m], yaw [rad])."""
+        """Return the true pose (x [m], y [m], yaw [rad])."""
         return self._true_pose if self.odometry_differs else self._pose
 
     @property
     def contact(self) -> float | None:
-        """Return in which direction [rad, ahead is 0] the robot pushes something, or None."""
+        """Return the direction [rad, 0 is ahead] in which the robot pushes an obstacle, or None."""
         return None if self._contact is None else wrap_angle(self._contact - self.true_pose[2])
 
     @property
     def disc(self) -> Obstacle:
-        """Return the robot as others meet it."""
+        """Return the robot as an obstacle for others."""
         return (*self.true_pose[:2], *self.true_pose[:2], BASE_RADIUS_M)
 
     def sensed(self) -> Sensed:
-        """Return what the robot's sensors feel at the time of the last advance()."""
+        """Return the states of the sensors at the time of the last advance()."""
         world = self._parameters.world
         if world is None:
             return Sensed()
@@ -200,12 +200,12 @@ class SimulatedRobot:
 
     @property
     def target(self) -> Velocity:
-        """Return the velocity (v [m/s], w [rad/s]) that is commanded, within the limits."""
+        """Return the commanded velocity (v [m/s], w [rad/s]), within the limits."""
         return self._target
 
     @property
-    def is_driven(self) -> bool:
-        """Return whether a command is in force, that is, not timed out."""
+    def is_commanded(self) -> bool:
+        """Return whether the last command has not expired yet."""
         return self._time_ns < self._expires_ns
 
     @property
@@ -218,7 +218,7 @@ class SimulatedRobot:
         return wheel_rates(velocity, p.wheel_separation, p.wheel_radius)
 
     def _move(self, to_ns: int) -> None:
-        """Move with one target: first the ramp towards it, if any is left, then steadily."""
+        """Move with a constant target: ramp up to it, then drive steadily."""
         dt = (to_ns - self._time_ns) * 1e-9
         self._time_ns = to_ns
         if self._velocity != self._target:
@@ -246,10 +246,10 @@ class SimulatedRobot:
         elif not any(self._dropped):
             self._drive_in_world(self._surroundings, Piece(*wheels, dt), Piece(*true, dt))
         else:
-            self._velocity = REST  # it stays there until it is lifted
+            self._velocity = REST  # the robot stays there until it is lifted
 
     def _drive_in_world(self, around: Surroundings, wheels: Piece, true: Piece) -> None:
-        """Drive until something is in the way, or a wheel drops."""
+        """Drive until an obstacle is in the way or a wheel drops."""
         x, y, _ = self.true_pose
         reach = BASE_RADIUS_M + true.dt * max(abs(true.velocity[0]), abs(true.end_velocity[0]))
         near = around.near(x, y, reach)
@@ -262,7 +262,7 @@ class SimulatedRobot:
             if len(pieces) > 1:
                 turned = wheels.until(after)[1], wheels.until(after + piece.dt)[1]
                 after += piece.dt
-            if piece.is_blocked:  # the wheels, too, only turn the robot
+            if piece.is_blocked:  # the wheels only turn the robot, too
                 turned = (0.0, turned[0][1]), (0.0, turned[1][1])
             drop = first_drop(self.true_pose, piece, separation, around.world.edges)
             if drop is not None:
@@ -276,12 +276,12 @@ class SimulatedRobot:
             self._velocity = 0.0, wheels.end_velocity[1]
 
     def _roll(self, wheels: Change, true: Change, dt: float) -> None:
-        """Let the wheels turn for dt [s] as for a velocity, while the robot has the true one."""
+        """Turn the wheels for dt [s] by one velocity, and move the robot by the true one."""
         mean = wheels[0] if wheels[0] == wheels[1] else between(*wheels, 0.5)
         if self.odometry_differs:
             self._true_pose = drive(self._true_pose, *true, dt)
         if self._errors and self._errors.wheel_noise and dt:
-            # The measured travel of a step carries no more than its mean velocity.
+            # The measured travel of a step yields only its mean velocity.
             before, mean = self._pose, self._errors.measured(mean, dt)
             self._pose = drive(before, mean, mean, dt)
             self._errors.grow(before, self._pose, mean, dt)

@@ -1,4 +1,4 @@
-"""Worlds as files: ours, or a map of map_server, whose occupied cells become walls."""
+"""World files: our format, or a map of map_server, whose occupied cells become walls."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
 def find_world(name: str) -> Path:
-    """Return the path of a world, given as a file or by the name of one of this package."""
+    """Return the path of a world, given as a path or by its name in this package."""
     if "/" in name or name.endswith((".yaml", ".yml")):
-        return Path(os.path.expanduser(name))  # a user who is unknown stays as written
+        return Path(os.path.expanduser(name))  # leaves the name of an unknown user as it is
     worlds = shipped_worlds()
     if name not in worlds:
         names = ", ".join(sorted(worlds))
@@ -42,32 +42,32 @@ def shipped_worlds() -> dict[str, Path]:
 
 
 def read_world(path: Path) -> World:
-    """Return the World of a YAML file, ours or map_server's. Raises WorldError."""
+    """Return the World of a YAML file in our format or map_server's. Raises WorldError."""
     node, data = _parsed(path)
     if not isinstance(data, dict):
         raise WorldError(f"must be a map of {', '.join(FIELDS)}, or of map_server")
     if "image" in data:
         return _from_map(path, data)
-    found = {}
-    for key, items in reversed(node.value):  # duplicate key: data has the last
+    fields = {}
+    for key, items in reversed(node.value):  # of duplicate keys, data has the last
         name, line = key.value, key.start_mark.line + 1
         if name not in FIELDS:
             known = ", ".join(FIELDS)
-            raise WorldError(f"line {line}: {name}: is not known; known are {known}")
-        if name in found:
-            raise WorldError(f"line {line}: {name}: is there twice")
+            raise WorldError(f"line {line}: {name}: is unknown; known are {known}")
+        if name in fields:
+            raise WorldError(f"line {line}: {name}: is listed twice")
         allowed, read = FIELDS[name]
         value = data.get(name)
-        found[name] = _read(read, value)
-        if found[name] is None:
-            if isinstance(value, list):  # the first of its items that is wrong
+        fields[name] = _read(read, value)
+        if fields[name] is None:
+            if isinstance(value, list):  # name the line of its first wrong item
                 wrong = [_read(read, [item]) is None for item in value].index(True)
                 line = items.value[wrong].start_mark.line + 1
             raise WorldError(f"line {line}: {name}: must be {allowed}, up to {FARTHEST_M:g} m")
-        count = sum(1 if name == "posts" else np.size(one) // 2 for one in found[name])
+        count = sum(1 if name == "posts" else np.size(item) // 2 for item in fields[name])
         if count > MOST.get(name, 3):
             raise WorldError(f"line {line}: {name}: {count} are too many: at most {MOST[name]}")
-    return World(**found)
+    return World(**fields)
 
 
 def read_grid(path: Path) -> Grid:
@@ -87,7 +87,9 @@ def _parsed(path: Path) -> tuple[Any, Any]:
         for event in yaml.parse(text, Loader=LOADER):
             depth += isinstance(event, yaml.CollectionStartEvent)
             depth -= isinstance(event, yaml.CollectionEndEvent)
-            if depth > DEEPEST or isinstance(event, yaml.AliasEvent):  # it could unfold for ever
+            if depth > DEEPEST or isinstance(
+                event, yaml.AliasEvent
+            ):  # aliases could expand without end
                 where = f"line {event.start_mark.line + 1}"
                 raise WorldError(f"{where}: *NAME, or more than {DEEPEST} lists in each other")
         loader = LOADER(text)
@@ -97,14 +99,14 @@ def _parsed(path: Path) -> tuple[Any, Any]:
         raise WorldError(f"cannot be read: {error.strerror}") from None
     except WorldError:
         raise
-    except Exception as error:  # PyYAML lets ValueError, KeyError and more through
+    except Exception as error:  # PyYAML raises ValueError, KeyError and more
         mark, why = (getattr(error, name, None) for name in ("problem_mark", "problem"))
         where = f"line {mark.line + 1}: " if mark else ""
-        raise WorldError(f"{where}not YAML: {why or 'no text, or a value that is none'}") from None
+        raise WorldError(f"{where}not YAML: {why or 'not text, or an invalid value'}") from None
 
 
 def _read(read: Callable[[Any], Any], value: Any) -> Any:
-    """Return what a value means, or None if it is not allowed."""
+    """Return the converted value, or None if it is not allowed."""
     try:
         return read(value)
     except (TypeError, ValueError, KeyError):
@@ -112,7 +114,7 @@ def _read(read: Callable[[Any], Any], value: Any) -> Any:
 
 
 def _numbers(values: Any, count: int) -> Any:
-    """Return as many numbers, as floats. Raises ValueError."""
+    """Return `count` numbers as floats. Raises ValueError."""
     if len(values) != count or not all(is_number(v) and abs(v) <= FARTHEST_M for v in values):
         raise ValueError
     return tuple(map(float, values))
@@ -140,7 +142,7 @@ def _start(value: Any) -> Any:
     return _named(value, "x", "y", "yaw")
 
 
-# What each must be, and what reads it.
+# Each field: the allowed values, and the function that reads them.
 FIELDS: dict[str, tuple[str, Callable[[Any], Any]]] = {
     "walls": ("a list of polylines [[x, y], [x, y], ...] in metres", lambda v: _lines(v, 2)),
     "posts": ("a list of {x: ..., y: ..., radius: ...} in metres, radius above 0", _posts),
@@ -151,11 +153,11 @@ FIELDS: dict[str, tuple[str, Callable[[Any], Any]]] = {
 
 
 def _from_map(path: Path, about: dict[str, Any]) -> World:
-    """Return the walls around the occupied cells of a map, and its start if it names one."""
+    """Return the World of a map: walls around occupied cells, and the start if it names one."""
     start = _read(_start, about.get("start"))
     if "start" in about and start is None:
         raise WorldError(f"start: must be {FIELDS['start'][0]}")
     grid = read_map(path, about)
     walls = grid.outlines()
     ends = np.stack((walls.real, walls.imag), axis=-1).tolist()
-    return World(tuple(((*one,), (*other,)) for one, other in ends), start=start, grid=grid)
+    return World(tuple(((*a,), (*b,)) for a, b in ends), start=start, grid=grid)
