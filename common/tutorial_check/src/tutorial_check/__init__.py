@@ -1,6 +1,6 @@
-"""The checker of the exercises, and all that a check or a recorder of a course uses.
+"""The checker of the exercises, and everything that a course's checks and recorders use.
 
-Nothing else of this package is imported by a course; common/doc/COURSES.md shows one.
+A course imports nothing else of this package; common/doc/COURSES.md shows an example.
 """
 
 from typing import TYPE_CHECKING

@@ -1,4 +1,4 @@
-"""python3 -m tutorial_check: see commands/program.py."""
+"""python3 -m tutorial_check: see commands/command_line.py."""
 
 from tutorial_check.commands.command_line import main
 

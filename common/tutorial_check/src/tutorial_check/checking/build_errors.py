@@ -1,4 +1,4 @@
-"""What catkin_make prints of an error, its own or one of CMake, compiler, linker or genmsg."""
+"""Errors that catkin_make prints: its own, and those of CMake, compiler, linker and genmsg."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from tutorial_check.submission.packages import Package
 EXPECTED = "catkin_make without an error"
 NOTABLE = re.compile(r"Error at|^E: |mismatched tag|error:|Could not find|Multiple packages")
 CMAKE_ERROR = re.compile(r"^CMake Error(?: at [^\n]*)?:\s(.*?)(?:\n\n\n|\Z)", re.M | re.S)
-# What genmsg says of a message or service: (file, type) or (file, what it read there).
+# genmsg's errors about a message or service: (file, type) or (file, what it read there).
 DEFINITION = re.compile(
     r"messages which\s+'([^']+)'\s+depends.+?message\s+\[(\S+)\]"
     r"|InvalidMsgSpec: (/\S+): (?:Invalid declaration: ([^\n]+)|(\S+) is not a legal)", re.DOTALL
 )  # fmt: skip
-# With bounds, as a search takes the square of what has none.
+# Bounded, because an unbounded search takes quadratic time.
 COMPILER = re.compile(r"^(/[^\s:]+):(\d+):(?:\d+:)? (?:fatal )?error: ([^\n]{1,300})", re.M)
 LINKER = re.compile(
     r"undefined reference to [^\n]{1,260}|cannot find -l[^\s:]{1,99}"
@@ -29,14 +29,14 @@ LINKER = re.compile(
 TARGET = re.compile(r"\*\*\* \[(\S{1,200}?)/CMakeFiles/(\S{1,200}?)\.dir/")  # package, target
 SOURCE = re.compile(r"(?<!\S)(/[^\s:]+):(\d+)[:,]")
 HEADER = re.compile(r"([\w.+-]+)/(\S+)\.h(?:pp)?: No such file")
-# By its folder: what CMakeLists.txt has for a file of which a header is made.
+# {folder: what CMakeLists.txt needs to generate a header from a file in it}
 MAKERS = {
     "msg": ("add_message_files", "generate_messages"),
     "srv": ("add_service_files", "generate_messages"),
     "action": ("add_action_files", "generate_messages"),
     "cfg": ("generate_dynamic_reconfigure_options",),
 }
-# What a header's name has after that of the file from which it is made.
+# What a generated header's name adds to that of its source file.
 MADE = "(?:Request|Response|Config|(?:Action)?(?:Goal|Result|Feedback)?)"
 
 
@@ -53,12 +53,12 @@ def build_error(submission: Submission, output: str) -> Wrong:
 
 
 def missing_in(output: str) -> list[str]:
-    """Return the packages that CMake does not find; it breaks long lines, and indents them."""
+    """Return the packages that CMake does not find. CMake wraps and indents long lines."""
     return re.findall(r'[Cc]ould not find (?:[^"\n]|\n  (?=\S))*"([^"]+)"', output)
 
 
 def not_found(submission: Submission, name: str) -> tuple[str, str, str]:
-    """Return (seen, where, hint) for a package of a CMakeLists.txt that catkin does not find."""
+    """Return (seen, where, hint) for a package in CMakeLists.txt that catkin does not find."""
     packages = submission.packages
     cmakes = [(f"{package.inside}/CMakeLists.txt", package.cmake or "") for package in packages]
     places = ((place_of(file, text, name), text) for file, text in cmakes if name in text)
@@ -80,7 +80,7 @@ def _hint(text: str) -> str:
 
 
 def _of_definition(submission: Submission, output: str) -> Wrong | None:
-    """Return the Wrong for a message or service with a type that is not there, or with no field."""
+    """Return the Wrong for a message or service with an unknown type or an invalid field."""
     definition = DEFINITION.search(output)
     if not definition:
         return None
@@ -101,11 +101,11 @@ def _of_package(submission: Submission, output: str) -> Wrong | None:
 
 
 def _of_compiler(submission: Submission, output: str) -> Wrong | None:
-    """Return the Wrong for what does not compile."""
+    """Return the Wrong for a compiler error."""
     error = COMPILER.search(output)
     if not error:
         return None
-    # What is wrong with a template is often printed of the system's header.
+    # The compiler often reports an error in a template at the system's header.
     places = [place for place in (error, *SOURCE.finditer(output)) if submission.is_own(place[1])]
     path, line = places[0].group(1, 2) if places else error.group(1, 2)
     where = f"{Path(path).relative_to(submission.source)}:{line}" if places else f"{path}:{line}"
@@ -114,7 +114,7 @@ def _of_compiler(submission: Submission, output: str) -> Wrong | None:
 
 
 def _of_header(submission: Submission, message: str, target: str) -> str:
-    """Return what to do about a header that is not there; "" if that is not what a message says."""
+    """Return what to do about a missing header; "" if the message is about something else."""
     header = HEADER.search(message)
     if not header:
         return ""
@@ -135,7 +135,7 @@ def _of_header(submission: Submission, message: str, target: str) -> str:
 
 
 def _of_linker(submission: Submission, output: str) -> Wrong | None:
-    """Return the Wrong for a program that cannot be linked."""
+    """Return the Wrong for a linker error."""
     error = LINKER.search(output)
     if not error:
         return None
@@ -152,7 +152,7 @@ def _of_linker(submission: Submission, output: str) -> Wrong | None:
 
 
 def _target(submission: Submission, output: str) -> tuple[Package | None, str]:
-    """Return (the package, the target) with which make ended."""
+    """Return (the package, the target) at which make failed."""
     target = TARGET.search(output)
     if not target:
         return None, ""
@@ -161,7 +161,7 @@ def _target(submission: Submission, output: str) -> tuple[Package | None, str]:
 
 
 def _other(output: str) -> Wrong:
-    """Return the Wrong for an error of CMake, or in any other line."""
+    """Return the Wrong for a CMake error, or for any other line."""
     lines = [line.strip() for line in output.splitlines()]
     words = next(filter(NOTABLE.search, lines), lines[-1] if lines else "")
     error = CMAKE_ERROR.search(output)
@@ -172,9 +172,9 @@ def _other(output: str) -> Wrong:
 
 
 def _own_line(output: str) -> str:
-    """Return the student's line of an error of CMake, or "".
+    """Return the student's line that a CMake error comes from, or "".
 
-    The error itself is often in a file of catkin's; the call stack names the student's line.
+    The error itself is often in one of catkin's files; the call stack names the student's line.
     """
     error = CMAKE_ERROR.search(output)
     own = re.search(r"(?<!\S)[^/\s]\S*/CMakeLists\.txt:\d+", error[0] if error else "")

@@ -1,4 +1,4 @@
-"""What catkin_make makes of a submission: it has to build."""
+"""Whether a submission builds with catkin_make."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def must_build(submission: Submission) -> Built:
 
 
 def build_output(submission: Submission) -> str:
-    """Return what catkin_make prints of the packages of the exercises, whatever others do."""
+    """Return what catkin_make prints about the exercises' packages, whatever other packages do."""
     made = submission.recording(BUILT)
     if not made.code or len(submission.needed) == len(submission.packages):
         return made.output

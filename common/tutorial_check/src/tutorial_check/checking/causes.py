@@ -1,4 +1,4 @@
-"""What an error most often means, and what to do; which package has what is missing. Pure."""
+"""The usual cause of an error, and its fix; the package that provides what is missing."""
 
 from __future__ import annotations
 
@@ -19,19 +19,19 @@ OTHER_MODULES, OTHER_PACKAGES = TABLES["OTHER_MODULES"], TABLES["OTHER_PACKAGES"
 LACKING = {name for row in TABLES["LACKING"].splitlines() for name in row.partition(":")[0].split()}
 HOMES = dict(row.split(": ") for row in TABLES["HOMES"].splitlines())
 UNDEFINED = r"name '(\w+)' is not defined"
-NO_VECTOR = r"'(?:float|int)' object has no attribute '[xyz]'"  # where one should be
-ROW = re.compile(r"((?:\S.*\n)+)((?: .*\n)+)")  # of causes.txt: patterns, and what is said of each
-# Where a name is another module than was meant.
+NO_VECTOR = r"'(?:float|int)' object has no attribute '[xyz]'"  # where a vector is needed
+ROW = re.compile(r"((?:\S.*\n)+)((?: .*\n)+)")  # of causes.txt: patterns, and their explanation
+# A name refers to another module than the student means.
 NOT_MEANT = re.compile(
     r"module '(\w+)[\w.]*' has no attribute|from (?:partially initialized module )?'(\w+)[\w.]*'"
     r"|'(\w+)' is not a package"
 )
-# Modules that may have been meant by one that is not there.
+# Modules that the student may mean by a missing one.
 COMMON = [*MODULES.split(), *HOMES.values(), "nav_msgs", "rospy", "roslib", "math", "time", "numpy"]
 
 
 def _table() -> dict[str, list[tuple[str, list[str]]]]:
-    """Return {section: [(pattern, what is said)]} of causes.txt."""
+    """Return {section: [(pattern, explanation)]} of causes.txt."""
     text = FILE.read_text(encoding="utf-8").replace("MESSAGE", "|".join(HOMES))
     parts = (part.partition("\n") for part in text.strip().split("\n\n")[1:])
     return {
@@ -48,7 +48,7 @@ TABLE = _table()
 
 
 def explained(section: str, text: str, file: str = "") -> list[str]:
-    """Return what is said of the first pattern of a section that is in a text; empty if none is."""
+    """Return the explanation of a section's first pattern that matches; empty if none does."""
     for pattern, words in TABLE[section]:
         match = re.search(pattern, text)
         if match:
@@ -59,13 +59,13 @@ def explained(section: str, text: str, file: str = "") -> list[str]:
 
 
 def meant(name: str, known: Iterable[str], likeness: float, words: str = "is {} meant?") -> str:
-    """Return words about the one of those known that is most like a name; empty if none is."""
+    """Return words with the known name that is most like this one; empty if none is like it."""
     near = difflib.get_close_matches(name, known, 1, likeness)
     return words.replace("{}", near[0]) if near else ""
 
 
 def explain(error: str, text: str = "", file: str = "FILE", section: str = "python") -> str:
-    """Return what an error most often means, in a line of a file; or "". section: or syntax."""
+    """Return the usual cause of an error in a line of a file, or "". section: python or syntax."""
     both = f"{error}\n{text}"
     hint = "".join(explained("python2", both, file) or explained(section, both))
     missing = re.search(r"No module named '([^'.]+)'", error)
@@ -78,13 +78,13 @@ def explain(error: str, text: str = "", file: str = "FILE", section: str = "pyth
 
 
 def with_import(line: str, message: str, facts: PythonFacts) -> str:
-    """Return what to write, with the import of the message where the program lacks that."""
+    """Return a line to write, and the message's import if the program lacks it."""
     lacks = message not in facts.names
     return f"{line}, and at the top: from {HOMES[message]}.msg import {message}" if lacks else line
 
 
 def traced(error: str, line: int, facts: PythonFacts) -> tuple[int, str]:
-    """Return (line to blame, what to do) as far as the text shows it; line: of the error, or 0."""
+    """Return (line to blame, fix) as far as the text shows them. line: of the error, or 0."""
     for name, (place, value) in facts.attributes.items():
         part = {"linear": "x", "angular": "z"}.get(name.rpartition(".")[2])
         if part and not value.endswith("()") and re.search(NO_VECTOR, error):
@@ -104,7 +104,7 @@ def traced(error: str, line: int, facts: PythonFacts) -> tuple[int, str]:
 
 
 def hider(error: str, script: str, others: Collection[str]) -> tuple[str, str]:
-    """Return (file, what to do) if a file beside the script hides a package; else ("", "")."""
+    """Return (file, fix) if a file beside the script hides a package; else ("", "")."""
     match = NOT_MEANT.search(error)
     name = next(filter(None, match.groups()), "") if match else ""
     beside = f"{script.rpartition('/')[0]}/{name}.py".lstrip("/")
@@ -117,7 +117,7 @@ def hider(error: str, script: str, others: Collection[str]) -> tuple[str, str]:
 
 
 def _in_table(table: str, name: str) -> str:
-    """Return what a table has after the first pattern that fits a name, its {} filled in; or ""."""
+    """Return a table's text for the first pattern that matches a name, with {} filled in; or ""."""
     for row in table.strip().splitlines():
         names, _, words = row.partition(": ")
         if any(fnmatch.fnmatchcase(name, pattern) for pattern in names.split()):
@@ -126,24 +126,24 @@ def _in_table(table: str, name: str) -> str:
 
 
 def package_of_module(module: str) -> str:
-    """Return the Debian package that has a Python module, or ""."""
+    """Return the Debian package that provides a Python module, or ""."""
     top = module.partition(".")[0]
     return _in_table(f"{top}: python3-{{}}" if top in MODULES.split() else OTHER_MODULES, top)
 
 
 def packages_of_ros(name: str) -> str:
-    """Return the Debian packages, with blanks between, that have a ROS package; or ""."""
+    """Return the Debian packages, separated by blanks, that provide a ROS package; or ""."""
     table = f"{name}: lib{{}}-dev" if name in DEV_PACKAGES.split() else OTHER_PACKAGES
     return _in_table(table, name) or package_of_module(name)
 
 
 def is_lacking(name: str) -> bool:
-    """Return whether this is the name of a ROS package that Debian lacks, and not misspelt."""
+    """Return whether a ROS package of this name exists, but not in Debian."""
     return name in LACKING or name in TABLES["REAL"].split()
 
 
 def advice(name: str, packages: str) -> str:
-    """Return what to do about what is not installed, and is in these Debian packages; or ""."""
+    """Return how to get what is not installed, from these Debian packages or otherwise; or ""."""
     other = _in_table(TABLES["LACKING"], name)
     if not other and is_lacking(name):
         other = "its sources, cloned into src, may build"

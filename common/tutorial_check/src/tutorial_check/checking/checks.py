@@ -1,4 +1,4 @@
-"""Checks: how a function becomes one, and the order in which they are made."""
+"""Checks: the decorator that registers them, and the order in which they run."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ from tutorial_check.errors import CannotCheck, CutShort, FileTooLarge, fault
 LINE = re.compile(r":\d+$")  # line number at the end of a place
 Verdict = Union[str, Note, None]
 CheckFunction = Callable[[Submission], Verdict]
-Need = Union[Callable[..., object], str]  # a check, or its id, where another section has it
+Need = Union[Callable[..., object], str]  # a check, or its id if it is in another section
 _Function = TypeVar("_Function", bound=Callable[..., object])
-_checks: list[Check] = []  # all loaded courses
+_checks: list[Check] = []  # of all loaded courses
 
 
 @dataclass(frozen=True)
@@ -38,13 +38,13 @@ class Check:
     title: str
     section: str  # in the course: "handout 4.3"
     function: CheckFunction
-    needs: tuple[str, ...] = ()  # ids of the checks without which this one says nothing
+    needs: tuple[str, ...] = ()  # ids of the checks without which this one is meaningless
     look: str = ""
-    timeless: bool = False  # it reads files alone: no machine is too busy for that
-    eager: bool = False  # its hint is about the set-up, and shown at once
+    timeless: bool = False  # it only reads files, so a busy machine does not matter
+    eager: bool = False  # its hint is about the set-up, and is shown at once
 
     def result(self, status: str, verdict: Wrong | Verdict) -> Result:
-        """Return a Result. verdict: what was seen, or all that is said of it."""
+        """Return a Result. verdict: what was seen, or a Wrong or Note."""
         if not isinstance(verdict, (Wrong, Note)):
             verdict = Note(verdict or "")
         about = self.title, "", verdict.seen, verdict.where, verdict.hint, self.section, self.look
@@ -64,10 +64,10 @@ def check(
     timeless: bool = False,
     eager: bool = False,
 ) -> Callable[[_Function], _Function]:
-    """Make a function of a submission a check: one line of the report.
+    """Register a function of a submission as a check: one line of the report.
 
-    title: by default the first line of its docstring. needs: the checks without which it says
-    nothing, as functions, or as ids ("C2 C12") where another section has them. See Check.
+    title: by default the first line of its docstring. needs: the checks that must hold first, as
+    functions, or as ids ("C2 C12") if they are in another section. See Check.
     """
     ids = _ids_of(check_id, needs if isinstance(needs, tuple) else (needs,))
 
@@ -90,7 +90,7 @@ def _title_of(function: Callable[..., object]) -> str:
 
 
 def _ids_of(check_id: str, needs: Iterable[Need]) -> tuple[str, ...]:
-    """Return the ids of checks. Raises ValueError if a function is no check."""
+    """Return the ids of checks. Raises ValueError for a function that is no check."""
     ids = {check.function: check.id for check in _checks}
     names: list[str] = []
     for need in needs:
@@ -128,22 +128,22 @@ def checks_of(course: Course) -> list[Check]:
 
 
 def _registered(names: set[str]) -> list[Check]:
-    """Return the checks of these modules. One that was loaded again has replaced the earlier."""
+    """Return the checks of these modules. A check that is loaded again replaces the earlier one."""
     newest = {(check.function.__module__, check.function.__qualname__): check for check in _checks}
     return [check for (module, _), check in newest.items() if module in names]
 
 
 class CheckRunner:
-    """Makes checks, each at most once, and none that needs one which does not hold."""
+    """Runs each check at most once, and only if the checks that it needs hold."""
 
     def __init__(self, checks: Iterable[Check], submission: Submission) -> None:
-        """Take checks, in order, and the submission that their functions take."""
+        """Take the checks, in order, and the submission for their functions."""
         self._checks = {check.id: check for check in checks}
         self._submission = submission
         self._done: dict[str, Result] = {}
-        self._blamed: dict[str, list[Result]] = {}  # for each check that is wrong or unreached
+        self._blamed: dict[str, list[Result]] = {}  # by check
         self._reported: set[str] = set()
-        self._troubles: dict[str, str] = {}  # id of a check that could not be made: why
+        self._troubles: dict[str, str] = {}  # {check that could not run: why}
 
     def result(self, check_id: str) -> Result:
         if check_id not in self._done:
@@ -151,9 +151,9 @@ class CheckRunner:
         return self._done[check_id]
 
     def exercise(self, exercise: str, only_first: bool = False) -> Iterator[Result]:
-        """Yield the results of an exercise as they come; only_first: up to the first wrong one.
+        """Yield the results of an exercise as they come. only_first: up to the first wrong one.
 
-        What is wrong in an earlier exercise and keeps this one from being checked comes first.
+        A mistake in an earlier exercise that blocks this one comes first.
         """
         is_wrong = False
         for check in self._of(exercise):
@@ -168,7 +168,7 @@ class CheckRunner:
                 return
 
     def trouble(self, exercise: str) -> str:
-        """Return why a check of the exercise could not be made, though nothing is wrong with it."""
+        """Return why a check of the exercise could not run, through no fault of the student's."""
         troubles = (self._troubles.get(check.id, "") for check in self._of(exercise))
         return next(filter(None, troubles), "")
 
@@ -176,7 +176,7 @@ class CheckRunner:
         return [check for check in self._checks.values() if check.exercise == exercise]
 
     def _culprits(self, check: Check) -> list[Result]:
-        """Return what keeps a check from being made, after the checks that it needs."""
+        """Return the wrong results that block a check; this runs the checks that it needs."""
         lost = (name for name in check.needs if self.result(name).status in (WRONG, UNREACHED))
         return [culprit for name in lost for culprit in self._blamed[name]]
 
@@ -187,10 +187,10 @@ class CheckRunner:
                 verdict = self._final_verdict(check)
                 return check.result(NOTE if isinstance(verdict, Note) else OK, verdict)
         except Wrong as wrong:
-            # One cause is reported once, at the first check that it keeps from holding.
+            # One cause is reported once, at the first check that it makes fail.
             culprits = self._same_cause(wrong)
             result = check.result(WRONG, wrong)
-        except Exception as error:  # also a bug of ours: the other checks are made all the same
+        except Exception as error:  # also a bug of ours: the other checks still run
             self._troubles[check.id] = f"{check.id}: {fault(error)}"
             result = check.result(UNREACHED, f"could not be checked: {fault(error)}")
         if culprits:
@@ -202,13 +202,13 @@ class CheckRunner:
         return result
 
     def _same_cause(self, wrong: Wrong) -> list[Result]:
-        """Return wrong results of the same cause. "No such file" alone may be about two files."""
+        """Return wrong results with the same cause. "No such file" alone may concern two files."""
         about, is_line = (WRONG, wrong.seen, wrong.where), LINE.search(wrong.where)
         same = [r for r in self._done.values() if (r.status, r.seen, r.where) == about]
         return [result for result in same if is_line or result.expected == wrong.expected]
 
     def _final_verdict(self, check: Check) -> Verdict:
-        """Make a check; once more, with new recordings, where that is worth it."""
+        """Run a check; if that may help, run it again with new recordings."""
         try:
             return self._verdict(check)
         except CannotCheck:
@@ -226,10 +226,10 @@ class CheckRunner:
             raise CannotCheck(f"{check.id}: {why}") from None
 
     def _is_worth_a_retry(self, check: Check, wrong: Wrong) -> bool:
-        """Return whether programs may do something else next time.
+        """Return whether programs may behave differently next time.
 
-        They may on a busy machine, or if no line explains what is wrong: nodes of a launch file
-        meet in any order, and rospy may never end that Ctrl-C meets in the middle of a publish.
+        They may on a busy machine, or if no line explains the mistake: the nodes of a launch file
+        connect in any order, and a Ctrl-C in the middle of a publish may leave rospy hanging.
         """
         if wrong.sure or check.timeless or self._same_cause(wrong):
             return False

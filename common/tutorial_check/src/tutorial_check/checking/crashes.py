@@ -1,4 +1,4 @@
-"""Why a program of the student's has failed, or has ended."""
+"""Why a student's program has failed or ended."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ COPY = re.compile(r"checked_\d+_")  # a program with one thing changed; see Buil
 
 
 def traceback_of(submission: Submission, package: str, output: str) -> Traceback | None:
-    """Return the first Traceback that a program of a package printed, or None."""
+    """Return the first Traceback in the output of a package's program, or None."""
     return first_traceback(output, str(submission.package(package).folder))
 
 
 def cause_of(
     submission: Submission, package: str, trace: Traceback, name: str = ""
 ) -> tuple[str, str]:
-    """Return (the line to blame, what to do) for a Traceback of a program, maybe of that name."""
+    """Return (the line to blame, fix) for a program's Traceback. name: the program's, if known."""
     name, paths = COPY.sub("", name), submission.scripts(package)
     script = next((path for path in paths if Path(path).name == name), "")
     script = COPY.sub("", trace.where.rpartition(":")[0] or script)  # with the same lines
@@ -50,7 +50,7 @@ def cause_of(
 def crash(
     submission: Submission, package: str, program: Ran, expected: str, hint: str = ""
 ) -> Wrong:
-    """Return the Wrong for a program that ended or failed, with the cause that its output shows."""
+    """Return the Wrong for a program that ended or failed, with the cause from its output."""
     trace = traceback_of(submission, package, program.output)
     if trace and not (program.was_stopped and trace.error.startswith("KeyboardInterrupt")):
         seen = trace.error + (f"   in: {trace.text}" if trace.text else "")
@@ -69,7 +69,7 @@ def crash(
 
 
 def silent_end(facts: PythonFacts) -> tuple[int, str]:
-    """Return (line or 0, hint) for a program that ends at once, as far as its text shows."""
+    """Return (line or 0, hint) for a program that ends at once, as far as its text shows why."""
     if facts.keyboard:
         return facts.keyboard, explain("EOF when reading a line")
     for line, text in facts.bare_names:

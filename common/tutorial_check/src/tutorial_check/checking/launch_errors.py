@@ -1,4 +1,4 @@
-"""A launch file that roslaunch cannot read: from what it says and the text to a line and a hint."""
+"""Launch files that roslaunch cannot read: the line to blame, and a hint."""
 
 from __future__ import annotations
 
@@ -23,19 +23,19 @@ from tutorial_check.submission.launch_xml import (
 CURLY = re.compile("[“”‘’]")
 VALUE = re.compile(r"=\s*(\"[^\"]*\"|'[^']*')")
 QUOTES = 'each value stands between two quotes: name="value"'
-# Those that a launch file of the exercises may name.
+# Packages that a launch file of the exercises may name.
 PACKAGES = (
     "rbx1_nav rbx1_bringup turtlebot_rviz_launchers turtlebot_bringup fake_turtlebot_sim joy2twist"
     " gamepad joy rosbag rviz"
 )
 EXPECTED = "a launch file that roslaunch can read"
-# Kinds and words of errors, as roslaunch has them.
+# roslaunch's error classes and messages.
 UNSET, UNUSED = "ArgException", r"unused args \[(\w+).*\] for include of \[(.*)\]"
 NO_FILE = r"No such file or directory: '([^']+)'|file does not exist \[([^\]]*)\]"
 
 
 def not_xml(error: str, text: str) -> tuple[int | None, str]:
-    """(line or None, hint) for what expat says of a launch file. text: with its comments."""
+    """Return (line or None, hint) for expat's error in a launch file. text: with its comments."""
     curly = CURLY.search(without_comments(text))
     if curly:
         return line_of(text, curly.start()), 'curly quotes came from the PDF: type " instead'
@@ -52,7 +52,7 @@ def not_xml(error: str, text: str) -> tuple[int | None, str]:
 
 
 def _not_well_formed(text: str, line: int, index: int) -> tuple[int, str]:
-    """Return the same for a file in which expat came as far as text[index], in that line."""
+    """Return the same for an error of expat's at text[index], in that line."""
     ends = -len(COMMENT_END) + 1  # with the first hyphen of its end, as in "--->"
     inner = ((start, text.find("--", start + 4, end + ends)) for start, end in comments(text))
     if line in {line_of(text, index) for _, index in inner if index >= 0}:
@@ -61,7 +61,7 @@ def _not_well_formed(text: str, line: int, index: int) -> tuple[int, str]:
         return line, "each <!-- needs its -->"
     if text[index : index + 1] == "\xa0":
         return line, "a gap that came from the PDF is no space: delete it, and type one instead"
-    # A value without its second quote goes on to the next tag: so, the one before it first.
+    # A value without its closing quote extends to the next tag, so look at the tag before it first.
     for start in (text.rfind("<", 0, index), text.rfind("<", 0, index + 1)):
         tag = re.split("[<>]", text[start + 1 :])[0] if start >= 0 else ""
         if re.search(r"[\"'=]", VALUE.sub("", tag)):
@@ -81,7 +81,7 @@ def _not_closed(text: str) -> tuple[int | None, str]:
         line = error.lineno
         closing = re.split(r"[^\w-]", text.split("\n")[line - 1][error.offset :])[0]
     else:
-        return None, "each <tag> needs its </tag> or />"  # it was saved in between
+        return None, "each <tag> needs its </tag> or />"  # the file was saved in between
     if not stack:
         return None, "it begins with <launch> and ends with </launch>"
     tag, opened = stack[-1]
@@ -91,7 +91,7 @@ def _not_closed(text: str) -> tuple[int | None, str]:
 
 
 def package_hint(name: str) -> str:
-    """Return what to do about a ROS package that is not there."""
+    """Return what to do about a missing ROS package."""
     words = f"there is no package {name}; is {{}} meant?"
     hint = "" if is_lacking(name) else meant(name, PACKAGES.split(), 0.8, words)
     spelling = f"there is no package {name}: look at the spelling in $(find {name}) or pkg="
@@ -99,9 +99,9 @@ def package_hint(name: str) -> str:
 
 
 def blamed_place(fault: Fault, is_own: Callable[[str], bool]) -> tuple[str, int]:
-    """Return (file, line) of the innermost tag in a file of the student's.
+    """Return (file, line) of the innermost tag in a student's file.
 
-    An arg without a value is the fault of the <include>, where the included file declares it.
+    If the included file declares an arg that has no value, the <include> is to blame.
     """
     own = [place for place in fault.places if is_own(place[0])]
     if fault.kind == UNSET:
@@ -181,7 +181,7 @@ def unknown_arg(file: Unread) -> Wrong | None:
 def launch_error(
     fault: Fault, where: str, line: int, text: str, may_see: Callable[[Path], bool]
 ) -> Wrong:
-    """Return the Wrong for a file that roslaunch cannot read. text: with comments."""
+    """Return the Wrong for a file that roslaunch cannot read. text: with its comments."""
     file = Unread(fault, where, line, text, may_see)
     wrong = first_of((no_xml, open_substitution, lost_package, lost_include, unknown_arg), file)
     if wrong:

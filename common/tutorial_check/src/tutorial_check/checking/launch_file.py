@@ -1,4 +1,4 @@
-"""A launch file of the student's, and what roslaunch would start."""
+"""A student's launch file, and what roslaunch would start."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class LaunchFile(File):
     def __init__(
         self, submission: Submission, package: str, path: Path, others: Iterable[Path] = ()
     ) -> None:
-        """Read it with others, which will be asked for, too. Raises Wrong."""
+        """Read it, together with others that later checks need. Raises Wrong."""
         folder, source = submission.package(package).folder, submission.source
         super().__init__(submission, package, os.path.relpath(path, folder))
         self.path, self.text = os.path.relpath(path, source), read_xml(path)
@@ -37,11 +37,11 @@ class LaunchFile(File):
             raise Wrong(expected, "reading them does not end", hint=hint)
         names = [Path(facts["path"]).name for facts in files]
         self.facts: dict[str, Any] = files[names.index(path.name)]
-        # That it starts, with package, type, name, namespace, args, remaps, ...
+        # The nodes that it starts: package, type, name, namespace, args, remaps, ...
         self.nodes: list[LaunchNode] = self.facts["nodes"]
 
     def must_be_read(self) -> None:
-        """Raise Wrong for what roslaunch cannot read, in this file or in an included one."""
+        """Raise Wrong if roslaunch cannot read this file or one that it includes."""
         if not self.facts["fault"]:
             return
         fault, submission = Fault(**self.facts["fault"]), self.submission
@@ -58,7 +58,7 @@ class LaunchFile(File):
         raise wrong
 
     def inside(self, path: Path) -> str:
-        """Return the path of a file within the student's package, or else within src."""
+        """Return a file's path relative to the student's package, or else to src."""
         inside = os.path.relpath(path, self.submission.package(self.package).folder)
         return os.path.relpath(path, self.submission.source) if inside[:2] == ".." else inside
 
@@ -70,7 +70,7 @@ class LaunchFile(File):
         return place_of(self.inside(path), read_xml(path), *words)
 
     def missing(self, node: LaunchNode) -> Wrong:
-        """Return the Wrong for a node whose program, or package, does not exist."""
+        """Return the Wrong for a node whose program or package does not exist."""
         hint = "look at pkg= and type=: rosrun PACKAGE and Tab twice lists its programs"
         hint = package_hint(node["package"]) if node["found"] is None else hint
         seen = f"Cannot locate node of type [{node['type']}] in package [{node['package']}]"
@@ -78,7 +78,7 @@ class LaunchFile(File):
 
 
 def find_launch(submission: Submission, package: str, name: str, hint: str = "") -> Path:
-    """Return the path of a launch file. Raises Wrong; hint: what to do if there is none."""
+    """Return the path of a launch file. Raises Wrong. hint: what to do if it is missing."""
     folder, own = package_of(submission, package).folder, submission.task.name_of(package)
     paths = sorted(path for path in folder.rglob(name) if path.is_file())
     if len(paths) > 1:

@@ -1,4 +1,4 @@
-"""Every package.xml of the workspace: a fault in one stops the other packages, too."""
+"""Errors in any package.xml of the workspace, which stop the other packages, too."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from tutorial_check.submission.student_files import TOO_LARGE
 
 
 def unreadable(package: Package) -> Wrong:
-    """Return the Wrong for a package.xml that is no XML, or not what catkin makes of it."""
+    """Return the Wrong for a package.xml that is no XML, or that catkin refuses."""
     where = f"{package.inside}/package.xml"
     if package.error == TOO_LARGE:
         hint = "take the one of a new package of catkin_create_pkg, which has some sixty lines"

@@ -1,4 +1,4 @@
-"""Files of the student's, whose lines a diagnosis names."""
+"""Files of the student's packages, whose lines a diagnosis names."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ class File(Lines):
     """A file of a package."""
 
     def __init__(self, submission: Submission, package: str, path: str) -> None:
-        """Read it. path: within the package. Raises Wrong if there is none."""
+        """Read it. path: within the package. Raises Wrong if it is missing."""
         if not (package_of(submission, package).folder / path).is_file():
             seen, hint = "no such file in the package", f"write it: {path}"
             raise Wrong(f"{package}/{path}", seen, hint=hint)
@@ -30,35 +30,35 @@ class File(Lines):
         return crash(self.submission, self.package, ran, expected, hint)
 
     def must_run(self, ran: Ran, expected: str, hint: str = "", may_end: bool = False) -> None:
-        """Raise Wrong if this program printed a traceback, or has ended, unless it may."""
+        """Raise Wrong if this program printed a traceback, or ended although it may not."""
         if "Traceback" in ran.output or (ran.ended and not may_end):
             raise self.crash(ran, expected, hint or "rospy.spin() keeps it running")
 
 
 class Script(File):
-    """A program of a package: its text as Python reads it, and the lines of its calls."""
+    """A program of a package, with the facts that its Python text shows."""
 
     def __init__(self, submission: Submission, package: str, path: str) -> None:
-        """Read it. path: within the package. Raises Wrong if there is none."""
+        """Read it. path: within the package. Raises Wrong if it is missing."""
         super().__init__(submission, package, path)
         self.name, scripts = Path(path).name, submission.scripts(package)
         self.is_python = path in scripts
         self.facts = scripts[path] if self.is_python else PythonFacts("")
 
     def at_line(self, line: int = 0) -> str:
-        """Return FILE:LINE, or for line 0 the file."""
+        """Return FILE:LINE; for line 0 only the file."""
         return f"{self.where}:{line}" if line else self.where
 
     def at_call(self, name: str) -> str:
-        """Return FILE:LINE of the first call of a function of that name, or else the file."""
+        """Return FILE:LINE of the first call of a function, or else the file."""
         return self.at_line(*self.facts.lines(name)[:1])
 
     def end(self, ran: Ran, expected: str, hint: str = "") -> Wrong:
-        """Return the Wrong for a program that ended, from its text if its output shows nothing."""
+        """Return the Wrong for a program that ended; its text explains what its output does not."""
         return self.with_end(self.crash(ran, expected, hint))
 
     def with_end(self, wrong: Wrong) -> Wrong:
-        """Return the Wrong of a program that ended, with what its text shows if it has no place."""
+        """Return the Wrong for a program that ended, with what its text shows if it has no line."""
         if not wrong.where:
             subscriber = self.facts.first("Subscriber")
             topic = f"; it subscribes to {', '.join(subscriber.words[:2])}" if subscriber else ""
@@ -68,7 +68,7 @@ class Script(File):
         return wrong
 
     def check_end(self, taken_s: float | None, output: str) -> Note | None:
-        """Return a Note on its end after Ctrl-C, or None. Raises Wrong; taken_s: None if killed."""
+        """Return a Note on how Ctrl-C ended it, or None. Raises Wrong. taken_s: None if killed."""
         if taken_s is None:
             endless = self.facts.loops if "is_shutdown" not in self.facts.calls else []
             expected, where = f"{self.name} ends within 3 s of Ctrl-C", self.at_line(*endless[:1])
@@ -84,7 +84,7 @@ class Script(File):
         return None
 
     def unusual_node_name(self) -> Note | None:
-        """Return a Note on the name of its node, if ROS warns of that."""
+        """Return a Note on its node's name, if ROS warns about that."""
         if not self.facts.unusual_node_name:
             return None
         line, name = self.facts.unusual_node_name

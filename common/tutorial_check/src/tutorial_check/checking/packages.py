@@ -18,7 +18,7 @@ def package_of(submission: Submission, name: str) -> Package:
 
 
 def must_be_launchable(submission: Submission) -> None:
-    """Raise Wrong for a package.xml that keeps roslaunch from starting anything; it asks catkin."""
+    """Raise Wrong for a package.xml that catkin refuses: roslaunch then starts nothing."""
     if submission.broken:
         raise unreadable(submission.broken)
     for package in submission.packages:

@@ -1,4 +1,4 @@
-"""Programs of the student's, C5 and C13: the one that a check is about, and what is recorded."""
+"""The student's program that a check is about, and its recording."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def find_script(submission: Submission, package: str, name: str) -> str:
     folder = submission.package(package).folder
     files = sorted(path for path in folder.rglob("*") if path.is_file())
     paths = must_be_one_program(folder, name)
-    # One without .py counts where there is none with it.
+    # A name without .py counts if no file has one with it.
     paths += [path for word in (name, name[:-3]) for path in files if path.name == word]
     if paths:
         return str(paths[0].relative_to(folder))
@@ -37,10 +37,10 @@ def find_script(submission: Submission, package: str, name: str) -> str:
 
 
 def _must_have_its_name(submission: Submission, package: str, name: str, files: list[Path]) -> None:
-    """Raise Wrong for a file whose name is like that of a program."""
+    """Raise Wrong for a file whose name is similar to the program's."""
     others = {path.name: path for path in files if path.name != "CMakeLists.txt"}
     near = [other for other in others if other.lower().startswith(name)]
-    # new_joy2twist.py is another program, and no misspelt joy2twist.py.
+    # new_joy2twist.py is another program, not a misspelt joy2twist.py.
     texts = [other for other in others if Path(other).suffix.lower() in ("", ".py", ".txt")]
     words = [other for other in texts if name not in other]
     for similar in [*near, *difflib.get_close_matches(name, words, 1, 0.75)]:
@@ -52,7 +52,7 @@ def _must_have_its_name(submission: Submission, package: str, name: str, files: 
 
 
 def program_of(submission: Submission, package: str, name: str) -> str:
-    """Return the path of a program that can be run, within its package. Raises Wrong."""
+    """Return the path, within its package, of a program that can be run. Raises Wrong."""
     package_of(submission, package)
     script = find_script(submission, package, name)
     check_file(submission, package, script)
@@ -60,7 +60,7 @@ def program_of(submission: Submission, package: str, name: str) -> str:
 
 
 def must_be_one_program(folder: Path, name: str) -> list[Path]:
-    """Return the programs of that name that rosrun finds: one, or none. Raises Wrong."""
+    """Return the programs of that name that rosrun finds. Raises Wrong for more than one."""
     files = sorted(path for path in folder.rglob(name) if path.is_file())
     runnable = [path for path in files if path.stat().st_mode & 0o100]
     if len(runnable) > 1:
@@ -78,6 +78,6 @@ def recorded(
     recorder: Callable[..., Recording],
     *about: object,
 ) -> tuple[Script, Recording]:
-    """Return a program, and what recorder(workspace, path, ...) recorded of it. Raises Wrong."""
+    """Return a program, and what recorder(workspace, path, ...) returns for it. Raises Wrong."""
     script = Script(submission, package, program_of(submission, package, name))
     return script, submission.recording(recorder, script.where, *about)

@@ -1,4 +1,4 @@
-"""What a check can come to, and what comes of an exercise."""
+"""Verdicts of checks, and results of exercises."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _Finding = TypeVar("_Finding")
 
 @dataclass(frozen=True)
 class Result:
-    """What one check came to, in the student's words."""
+    """The result of one check, in words for the student."""
 
     id: str
     status: str
@@ -34,36 +34,36 @@ class Result:
     hint: str = ""
     section: str = ""
     look: str = ""  # a command that shows it
-    empty: bool = False  # a note that there was nothing to be checked
-    eager: bool = False  # its hint is no answer, and shown at once
+    empty: bool = False  # a note that there was nothing to check
+    eager: bool = False  # its hint gives no answer away, so it is shown at once
 
 
 @dataclass(frozen=True)
 class Note:
-    """A check that holds, with something worth saying."""
+    """A check that holds, with a remark."""
 
     seen: str
     where: str = ""
     hint: str = ""
-    empty: bool = False  # there was nothing to be checked
+    empty: bool = False  # there was nothing to check
 
 
 @dataclass(eq=False)
 class Wrong(CheckerError):
-    """A check that does not hold. Raised by checks, which so end at the first thing wrong."""
+    """A check that does not hold. Checks raise it at the first mistake."""
 
     expected: str
     seen: str
     where: str = ""
     hint: str = ""
-    sure: bool = False  # whatever else the machine had to do, it is no matter of time
-    look: str = ""  # a command that shows it, if not that of the check
+    sure: bool = False  # it does not depend on time, so a busy machine does not explain it
+    look: str = ""  # a command that shows it, if not the check's own
 
 
 def first_of(
     diagnoses: Iterable[Callable[[_Facts], _Finding | None]], facts: _Facts
 ) -> _Finding | None:
-    """Return what the first diagnosis that applies to the facts says: a Wrong or Note, or None."""
+    """Return the verdict of the first diagnosis that applies to the facts, or None."""
     verdicts = (diagnosis(facts) for diagnosis in diagnoses)
     return next((verdict for verdict in verdicts if verdict is not None), None)
 
@@ -73,7 +73,7 @@ def must_pass(
 ) -> Note | None:
     """Return the Note of the first diagnosis that applies, or None. Raises its Wrong.
 
-    expected: what a Wrong expects that does not say so itself.
+    expected: for a Wrong that has none.
     """
     for diagnosis in diagnoses:
         verdict = diagnosis(facts)
@@ -85,7 +85,7 @@ def must_pass(
     return None
 
 
-# {kind of a CutShort: what is expected, what was seen, what to do}; all but CANNOT_START are sure.
+# {kind of a CutShort: expected, seen, hint}; all but CANNOT_START are sure.
 CUT_SHORT = {
     MASTER_GONE: ("the ROS master is left alone",
         "it no longer answers: a program of yours has ended it",
@@ -100,7 +100,7 @@ CUT_SHORT = {
 
 
 def wrong_of(end: CutShort | FileTooLarge, where: str = "") -> Wrong:
-    """Return the Wrong for what ended a recording, or for a file that nobody has written."""
+    """Return the Wrong for what ended a recording, or for a file that is too large."""
     if isinstance(end, FileTooLarge):
         expected, hint = "a file of a few kB", "nobody writes so much by hand: what made it?"
         return Wrong(expected, f"{end} is {TOO_LARGE}", str(end), hint, sure=True)
@@ -111,23 +111,23 @@ def wrong_of(end: CutShort | FileTooLarge, where: str = "") -> Wrong:
 
 @dataclass
 class Outcome:
-    """What came of one exercise."""
+    """The results of one exercise."""
 
     id: str
     results: list[Result] = field(default_factory=list)
     seconds: float = 0.0
     done: bool = False
-    trouble: str = ""  # why a check could not be made, through no fault of the student's
+    trouble: str = ""  # why a check could not run, through no fault of the student's
     title: str = ""
-    points: float = 0.0  # for all of it; 0: one a check
-    place: str = ""  # the workspace within what was handed in, if another folder
-    remark: str = ""  # how well a program of someone else's was isolated, if not by bubblewrap
-    # What was asked for these results and not before, with the answers of the worker, which see.
+    points: float = 0.0  # for the whole exercise; 0: one per check
+    place: str = ""  # the workspace within what was handed in, if that is another folder
+    remark: str = ""  # how programs were isolated, if not by bubblewrap
+    # The questions asked for these results, and not for earlier ones, with the worker's replies.
     recordings: list[dict[str, object]] = field(default_factory=list)
 
     @property
     def passed(self) -> bool:
-        """Whether nothing is wrong, and everything reached."""
+        """Whether nothing is wrong, and every check was reached."""
         return self.done and all(result.status in (OK, NOTE) for result in self.results)
 
     @property

@@ -1,4 +1,4 @@
-"""Why rosrun does not start a program, or Python does not read it."""
+"""Why rosrun cannot start a program, or Python cannot read it."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ PYTHON3 = "#!/usr/bin/env python3"
 
 
 class ScriptFile(Script):
-    """A program as the bytes of its file."""
+    """A program, with the bytes of its file."""
 
     def __init__(self, submission: Submission, package: str, path: str) -> None:
         super().__init__(submission, package, path)
@@ -33,7 +33,7 @@ class ScriptFile(Script):
 
 
 def check_file(submission: Submission, package: str, script: str) -> None:
-    """Raise Wrong for a program that rosrun does not start, or Python does not read."""
+    """Raise Wrong for a program that rosrun cannot start, or Python cannot read."""
     file = ScriptFile(submission, package, script)
     wrong = first_of(FAULTS, file)
     if wrong:
@@ -62,7 +62,7 @@ def web_page(file: ScriptFile) -> Wrong | None:
 
 
 def windows_line_ends(file: ScriptFile) -> Wrong | None:
-    if not file.first.endswith(b"\r"):  # further down they do no harm
+    if not file.first.endswith(b"\r"):  # harmless further down
         return None
     seen = "the file has Windows line ends (python3\\r: No such file)"
     hint, look = f"sed -i 's/\\r$//' {file.whole}", f"head -1 {file.whole} | cat -A"
@@ -116,7 +116,7 @@ def python2(file: ScriptFile) -> Wrong | None:
 
 
 def not_executable(file: ScriptFile) -> Wrong | None:
-    may_be_run = file.path.stat().st_mode & 0o100  # or catkin makes it so, in devel
+    may_be_run = file.path.stat().st_mode & 0o100  # or catkin makes a copy executable, in devel
     if may_be_run or file.submission.recording(INSTALLED, file.package, file.where).installed:
         return None
     seen = f"{file.name} is not executable (rosrun: Couldn't find executable)"
@@ -125,7 +125,7 @@ def not_executable(file: ScriptFile) -> Wrong | None:
 
 
 def odd_main(file: ScriptFile) -> Wrong | None:
-    """Find underscores that the PDF shows as gaps and that Python reads all the same."""
+    """Find a __main__ test without its underscores, which the PDF shows as gaps."""
     line, seen = file.facts.odd_main or (0, "")
     if not line:
         return None

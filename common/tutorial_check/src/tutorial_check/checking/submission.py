@@ -1,4 +1,4 @@
-"""A submission under examination: its files, and what its programs were recorded to do."""
+"""A submission that is examined: its files, and recordings of its programs."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from tutorial_check.submission.submission_files import SubmissionFiles
 
 
 class Submission(SubmissionFiles):
-    """What the files of a workspace say, as they were handed in, and what the worker records."""
+    """The files of a workspace as they were handed in, and what the worker records."""
 
     def __init__(self, order: Order, task: Task, ask: Ask) -> None:
         super().__init__(order, task)
@@ -30,8 +30,8 @@ class Submission(SubmissionFiles):
         visible = [self.source, *order.readable, *map(Path, SYSTEM)]
         self._visible = [Path(os.path.realpath(path)) for path in visible]
         self._ask = ask
-        self._runs: dict[object, Any] = {}  # what was recorded, or the Wrong in its place
-        self.exchanges: list[dict[str, object]] = []  # as JSON, questions with their replies
+        self._runs: dict[object, Any] = {}  # what was recorded, or the Wrong instead
+        self.exchanges: list[dict[str, object]] = []  # questions with their replies, as JSON
         self._last = Reply()
 
     def recording(
@@ -61,22 +61,22 @@ class Submission(SubmissionFiles):
         return from_json(named.kind, reply.recording)
 
     def busy(self) -> bool:
-        """Return whether the machine was busy as something was recorded last."""
+        """Return whether the machine was busy during the last recording."""
         return self._last.busy
 
     def overloaded(self) -> bool:
-        """Return whether the machine was too busy for what was recorded last to mean anything."""
+        """Return whether the machine was too busy for the last recording to mean anything."""
         return self._last.overloaded
 
     def forget_recordings(self) -> None:
-        """Forget what programs did: it is recorded again."""
+        """Forget the recordings, so that they are made again."""
         self._runs.clear()
 
     def as_sent(self, result: Result) -> Result:
-        """Return a result with the student's own paths, in words that a terminal may show."""
+        """Return a result with the student's own paths, in characters that a terminal may show."""
         layout = self.layout
         copied = f"{self.source.parent}/" if layout.is_workspace else f"{self.source}/"
-        # Commands work in any folder, where the workspace is known.
+        # If the workspace is known, commands work in any folder.
         is_known = self.order.is_callers_own and self.folder not in layout.root.parents
         root = f"{shlex.quote(str(layout.root))}/" if is_known else ""
         roots = {"hint": root, "look": root}

@@ -1,4 +1,4 @@
-"""Texts of the student's: read, and the line that a diagnosis names."""
+"""The student's text files, and the lines that a diagnosis names."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from tutorial_check.submission.launch_xml import place_of, without_comments
 
 
 def text_of_file(path: Path) -> str:
-    """Return what a text file holds. Raises Wrong for one that is too large."""
+    """Return the content of a text file. Raises Wrong if it is too large."""
     try:
         return student_files.text_of_file(path)
     except FileTooLarge as error:
@@ -19,23 +19,23 @@ def text_of_file(path: Path) -> str:
 
 
 def read_xml(path: Path) -> str:
-    """Return the text of a launch file, or manifest, without its comments. Raises Wrong."""
+    """Return a launch file or manifest without its comments. Raises Wrong."""
     return without_comments(text_of_file(path))
 
 
 class Lines:
-    """A text, and where it is within its package."""
+    """A text, and its path within the package."""
 
     where: str
     text: str
 
     def at(self, *words: str) -> str:
-        """Return FILE:LINE of the first of the words that is there; else the file."""
+        """Return FILE:LINE of the first of the words that the text has; else the file."""
         return place_of(self.where, self.text, *words)
 
     def must(
         self, is_right: object, words: str, expected: str, seen: object, hint: str = ""
     ) -> None:
-        """Raise Wrong, at the first of the words that is there, unless it is right."""
+        """Raise Wrong, at the first of the words that the text has, unless it is right."""
         if not is_right:
             raise Wrong(expected, str(seen), self.at(*words.split()), hint)

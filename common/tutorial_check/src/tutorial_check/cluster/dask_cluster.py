@@ -1,7 +1,7 @@
-"""--cluster: checks on the workers of a Dask scheduler, each a ./tutorial worker on its machine.
+"""--cluster: check on the workers of a Dask scheduler, each a ./tutorial worker on its machine.
 
-What a student handed in is sent as an archive; a worker needs the same version of this suite, and
-no shared folder. Dask does the rest: distribution, TLS, and another try if a worker exits.
+A submission is sent as an archive. A worker needs the same version of this suite, but no shared
+folder. Dask does the rest: distribution, TLS, and another try if a worker exits.
 """
 
 from __future__ import annotations
@@ -31,21 +31,21 @@ from tutorial_check.submission.handed_in import MOST_BYTES
 from tutorial_check.submission.order import Order
 from tutorial_check.submission.packages import IGNORED
 
-MOST_AT_ONCE = 1000  # submissions that the scheduler knows of
-TRIES = 2  # a submission that ends so many workers is abandoned
+MOST_AT_ONCE = 1000  # submissions that the scheduler holds
+TRIES = 2  # a submission that ends this many workers is abandoned
 PORT = 8786  # Dask scheduler
 CONNECT_S = 10.0
-# Who has this file is let in: certificate, authority and private key of all.
+# Whoever has this file may connect: it is the certificate, authority and private key of all.
 CONFIG = os.environ.get("XDG_CONFIG_HOME") or "~/.config"
 KEY = Path(CONFIG, "ros1_tutorial/cluster.pem").expanduser()
 OPENSSL = """openssl req -x509 -newkey rsa:3072 -nodes -days 3650 -subj /CN=ros1_tutorial
 -addext keyUsage=critical,keyCertSign,digitalSignature,keyEncipherment"""
-# Even without a dashboard Dask listens for those who ask for pages about it: for nobody, with none.
+# Even without a dashboard Dask serves pages about itself, unless it has no routes.
 NO_PAGES = {
     f"DASK_DISTRIBUTED__{program}__HTTP__ROUTES": "[]" for program in ("SCHEDULER", "WORKER")
 }
 LOCAL = ("--no-dashboard", "--dashboard-address", "127.0.0.1:0")
-INSISTS = "TUTORIAL_NOT_ISOLATED"  # variable of a worker of --not-isolated
+INSISTS = "TUTORIAL_NOT_ISOLATED"  # environment variable of a worker with --not-isolated
 
 
 def _dask() -> Any:
@@ -56,7 +56,7 @@ def _dask() -> Any:
 
 
 def _key_of(address: str) -> str:
-    """Return the key's file, readable by this user alone; empty without TLS. Raises CannotCheck."""
+    """Return the key file, made readable by this user only; "" without TLS. Raises CannotCheck."""
     if not address.startswith("tls://"):
         return ""
     try:
@@ -68,7 +68,7 @@ def _key_of(address: str) -> str:
 
 
 def _connect(address: str) -> str:
-    """Return our address on the way to a scheduler. Raises CannotCheck if nothing listens there."""
+    """Return our address towards a scheduler. Raises CannotCheck if nothing listens there."""
     try:
         place = urlsplit(address if "//" in address else f"//{address}")
         there = place.hostname or "", place.port or PORT
@@ -80,7 +80,7 @@ def _connect(address: str) -> str:
 
 
 class Cluster:
-    """A connection to a scheduler. Its methods may be called by many threads at once."""
+    """A connection to a scheduler, which many threads may use at once."""
 
     def __init__(self, address: str) -> None:
         """Connect. Raises CannotCheck."""
@@ -89,13 +89,13 @@ class Cluster:
         names = [f"tls_{name}" for name in ("ca_file", "client_cert", "client_key") if key]
         keys = self._dask.Security(**dict.fromkeys(names, key), require_encryption=bool(key))
         _connect(address)
-        logging.disable(logging.CRITICAL)  # a lost connection is one line of ours, not Dask's many
+        logging.disable(logging.CRITICAL)  # report a lost connection in one line of ours
         try:
             self._client = self._dask.Client(
                 address, timeout=CONNECT_S, set_as_default=False, security=keys
             )
             self._client.run_on_scheduler(_prepare)
-        except Exception as error:  # also of a server that is no scheduler, or of a certificate
+        except Exception as error:  # also if the server is no scheduler, or for a certificate
             raise CannotCheck(f"no Dask scheduler at {address}: {error or 'no answer'}") from None
         if not self._client.nthreads():
             print(f"no worker yet; on each machine: ./tutorial worker {address}", flush=True)
@@ -121,21 +121,21 @@ class Cluster:
             raise SchedulerGone(why) from error
 
     def close(self) -> None:
-        """Give up what was not checked yet."""
+        """Cancel what has not been checked yet."""
         self._client.close()
 
 
 def _prepare(dask_scheduler: Any) -> None:
-    """Give a worker one task at a time, so that only that task can have ended it."""
+    """Give a worker one task at a time, so that this task is to blame if the worker exits."""
     dask_scheduler.allowed_failures = TRIES - 1
     dask_scheduler.WORKER_SATURATION = 1.0
 
 
-_prepare.__module__ = "__main__"  # sent as it is: a scheduler need not have this suite
+_prepare.__module__ = "__main__"  # sent by value: a scheduler need not have this suite
 
 
 def _packed(parts: Mapping[str, Path]) -> bytes:
-    """Return an archive of folders or files, without what catkin builds and what is no file."""
+    """Return an archive of folders or files, without catkin's build folders and special files."""
     data, left = io.BytesIO(), MOST_BYTES
 
     def kept(member: tarfile.TarInfo) -> tarfile.TarInfo | None:
@@ -161,7 +161,7 @@ def _examine(packed: bytes, order: Order, version: str) -> list[Outcome]:
     _must_isolate()
     with tempfile.TemporaryDirectory(prefix="tutorial_worker_") as folder:
         with tarfile.open(fileobj=io.BytesIO(packed)) as archive:
-            # With links that lead out, which Python 3.14 refuses: a worker runs anything anyway.
+            # Python 3.14 refuses links that lead out; a worker runs any program anyway.
             archive.extraction_filter = lambda member, _: member
             archive.extractall(folder)
         (submission,) = Path(folder).glob("submission*")
@@ -173,7 +173,7 @@ def _examine(packed: bytes, order: Order, version: str) -> list[Outcome]:
 
 
 def _must_isolate() -> None:
-    """Raise CannotCheck where a student's program could reach the scheduler, unless allowed."""
+    """Raise CannotCheck if a student's program could reach the scheduler, unless allowed."""
     if bubblewrap.instead() and INSISTS not in os.environ:
         why = f"{bubblewrap.granted().why}: a student's program could reach the scheduler"
         todo = "fix that, or ./tutorial worker --not-isolated"
@@ -181,7 +181,7 @@ def _must_isolate() -> None:
 
 
 def become_worker(address: str, jobs: int, insists: bool) -> NoReturn:
-    """Make this process a worker. insists: even without isolated programs. Raises CannotCheck."""
+    """Become a worker. insists: even if programs are not isolated. Raises CannotCheck."""
     if insists and bubblewrap.instead():
         if not address.startswith("tls://") or (os.geteuid() and not landlock.version()):
             why = "else a student's program reaches the scheduler, or reads the key"
@@ -190,7 +190,7 @@ def become_worker(address: str, jobs: int, insists: bool) -> NoReturn:
     _must_isolate()
     host = _connect(address)
     folder, cleaner = privileges.folder_until_end("tutorial_worker_")
-    os.chmod(folder, 0o711)  # programs of another user pass through
+    os.chmod(folder, 0o711)  # another user's programs pass through
     assert cleaner.stdin
     os.set_inheritable(cleaner.stdin.fileno(), True)
     os.environ["TMPDIR"] = folder
@@ -200,7 +200,7 @@ def become_worker(address: str, jobs: int, insists: bool) -> NoReturn:
 
 
 def become_scheduler(host: str) -> NoReturn:
-    """Make this process a scheduler, with a new key if there is none. Raises CannotCheck."""
+    """Become a scheduler; make a key if there is none. Raises CannotCheck."""
     if not KEY.exists():
         KEY.parent.mkdir(parents=True, exist_ok=True)
         os.umask(0o077)

@@ -1,4 +1,4 @@
-"""One workspace, checked once: the results in the terminal, and in files for other programs."""
+"""Check one workspace once; write the results to the terminal, and to files for programs."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def check(options: argparse.Namespace) -> int:
 def examine_and_print(
     options: argparse.Namespace, *, only_first: bool = False, is_callers_own: bool = True
 ) -> list[Outcome]:
-    """Examine, print and remember what comes of it. only_first: end at the first that is wrong."""
+    """Examine; print and remember the results. only_first: stop at the first wrong one."""
     memory = Memory(options.workspace, options.course, options.hints)
     terminal = Terminal(memory.hint_of, only_first)
     terminal.busy("copying and preparing ...")
@@ -60,12 +60,12 @@ def examine_and_print(
 
 
 def _write_files(files: dict[str, str], outcomes: list[Outcome]) -> None:
-    """Write the files, each though another cannot be written. Raises CannotCheck."""
+    """Write every file, even if another one cannot be written. Raises CannotCheck."""
     faults = []
     for name, file in files.items():
         try:
             if name == "classroom" and any(outcome.trouble for outcome in outcomes):
-                # It has no word for this. Without a file it reports an error, and no points.
+                # Its format has no such verdict. Without a file it reports an error, and no points.
                 why = "not every exercise has a verdict"
                 print(f"check: {file} is not written: {why}", file=sys.stderr)
             else:

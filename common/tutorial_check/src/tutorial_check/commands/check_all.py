@@ -1,4 +1,4 @@
-"""--all: every student of a folder, a table of them all, and each one's report."""
+"""--all: check every student in a folder; write a table, and a report for each."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ from tutorial_check.submission.order import Order
 
 ARCHIVES = (".zip", ".tar", ".tgz", ".gz", ".bz2", ".xz", ".7z", ".rar")
 TABLES = ("table.csv", "table.html")
-# Of the folders in which Moodle hands out what was handed in: NAME_12345_assignsubmission_file_
+# What Moodle appends to a student's name: NAME_12345_assignsubmission_file_
 OF_MOODLE = re.compile(r"_\d+_assignsubmission_[a-z]+_?.*")
-QUICK_S = 0.05  # for the page of a class that is not large
+QUICK_S = 0.05  # to write the page of a small class
 RESULTS = (".csv", ".html", ".txt", ".json")
 
 
 def find_students(folder: str | Path, out: str | Path, tasks: str = "") -> list[Student]:
-    """Return the Students of a folder: folders, archives and links in it, but results and tasks."""
+    """Return a Student for each folder, archive and link, except results and tasks."""
     try:
         entries = [path for path in sorted(Path(folder).iterdir()) if path.name[0] != "."]
     except OSError as error:
@@ -51,7 +51,7 @@ def find_students(folder: str | Path, out: str | Path, tasks: str = "") -> list[
 
 
 def _has_results(path: Path, out: str | Path) -> bool:
-    """Return whether it is the folder of the results, or of an earlier check and nothing else."""
+    """Return whether a folder is for the results, or has only those of an earlier check."""
     if os.path.realpath(path) == os.path.realpath(out):
         return True
     tables = [os.path.isfile(path / name) for name in TABLES]
@@ -64,7 +64,7 @@ def _has_results(path: Path, out: str | Path) -> bool:
 
 
 def check_all(options: argparse.Namespace) -> int:
-    """Check all, write table and reports; 0: all are done, 1: something is wrong, 2: unchecked."""
+    """Check all; write the table and reports. Return 0: all done, 1: mistakes, 2: unchecked."""
     out = Path(options.out or Path(options.all) / "check")
     students = find_students(options.all, out, options.variant or "")
     if not options.variant and Path(options.all, "variants").is_dir():
@@ -73,7 +73,7 @@ def check_all(options: argparse.Namespace) -> int:
         out.mkdir(parents=True, exist_ok=True)
     if not (os.path.isdir(out) and os.access(out, os.W_OK | os.X_OK)):
         raise CannotCheck(f"{out}: no folder that may be written to; --out names another one")
-    for student in students:  # what an earlier check said
+    for student in students:  # of an earlier check
         for ending in (".txt", ".json"):
             with contextlib.suppress(OSError):
                 (out / f"{student.name}{ending}").unlink()
@@ -89,10 +89,10 @@ def check_all(options: argparse.Namespace) -> int:
 
 
 class ClassCheck:
-    """The checks of all students, some at a time; the page shows how far they are."""
+    """The checks of all students, several at a time; the page shows their progress."""
 
     def __init__(self, students: list[Student], out: Path, options: argparse.Namespace) -> None:
-        """Read what the last run found. out: the folder of the results."""
+        """Read the results of the last run. out: the folder of the results."""
         self._students, self._out, self._options = students, out, options
         self._last_run = LastRun(out)
         for student in students:
@@ -102,7 +102,7 @@ class ClassCheck:
         self._cluster = Cluster(options.cluster) if options.cluster else None
 
     def run(self) -> None:
-        """Check all; write the page after each, and at the end what the next run needs."""
+        """Check all students, and write the page after each of them."""
         from tqdm import tqdm  # noqa: PLC0415  only here
 
         self._show()
@@ -116,7 +116,7 @@ class ClassCheck:
                     verdict = student.trouble or summary(student.outcomes)
                     bar.write(printable(f"{student.name}: {verdict}, {remark}"))
                     self._show()
-            except (KeyboardInterrupt, SchedulerGone):  # the pool would go on to the last student
+            except (KeyboardInterrupt, SchedulerGone):  # else the pool would check all
                 for check in checks:
                     check.cancel()
                 no_more.set()
@@ -127,7 +127,7 @@ class ClassCheck:
                 self._show(is_last=True)
 
     def _show(self, is_last: bool = False) -> None:
-        """Write the page in one step, as it may be open; and take a tenth of the time at most."""
+        """Write the page atomically, because it may be open, and in at most a tenth of the time."""
         began_s = time.monotonic()
         if began_s < self._next_s and not is_last:
             return
@@ -141,7 +141,7 @@ class ClassCheck:
         self._next_s = began_s + 10 * took_s if took_s > QUICK_S else 0.0
 
     def _check(self, student: Student) -> tuple[Student, str]:
-        """Check one and write the report; whatever happens must not spoil the others."""
+        """Check a student and write the report. No exception may stop the other checks."""
         began_s = time.monotonic()
         remark = ""
         try:
@@ -165,8 +165,8 @@ class ClassCheck:
         return student, remark or f"{student.seconds:.0f} s"
 
     def _outcomes_of(self, student: Student) -> str:
-        """Set the outcomes, which may be those of the last run; return a remark."""
-        if student.path.is_symlink():  # it may lead to the files of another student
+        """Set a student's outcomes, perhaps to those of the last run; return a remark."""
+        if student.path.is_symlink():  # it may lead to another student's files
             raise CannotCheck("a link is not followed: put the folder or the archive itself here")
         options = self._options
         variant = variant_of(options.course, student.name, options.variant, options.variants)

@@ -1,4 +1,4 @@
-"""./tutorial check: runs the command that the words mean, and says what kept it from working."""
+"""./tutorial check: run the chosen command, and report why it cannot work."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def _solution(options: argparse.Namespace) -> int:
     return 0
 
 
-# {command: what does it, and returns the exit code}
+# {command: the function that runs it and returns the exit code}
 COMMANDS: dict[str, Callable[[argparse.Namespace], int]] = {
     CHECK: check,
     "all": check_all,
@@ -55,12 +55,12 @@ COMMANDS: dict[str, Callable[[argparse.Namespace], int]] = {
 
 
 def main() -> None:
-    """Run the command. Exit code 0: nothing wrong; 1: something is; 2: the checker cannot work."""
+    """Run the command. Exit code 0: nothing is wrong; 1: mistakes; 2: the checker cannot work."""
     assert isinstance(sys.stdout, io.TextIOWrapper)
-    sys.stdout.reconfigure(errors="backslashreplace")  # for names of files that are no UTF-8
+    sys.stdout.reconfigure(errors="backslashreplace")  # for file names that are not UTF-8
     options = parse(sys.argv[1:])
-    for number in (signal.SIGTERM, signal.SIGHUP):  # as Ctrl-C: what was started ends, too
-        if signal.getsignal(number) != signal.SIG_IGN:  # as nohup has it
+    for number in (signal.SIGTERM, signal.SIGHUP):  # as Ctrl-C, which also ends what was started
+        if signal.getsignal(number) != signal.SIG_IGN:  # set by nohup
             signal.signal(number, signal.default_int_handler)
     for line in bubblewrap.lacking():
         print(f"check: {line}", file=sys.stderr, flush=True)
@@ -69,7 +69,7 @@ def main() -> None:
     except CannotCheck as error:
         print(f"\ncheck: no verdict: {fault(error)}", file=sys.stderr)
         code = 2
-    except BrokenPipeError:  # The reader, as head, has seen enough.
+    except BrokenPipeError:  # The reader has ended, as head does.
         sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115  for what is unwritten
         code = 2
     except Exception as error:  # not the student's fault, whatever it is

@@ -1,4 +1,4 @@
-"""The words of ./tutorial check: a parser for each command, made of sets of options."""
+"""The command line of ./tutorial check: a parser for each command, made of sets of options."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from tutorial_check.report.memory import AGAIN, ALWAYS, NEVER
 
 PROGRAM = "./tutorial check"
 UNDERLAY = "TUTORIAL_UNDERLAY"  # environment variable: setup.bash of the underlay
-WORKSPACE = "TUTORIAL_IN"  # environment variable: the workspace of the shell that this is called in
+WORKSPACE = "TUTORIAL_IN"  # environment variable: the workspace of a ./tutorial shell
 CHECK = "check"  # the command without an option of its name
-# {command: the sets of options that it has}. If options of two are given the later one is meant.
+# {command: its sets of options}. If options name two commands, the later one here is run.
 COMMANDS = {
     CHECK: ("workspace", "files", "exercises", "course", "hints", "variant", "keep"),
     "watch": ("workspace", "watch", "exercises", "course", "hints", "variant"),
@@ -26,7 +26,7 @@ COMMANDS = {
     "self-test": ("self-test", "course", "jobs"),
     "show-variant": ("show-variant", "course", "variant", "seed"),
 }
-ONE = "one workspace"  # what solution, watch and CHECK are for
+ONE = "one workspace"  # what solution, watch and CHECK take
 _Add = Callable[..., object]  # (set, *names, ...): add an option to a set, as argparse does
 
 
@@ -38,7 +38,7 @@ def path(word: str) -> str:
 
 
 def parse(words: Sequence[str]) -> argparse.Namespace:
-    """Return the options, with their command; end with a line if they are not clear."""
+    """Return the options, with their command; exit with a line if they are unclear."""
     command = _command_of(words)
     parser = _parser_of(COMMANDS[command])
     options, unknown = parser.parse_known_args(words)
@@ -65,7 +65,7 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
 
 
 def _exercises_of(parser: Parser, options: argparse.Namespace) -> list[str]:
-    """Return the exercises that are meant, in the course's order."""
+    """Return the chosen exercises, in the course's order."""
     known = options.course.exercises
     meant = [name for word in options.exercises for name in options.course.meant(word)]
     unknown = [name for name in meant if name not in known]
@@ -75,7 +75,7 @@ def _exercises_of(parser: Parser, options: argparse.Namespace) -> list[str]:
 
 
 def _command_of(words: Sequence[str]) -> str:
-    """Return the command that is meant; print its help, and end, if that is wanted."""
+    """Return the chosen command; if --help is given, print its help and exit."""
     parser = Parser(prog=PROGRAM, add_help=False)
     parser.add_argument("-h", "--help", action="store_true")
     for name in COMMANDS:
@@ -100,7 +100,7 @@ def _parser_of(names: Iterable[str]) -> Parser:
 
 
 def _users_of(options: str) -> str:
-    """Return the commands that have a set of options, in words."""
+    """Return words for the commands that have a set of options."""
     users = [name for name, sets in COMMANDS.items() if options in sets]
     *others, last = dict.fromkeys(map(_words_of, users))
     return f"{', '.join(others)} and {last}" if others else last
@@ -111,7 +111,7 @@ def _words_of(command: str) -> str:
 
 
 def _misplaced(word: str, command: str) -> str:
-    """Return what an option is for that this command has not."""
+    """Return which command has an option that this one lacks."""
     option = word.partition("=")[0]
     names = (name for name, parser in _sets().items() if option in parser._option_string_actions)
     users = next(map(_users_of, names), "")
@@ -122,7 +122,7 @@ def _misplaced(word: str, command: str) -> str:
 
 
 def _sets() -> dict[str, Parser]:
-    """Return the sets of options, each below a heading that says which commands have it."""
+    """Return the sets of options, each below a heading with the commands that have it."""
     names = dict.fromkeys(name for sets in COMMANDS.values() for name in sets)
     sets = {name: Parser(add_help=False) for name in names}
     groups = {name: sets[name].add_argument_group(f"for {_users_of(name)}") for name in names}
@@ -136,7 +136,7 @@ def _sets() -> dict[str, Parser]:
 
 
 def _add_of_one(add: _Add) -> None:
-    """Add what one command has, or those of one workspace."""
+    """Add the options of a single command, or of those for one workspace."""
     what = "your catkin workspace, a folder of packages, or a zip; in a shell of it not needed"
     given = os.environ.get(WORKSPACE) or None
     about = {"dest": "workspace", "type": path, "default": given}
@@ -160,7 +160,7 @@ def _add_of_one(add: _Add) -> None:
 
 
 def _add_shared(add: _Add) -> None:
-    """Add what several commands have."""
+    """Add the options that several commands share."""
     add("exercises", "exercises", nargs="*", metavar="EXERCISE", help="without one all")
     what = "in place of the handout: wiki, or a folder with course.yaml and your own checks"
     add("course", "--course", type=path, default=str(HANDOUT), metavar="FOLDER", help=what)

@@ -1,4 +1,4 @@
-"""--package: what Gradescope and GitHub take to run the checks on their own machines."""
+"""--package: the files with which Gradescope and GitHub run the checks on their machines."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from tutorial_check.errors import CannotCheck
 GRADESCOPE, GITHUB = "gradescope", "github"
 FILES = {GRADESCOPE: "autograder.zip", GITHUB: "check.yml"}
 LEFT_OUT = {".git", "__pycache__", ".mypy_cache", ".ruff_cache", ".pytest_cache", "build", "devel"}
-TEMPLATES = Path(__file__).with_name("autograder")  # @WORDS@ in capitals are filled in
+TEMPLATES = Path(__file__).with_name("autograder")  # @WORDS@ in capitals are replaced
 RUN_ON_GITHUB = "suite/tutorial check --in submission --classroom result.json --junit report.xml"
 
 
 def package(what: str, course: Course, exercises: Sequence[str], out: str | None) -> str:
-    """Write what a service takes; return its path. what: as in --package. Raises CannotCheck."""
+    """Write a service's file; return its path. what: as in --package. Raises CannotCheck."""
     service, _, repository = what.partition(":")
     if service not in FILES:
         raise CannotCheck(f"--package {what}: there are {GRADESCOPE} and {GITHUB}:OWNER/NAME")
@@ -81,5 +81,5 @@ def _workflow(repository: str, course: Course, exercises: Sequence[str]) -> str:
         words = ["--course", f"suite/{course.folder.relative_to(SUITE)}", *words]
     if any("${{" in word for word in words):
         raise CannotCheck(f"{shlex.join(words)}: GitHub would replace ${{{{ in it: rename that")
-    run = json.dumps(f"{RUN_ON_GITHUB} {shlex.join(words)}")  # a text for YAML, whatever is in it
+    run = json.dumps(f"{RUN_ON_GITHUB} {shlex.join(words)}")  # quoted for YAML
     return _filled("check.yml", REPOSITORY=repository, COMMIT=_commit(), RUN=run)

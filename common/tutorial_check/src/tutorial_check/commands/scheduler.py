@@ -1,4 +1,4 @@
-"""./tutorial scheduler: distribute what check --all --cluster is to check, until Ctrl-C."""
+"""./tutorial scheduler: distribute the checks of check --all --cluster until Ctrl-C."""
 
 import subprocess
 import sys
@@ -9,7 +9,7 @@ from tutorial_check.errors import CannotCheck
 
 
 def main() -> None:
-    """Become a scheduler, or end with a line."""
+    """Become a scheduler, or exit with a line."""
     what = "A Dask scheduler, for ./tutorial check --all FOLDER --cluster."
     parser = Parser(prog="./tutorial scheduler", description=what)
     what = "address on which to listen (127.0.0.1)"

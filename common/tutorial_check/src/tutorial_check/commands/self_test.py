@@ -1,4 +1,4 @@
-"""--self-test: each right solution of a course passes, each wrong one fails at the named check."""
+"""--self-test: right solutions of a course must pass, wrong ones must fail at the named check."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ HUNK = re.compile(r"^@@.*\n((?:[ +-].*\n|\n)*)", re.MULTILINE)
 
 
 def solutions(course: Course) -> Iterator[tuple[str, str, list[Path]]]:
-    """Yield (name, the check that it fails at or "", what is put one over the other).
+    """Yield (name, the check at which it fails or "", layers: each overwrites the ones before).
 
     solutions/right, and right_WHAT, are packages; wrong_CHECK_WHAT are files or a .patch of right.
     """
@@ -42,7 +42,7 @@ def solutions(course: Course) -> Iterator[tuple[str, str, list[Path]]]:
 
 
 def self_test(course: Course, underlay: str, jobs: int) -> int:
-    """Check all solutions of a course, a line each; return 0 if all come to what they should."""
+    """Check all solutions of a course, and print a line for each; return 0 if all are as named."""
     failed, every = 0, list(solutions(course))
     exercises = {known.id: known.exercise for known in checks_of(course)}
     with ThreadPoolExecutor(jobs) as pool:
@@ -81,7 +81,7 @@ def _examined(
 
 
 def patch(folder: Path, file: Path) -> None:
-    """Change files as a unified diff of git says, at any line. Raises CannotCheck."""
+    """Apply git's unified diff, whatever its line numbers are. Raises CannotCheck."""
     for before, after, hunks in FILES.findall(file.read_text(encoding="utf-8")):
         path = folder / re.sub(r"^(\.\./)*[^/]*/", "", before if after == GONE else after)
         if ".." in path.parts or (before != GONE and not path.is_file()):
@@ -104,7 +104,7 @@ def patch(folder: Path, file: Path) -> None:
 
 
 def complaint_of(check: str, outcomes: list[Outcome]) -> str:
-    """Return what is wrong with the outcomes of a solution that must fail at a check, or ""."""
+    """Return how the outcomes of a solution differ from its name, or ""."""
     for outcome in outcomes:
         if outcome.trouble:
             return f"could not be checked: {outcome.id}: {outcome.trouble}"

@@ -15,15 +15,15 @@ from tutorial_check.errors import CannotCheck, fault
 from tutorial_check.report.text import summary
 from tutorial_check.submission.handed_in import all_below
 
-PERIOD_S = 0.5  # between two looks; editors save in several steps, so two must be the same
+PERIOD_S = 0.5  # between two looks, which must agree, because editors save in several steps
 OF_EDITORS = ("~", ".swp")
 
 
 def stamps(folder: str) -> dict[str, tuple[int, int]]:
-    """Return {path: (time of the last change, also of rights; size)} of a student's files."""
+    """Return {path: (time of the last change, also of permissions; size)} of a student's files."""
     times = {}
     for path in all_below(folder):
-        with contextlib.suppress(OSError):  # removed meanwhile
+        with contextlib.suppress(OSError):  # removed in the meantime
             about = os.stat(path)
             if not (stat.S_ISDIR(about.st_mode) or path.endswith(OF_EDITORS)):
                 times[path] = about.st_ctime_ns, about.st_size
@@ -31,7 +31,7 @@ def stamps(folder: str) -> dict[str, tuple[int, int]]:
 
 
 def watch(options: argparse.Namespace) -> NoReturn:
-    """Until Ctrl-C: look, report the first that is wrong, wait for a change. Raises CannotCheck."""
+    """Until Ctrl-C: check, report the first mistake, wait for a change. Raises CannotCheck."""
     if not os.path.isdir(options.workspace):
         raise CannotCheck(f"{options.workspace}: no folder, and --watch is for one")
     while True:
@@ -40,13 +40,13 @@ def watch(options: argparse.Namespace) -> NoReturn:
         try:
             outcomes = examine_and_print(options, only_first=True)
         except CannotCheck as error:
-            print(f"check: {fault(error)}")  # half-saved, or a folder that is just being moved
+            print(f"check: {fault(error)}")  # half saved, or the folder is being moved
         else:
             solved = ", ".join(outcome.id for outcome in outcomes if outcome.solved)
             all_passed = all(outcome.passed for outcome in outcomes)
             print(summary(outcomes) if all_passed else f"done: {solved or 'none yet'}")
         print(f"waiting for a change in {options.workspace} (Ctrl-C ends)", flush=True)
         last = now = before
-        while now == before or now != last:  # and then nothing changes for a moment
+        while now == before or now != last:  # until nothing changes for a moment
             time.sleep(PERIOD_S)
             last, now = now, stamps(options.workspace)

@@ -19,15 +19,15 @@ import yaml
 from tutorial_check.errors import CannotCheck
 
 FILE = "course.yaml"
-SOLUTIONS = "solutions"  # folder of a course; what is in it is for the self-test
+SOLUTIONS = "solutions"  # folder of a course, for the self-test
 SUITE = Path(__file__).resolve().parents[5]
-SHIPPED = SUITE / "common" / "courses"  # a folder in it is also known by its name
+SHIPPED = SUITE / "common" / "courses"  # --course takes these by name, too
 HANDOUT = SHIPPED / "handout"
-# The modules of a course, which may be anywhere, are below courses.NAME, by the folder's name.
+# Wherever a course is, its modules are imported as courses.NAME.*, by the folder's name.
 COURSES = "courses"
 RENAMED = ": common/doc/COURSES.md says what a course of an earlier release has to change"
 
-# Of what YAML gives, by the type of a field; of others anything.
+# {a field's type: what YAML may give for it}; other types take anything.
 KINDS: dict[str, tuple[type, ...]] = {
     "str": (str,), "bool": (bool,), "float": (int, float), "tuple": (list,), "dict": (dict,)
 }  # fmt: skip
@@ -35,7 +35,7 @@ KINDS: dict[str, tuple[type, ...]] = {
 
 @dataclass(frozen=True)
 class Exercise:
-    """One exercise. document: of its sections. points: of all of it; 0: one a check."""
+    """An exercise. document: of its sections. points: for all of it; 0: one per check."""
 
     title: str
     document: str = ""
@@ -46,10 +46,10 @@ class Exercise:
 
 @dataclass(frozen=True)
 class Value:
-    """A value that a task may have in place of the course's; see common/doc/COURSES.md.
+    """A value that varies with a student's task; see common/doc/COURSES.md.
 
-    about: its line of the task sheet. allowed: [lowest, highest], a list of these, or what a text
-    has to fit. draw: from what a seed draws it. unlike: another value, from which it differs.
+    about: its line of the task sheet. allowed: [lowest, highest], a list of these, or a regular
+    expression. draw: what a seed draws from. unlike: another value, which must differ.
     """
 
     about: str
@@ -61,15 +61,15 @@ class Value:
 
 @dataclass(frozen=True)
 class Course:
-    """What course.yaml says. exercises: in their order, by the number that the student knows.
+    """The content of course.yaml. exercises: in order, by the number that the student knows.
 
-    packages: {name: what else catkin_create_pkg is given}.
+    packages: {name: the other arguments of catkin_create_pkg}.
     """
 
     folder: Path
     title: str = ""
     document: str = "task"
-    sheet: str = ""  # what a task sheet is made from, if not variants.SHEET
+    sheet: str = ""  # the template of a task sheet, if not tasks.SHEET
     exercises: dict[str, Exercise] = field(default_factory=dict, hash=False)
     variants: dict[str, Value] = field(default_factory=dict, hash=False)
     packages: dict[str, str] = field(default_factory=dict, hash=False)
@@ -79,20 +79,20 @@ class Course:
         return [name for name, exercise in self.exercises.items() if exercise.by_default]
 
     def meant(self, word: str) -> list[str]:
-        """Return the exercises of a word: 4 is 4.2 to 4.5, and 5.1, a section of it, is 5."""
+        """Return the exercises that a word selects: 4 is 4.2 to 4.5; 5.1, a section, is 5."""
         section = f"{word.rstrip('.')}."
         inner = [name for name in self.exercises if name.startswith(section)]
         whole = [name for name in self.exercises if section.startswith(f"{name}.")]
         return inner or whole or [word]
 
     def exercise_of(self, section: str) -> str:
-        """Return the exercise whose number a section begins with, the longest; or ""."""
+        """Return the exercise with the longest number that a section begins with; or ""."""
         whole = (name for name in self.exercises if f"{section}.".startswith(f"{name}."))
         return max(whole, key=len, default="")
 
 
 def package_of(course: Course) -> str:
-    """Return the name of the package that a course's modules are in."""
+    """Return the name of the package of a course's modules."""
     name = re.sub(r"\W", "_", course.folder.name)
     return f"{COURSES}.{name}"
 
@@ -104,7 +104,7 @@ def sources_of(folder: Path) -> list[Path]:
 
 
 def copy_sources(folder: Path, target: Path) -> None:
-    """Copy what a worker needs of a course, with the bytecode: a worker then compiles nothing."""
+    """Copy a course for a worker, with its bytecode so that the worker compiles nothing."""
     for source in sources_of(folder):
         copied = target / source.relative_to(folder)
         copied.parent.mkdir(parents=True, exist_ok=True)
@@ -116,7 +116,7 @@ def copy_sources(folder: Path, target: Path) -> None:
 
 
 def read_yaml(file: str | Path, what: str = "") -> object:
-    """Return what a YAML file says. Raises CannotCheck; what: added where there is no such file."""
+    """Return the content of a YAML file. Raises CannotCheck. what: added if the file is missing."""
     try:
         return yaml.safe_load(Path(file).read_text(encoding="utf-8"))
     except OSError as error:
@@ -127,7 +127,7 @@ def read_yaml(file: str | Path, what: str = "") -> object:
 
 @functools.lru_cache(maxsize=None)
 def read_course(folder: str | Path = HANDOUT) -> Course:
-    """Return the Course of a folder, or of the name of one that is shipped. Raises CannotCheck."""
+    """Return the Course in a folder, or the shipped one of that name. Raises CannotCheck."""
     file = Path(folder).resolve() / FILE
     shipped = {path.parent.name: path for path in sorted(SHIPPED.glob(f"*/{FILE}"))}
     if str(folder) in shipped and not file.exists():
@@ -144,7 +144,7 @@ def read_course(folder: str | Path = HANDOUT) -> Course:
             if not isinstance(number, str):
                 raise ValueError(f'exercise {number}: write "{number}", in quotes')
             words = _known(Exercise, what if isinstance(what, dict) else {"title": what})
-            if not 0 <= words.get("points", 0) <= 10**6:  # nor is .nan
+            if not 0 <= words.get("points", 0) <= 10**6:  # not .nan, either
                 raise ValueError(f"exercise {number}: points: 0 to 1000000")
             course.exercises[number] = Exercise(**{"document": course.document, **words})
         for name, what in varied.items():
@@ -155,9 +155,9 @@ def read_course(folder: str | Path = HANDOUT) -> Course:
 
 
 def _known(kind: type, given: object) -> dict[str, Any]:
-    """Return the fields of a dataclass that are given. Raises ValueError."""
+    """Return the given fields of a dataclass. Raises ValueError."""
     known = {known.name: str(known.type).partition("[")[0] for known in fields(kind)}
-    known.pop("folder", None)  # where the file itself is
+    known.pop("folder", None)  # it is where the file is
     if not isinstance(given, dict):
         raise ValueError(f"a map of {', '.join(known)} is wanted, and not {given!r}")
     for name, value in given.items():
@@ -186,7 +186,7 @@ def load(course: Course) -> set[str]:
 
 
 def _make_package(package: str, folder: Path) -> None:
-    """Let a package be a folder; what another folder of that name has left is forgotten."""
+    """Make a package of a folder; forget the modules of another folder of that name."""
     if package in sys.modules and [*sys.modules[package].__path__] == [str(folder)]:
         return
     for name in [known for known in sys.modules if f"{known}.".startswith(f"{package}.")]:
@@ -198,7 +198,7 @@ def _make_package(package: str, folder: Path) -> None:
 
 
 def _place(error: Exception, folder: Path) -> str:
-    """Return FILE:LINE of a course where an exception came from."""
+    """Return FILE:LINE of a course's exception."""
     if isinstance(error, SyntaxError):
         return f"{Path(error.filename or '').name}:{error.lineno}"
     frames = traceback.extract_tb(error.__traceback__)

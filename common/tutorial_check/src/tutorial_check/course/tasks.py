@@ -1,4 +1,4 @@
-"""Variants: what a student's task has in place of what the course says, from a file or a seed."""
+"""Variants: the values of a student's task that differ from the course, from a file or seed."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import yaml
 from tutorial_check.course.definition import Course, package_of, read_yaml
 from tutorial_check.errors import CannotCheck
 
-Variant = Dict[str, Any]  # {name of a value: what it is}; what is not named is as the course has it
+Variant = Dict[str, Any]  # {name: value}; for others the course's defaults hold
 SHEET = (
     "# {title}: the task of {name}\n\n{tasks}\n\n"
     "To check it yourself keep this as variant.yaml:\n\n{file}"
@@ -21,25 +21,25 @@ SHEET = (
 
 
 class Task:
-    """What a variant changes for the checker; a course that changes more has a subclass."""
+    """What a variant changes for the checker; a course may have a subclass that changes more."""
 
-    # {name that the checks have for a topic: that of the student's programs}
+    # {a topic's name in the checks: its name in the student's programs}
     topics: Mapping[str, str] = MappingProxyType({})
 
     def __init__(self, values: Variant) -> None:
-        """values: those that are given."""
+        """values: the given ones."""
         self.values = values
 
     def name_of(self, package: str) -> str:
-        """Return the name that the student's files have for a package that the checks name."""
+        """Return the student's name of a package that the checks name."""
         return package
 
     def in_messages(self, package: str) -> str:
-        """Return what stands for that name in messages that are no hints."""
+        """Return the package's name in messages that are no hints."""
         return package
 
     def fill(self, text: str) -> str:
-        """Return the title of a check, or its command, as of this task, and with no value of it."""
+        """Return a check's title or command for this task, without giving its values away."""
         return text
 
 
@@ -71,7 +71,7 @@ def read_variant(course: Course, file: str | Path) -> Variant:
 
 
 def _misses(value: object, allowed: Any) -> str:
-    """Return what is allowed in place of a value; empty if it is allowed."""
+    """Return what is allowed instead of a value; empty if the value is allowed."""
     if isinstance(allowed, str):
         fits = isinstance(value, str) and re.fullmatch(allowed, value)
         return "" if fits else f"what fits {allowed}"
@@ -83,7 +83,7 @@ def _misses(value: object, allowed: Any) -> str:
 
 
 def drawn(course: Course, seed: str, name: str) -> Variant:
-    """Return the Variant that a seed gives a student: the same on every machine."""
+    """Return the Variant that a seed draws for a student, the same on every machine."""
     values: Variant = {}
     for key, value in course.variants.items():
         choices = [choice for choice in value.draw if choice != values.get(value.unlike)]
@@ -93,9 +93,9 @@ def drawn(course: Course, seed: str, name: str) -> Variant:
 
 
 def variant_of(course: Course, name: str, file: str | None, seed: str | None = None) -> Variant:
-    """Return a student's Variant: from NAME.yaml of a folder, drawn, or from the file for all.
+    """Return a student's Variant: from NAME.yaml in a folder, drawn, or from the file for all.
 
-    name: empty for the caller's own, who has no folder of tasks.
+    name: empty for the caller's own workspace, which needs no folder of tasks.
     """
     path = Path(file) if file else None
     if path and path.is_dir():
@@ -113,7 +113,7 @@ def variant_of(course: Course, name: str, file: str | None, seed: str | None = N
 
 
 def sheet(course: Course, values: Variant, name: str) -> str:
-    """Return the task sheet of a student. Raises CannotCheck if nothing differs from the course."""
+    """Return a student's task sheet. Raises CannotCheck if nothing differs from the course."""
     if not values:
         raise CannotCheck(f"no variant of {name}: --variant FILE, or --variants SEED")
     words = {"title": course.title, "file": yaml.safe_dump(values, sort_keys=False).rstrip()}
@@ -123,5 +123,5 @@ def sheet(course: Course, values: Variant, name: str) -> str:
 
 
 def _filled(text: str, words: Mapping[str, Any]) -> str:
-    """Return a text with words for {names}. str.format would take a width, of a gigabyte."""
+    """Return a text with {names} replaced. str.format would accept a width of a gigabyte."""
     return re.sub(r"\{(\w+)\}", lambda name: str(words.get(name[1], name[0])), text)

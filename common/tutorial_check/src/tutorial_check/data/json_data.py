@@ -1,7 +1,7 @@
-"""What recorders write down, as JSON and back. Pure.
+"""Convert recordings to JSON and back.
 
-A recording is a frozen dataclass. Its fields are texts, numbers, truth values, None, other such
-dataclasses, paths, or tuples and maps of these, as their annotations say.
+A recording is a frozen dataclass. Its fields are texts, numbers, booleans, None, paths, other such
+dataclasses, or tuples and maps of these, as their annotations say.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ Recording = TypeVar("Recording")
 
 
 def as_json(value: object) -> object:
-    """Return a recording, or a part of it, as what json.dumps takes."""
+    """Return a recording, or a part of it, in a form that json.dumps takes."""
     if dataclasses.is_dataclass(value):
         names = (field.name for field in dataclasses.fields(value))
         return {name: as_json(getattr(value, name)) for name in names}
@@ -42,7 +42,7 @@ def as_json(value: object) -> object:
 
 
 def from_json(kind: type[Recording], value: object) -> Recording:
-    """Return the recording of a type that as_json() has made. Raises ValueError if it is none."""
+    """Return the recording from what as_json() returned. Raises ValueError if it does not fit."""
     try:
         return cast(Recording, _from_json(kind, value))
     except (AttributeError, KeyError, TypeError) as error:
@@ -69,7 +69,7 @@ def _from_json(kind: Any, value: Any) -> Any:
 
 
 def arguments_of(recorder: Callable[..., object], values: Sequence[object]) -> List[object]:
-    """Return the arguments of a recorder, after the workspace, that as_json() has made."""
+    """Return a recorder's arguments, after the workspace, from what as_json() returned."""
     kinds, names = get_type_hints(recorder), list(inspect.signature(recorder).parameters.values())
     arguments = []
     for number, value in enumerate(values, 1):
@@ -79,7 +79,7 @@ def arguments_of(recorder: Callable[..., object], values: Sequence[object]) -> L
 
 
 def must_be_whole(recorded: type) -> None:
-    """Raise CannotCheck for a recording with a list or map in it that does not say of what."""
+    """Raise CannotCheck for a recording with a list or map whose annotation lacks its content."""
     kinds: list[Any] = [recorded]
     for kind in kinds:
         for name, hint in get_type_hints(kind).items():

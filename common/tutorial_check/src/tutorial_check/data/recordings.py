@@ -1,4 +1,4 @@
-"""What the checker's own recorders write down of programs, builds, topics and launch files."""
+"""What the checker itself records of programs, builds, topics and launch files."""
 
 from __future__ import annotations
 

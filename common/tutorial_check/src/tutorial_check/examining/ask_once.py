@@ -1,4 +1,4 @@
-"""Lets two workers of one workspace record side by side, and each thing once."""
+"""Let two workers of one workspace record side by side without repeating each other."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ Replies = Dict[str, "Future[Reply]"]  # by question: JSON
 
 
 class AskOnce:
-    """Asks one of two workers of a workspace, unless the other one was asked the same before."""
+    """Asks one of two workers of a workspace, unless the other was asked the same before."""
 
     def __init__(self, ask: Ask, shared: Replies) -> None:
-        """shared: what either was asked."""
+        """shared: replies of both."""
         self._ask, self._shared = ask, shared
-        self._before: set[str] = set()  # Who asks again wants another recording.
+        self._before: set[str] = set()  # Asking again means that another recording is wanted.
 
     def __call__(self, question: Question) -> Reply:
         key = json.dumps(as_json(question))
@@ -28,7 +28,7 @@ class AskOnce:
         is_first = key not in self._before
         self._before.add(key)
         if first is not own and is_first:
-            with contextlib.suppress(CancelledError):  # The other one has ended.
+            with contextlib.suppress(CancelledError):  # The other worker has ended.
                 return first.result()
         try:
             reply = self._ask(question)

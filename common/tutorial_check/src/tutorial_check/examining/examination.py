@@ -1,8 +1,8 @@
-"""An examination in a process of its own: nothing that a student wrote can keep the checker busy.
+"""Examine a submission in a separate process, so that no student's file can block the checker.
 
-The process reads what was handed in, and judges. It has so much memory and processor time; where
-that does not suffice, as in a regular expression that no signal ends, Linux ends it, and with it
-what it started. Other students of a class, who are checked by the same program, lose nothing.
+The process reads the submission and judges it, with limited memory and CPU time. If it exceeds
+them, for example in a regular expression that no signal interrupts, Linux ends it together with
+what it started. The checks of other students go on.
 """
 
 from __future__ import annotations
@@ -30,17 +30,17 @@ from tutorial_check.sandbox import privileges
 from tutorial_check.submission.order import Order
 
 NOT_COMPILED = re.compile(SOLUTIONS)  # folder of a course
-PERIOD_S = 0.2  # How often to look at no_more.
+PERIOD_S = 0.2  # how often to look at no_more
 TOO_LONG = f"reading it takes more than {privileges.MOST_CPU_S} s"
 TOO_MUCH = f"reading it takes more than {privileges.MOST_MB} MB of memory"
-Message = Any  # (an Outcome, a Result that came), the Outcomes at the end, or a CannotCheck
+Message = Any  # (Outcome, its new Result), at the end the Outcomes, or a CannotCheck
 
 
 def examine(
     order: Order, report: judging.Report = judging.silent, side_by_side: bool = False
 ) -> list[Outcome]:
-    """Return the Outcomes as judging.examine does, made in another process. Raises CannotCheck."""
-    # Compiled before: the time for that must not count as the time for the student's files.
+    """Return the Outcomes of judging.examine, run in another process. Raises CannotCheck."""
+    # Compiled here, because the process's CPU time is for the student's files.
     for folder in (Path(__file__).parents[1], order.course):
         compileall.compile_dir(folder, quiet=2, rx=NOT_COMPILED)
     with _process() as (process, line):
@@ -56,10 +56,10 @@ def examine(
 
 @contextlib.contextmanager
 def _process() -> Any:
-    """Yield (the process, the line to it). At the end it has ended, and what it started."""
+    """Yield (the process, the connection to it); end it, with what it started, at the exit."""
     ours, theirs = socket.socketpair()
     words = [sys.executable, "-s", "-m", "tutorial_check.examining.examination"]
-    # In a session of its own: Ctrl-C ends us, and the closed line ends it.
+    # In a session of its own: Ctrl-C ends us, and then the closed connection ends it.
     about: dict[str, Any] = {"stdin": subprocess.DEVNULL, "start_new_session": True}
     process = subprocess.Popen([*words, str(theirs.fileno())], pass_fds=[theirs.fileno()], **about)
     theirs.close()
@@ -77,7 +77,7 @@ def _process() -> Any:
 
 
 def _answer(process: subprocess.Popen[bytes], line: Connection) -> Message:
-    """Return what comes next. Raises CannotCheck if nothing more comes."""
+    """Return the next message. Raises CannotCheck if no more come."""
     try:
         while not line.poll(PERIOD_S):
             if no_more.is_set():
@@ -96,7 +96,7 @@ def _answer(process: subprocess.Popen[bytes], line: Connection) -> Message:
 
 
 def _end_with(line: Connection) -> None:
-    """End this process as Ctrl-C does, with what it started, when the other end is closed."""
+    """When the other end is closed, end this process and what it started, as Ctrl-C does."""
     with contextlib.suppress(EOFError, OSError):
         line.recv()
     no_more.set()
@@ -104,7 +104,7 @@ def _end_with(line: Connection) -> None:
 
 
 def main() -> None:
-    """Examine what comes through the line whose descriptor is the argument; send what was found."""
+    """Examine an order from the connection whose descriptor is the argument; send the results."""
     line = Connection(int(sys.argv[1]))
     os.set_inheritable(line.fileno(), False)
     order, side_by_side = line.recv()
@@ -122,11 +122,11 @@ def main() -> None:
         answer = CannotCheck(TOO_MUCH)
     except Exception as error:
         answer = CannotCheck(f"{fault(error)}: a fault of the check, not of the exercises")
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # The line may close before we end.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the connection may close before we end
     line.send(answer)
 
 
 if __name__ == "__main__":
-    # The other end is closed before an order comes if there is nothing to check over.
+    # The other end closes before it sends an order if the underlay is missing.
     with contextlib.suppress(KeyboardInterrupt, BrokenPipeError, EOFError):
         main()

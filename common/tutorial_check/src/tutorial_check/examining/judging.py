@@ -1,4 +1,4 @@
-"""Makes the checks of a workspace from what workers record and what files say."""
+"""Run the checks of a workspace, with workers that record."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def silent(outcome: Outcome, result: Result) -> None:
 def examine(bare: Order, report: Report = silent, side_by_side: bool = False) -> list[Outcome]:
     """Return the Outcomes of a workspace; report each result as it comes. Raises CannotCheck.
 
-    side_by_side: a second worker may record what the last exercises need while the first are made.
+    side_by_side: a second worker may record for the last exercises at the same time.
     """
     bare, course = sourced(bare), read_course(bare.course)
     try:
@@ -51,13 +51,13 @@ def examine(bare: Order, report: Report = silent, side_by_side: bool = False) ->
 
 @contextlib.contextmanager
 def _with_another(bare: Order, course: Course, ask: Ask) -> Iterator[Ask]:
-    """Yield ask() of a worker, while another one makes the checks from the last exercise on."""
+    """Yield ask() of a worker, while another one records from the last exercise backwards."""
     shared: Replies = {}
     checks_of(course)  # loads the course before the thread asks for it
     with started(replace(bare, exercises=bare.exercises[::-1])) as (order, other):
 
         def make_checks() -> None:
-            with contextlib.suppress(Exception, Ended):  # What it has recorded is of use.
+            with contextlib.suppress(Exception, Ended):  # its recordings are still useful
                 judge(order, course, AskOnce(other.ask, shared))
 
         thread = threading.Thread(target=make_checks)
@@ -70,9 +70,9 @@ def _with_another(bare: Order, course: Course, ask: Ask) -> Iterator[Ask]:
 
 
 def judge(order: Order, course: Course, ask: Ask, report: Report = silent) -> list[Outcome]:
-    """Make the checks of an order from what a worker answers. Raises CannotCheck."""
+    """Run the checks of an order on a worker's recordings. Raises CannotCheck."""
     checks = checks_of(course)
-    task = task_of(course)(order.variant)  # its class is among the checks
+    task = task_of(course)(order.variant)  # its class is defined beside the checks
     checks = [replace(c, title=task.fill(c.title), look=task.fill(c.look)) for c in checks]
     submission = Submission(order, task, ask)
     runner = CheckRunner(checks, submission)
@@ -102,7 +102,7 @@ def _make_checks(
             result = submission.as_sent(made)
             outcome.results.append(result)
             report(outcome, result)
-    finally:  # what was recorded before the worker ended is of most interest
+    finally:  # what was recorded before the worker ended matters most
         outcome.recordings = submission.exchanges[already:]
     outcome.seconds = round(time.monotonic() - began_s, 2)
     outcome.done, outcome.trouble = True, runner.trouble(outcome.id)

@@ -1,1 +1,1 @@
-"""Programs, their output and time, helper processes, a ROS master. Tests use it."""
+"""Programs, their output and CPU time, helper processes, a ROS master. Tests use it."""

@@ -1,7 +1,7 @@
-"""The programs' clock: real time without waits for a processor (/proc/*/task/*/schedstat).
+"""The programs' clock: real time without waits for a CPU (/proc/*/task/*/schedstat).
 
-Waits for a processor, on a busy machine, are not an author's fault. So deadlines use a clock that
-nearly stops during such waits. A program that does nothing although it could ends a wait.
+On a busy machine programs wait for a CPU, which is not their authors' fault. So deadlines use a
+clock that nearly stops during such waits. A program that is idle although it could run ends a wait.
 
 The tests of all packages wait by it, too, through tutorial_testing.waiting: CpuClock and times_of()
 are public.
@@ -14,20 +14,20 @@ import os
 import time
 from typing import Callable, Dict, Iterator, Tuple
 
-SLOWEST = 0.05  # part of real time: a deadline is at most twenty times as long
-LOOKING = 0.05  # largest part of the time that looking may take
-IDLE = 0.1  # [processors] programs that use less only wait
-BUSY = 0.15  # part of the time waiting for a processor: a late answer proves little
+SLOWEST = 0.05  # of real time: a deadline takes at most twenty times as long
+LOOKING = 0.05  # largest share of the time that looking may take
+IDLE = 0.1  # [CPUs] programs that use less only wait
+BUSY = 0.15  # share of the time spent waiting for a CPU: a late answer proves little
 OVERLOADED = 0.86  # it proves nothing
-REACH_S = 30.0  # the kernel counts how long a thread waited only when that is over
-STARVED_S = 0.5  # ready, and without a turn
+REACH_S = 30.0  # the kernel counts a thread's wait only when it is over
+STARVED_S = 0.5  # ready, but not run
 
-# {thread: (its process, ns at work, ns ready without a turn)}
+# {thread: (its process, ns running, ns ready but not run)}
 Times = Dict[int, Tuple[int, int, int]]
 
 
 def fields_of(stat: str) -> list[bytes]:
-    """Return a /proc/*/stat after its second field, a name of any bytes. Raises OSError."""
+    """Return the fields of /proc/*/stat after the name, which may be any bytes. Raises OSError."""
     with open(stat, "rb") as file:
         return file.read().rsplit(b")", 1)[1].split()
 
@@ -38,11 +38,11 @@ def times() -> Times:
 
 
 def times_of(process: int) -> Times:
-    """Return the times of one process' threads; none if it has ended."""
+    """Return the times of a process's threads; none if it has ended."""
     threads: Times = {}
-    with contextlib.suppress(OSError):  # ended meanwhile
+    with contextlib.suppress(OSError):  # it has ended
         for thread in os.listdir(f"/proc/{process}/task"):
-            # It may have ended meanwhile, or the kernel does not count.
+            # It may have ended, or the kernel does not count.
             with contextlib.suppress(OSError, ValueError):
                 with open(f"/proc/{process}/task/{thread}/schedstat") as file:
                     at_work, ready, _ = file.read().split()
@@ -51,8 +51,8 @@ def times_of(process: int) -> Times:
 
 
 def is_ready(process: int, thread: int) -> bool:
-    """Return whether a thread would work if it had a processor, or waits for the disk."""
-    with contextlib.suppress(OSError, IndexError):  # ended meanwhile
+    """Return whether a thread waits for a CPU or for the disk."""
+    with contextlib.suppress(OSError, IndexError):  # it has ended
         return fields_of(f"/proc/{process}/task/{thread}/stat")[0] in (b"R", b"D")
     return False
 
@@ -67,9 +67,9 @@ class CpuClock:
         ready: Callable[[int, int], bool] = is_ready,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
-        """ours: ids of the processes whose work is not the programs'; the set may grow later."""
+        """ours: ids of processes that do not count as programs; the set may grow later."""
         self._ours, self._read, self._ready, self._clock = ours, read, ready, clock
-        # When all, and the newest part, began, and what had been lost by then.
+        # (start, time lost until then): since the beginning, and since begin().
         self._whole_and_part = [(clock(), 0.0)]
         self._last_s = self._worked_s = clock()
         self._last: Times = {}
@@ -77,7 +77,7 @@ class CpuClock:
         self._next_s = self._lost_s = self._reach_s = 0.0
 
     def now(self) -> float:
-        """Return the programs' time [s]; look at them if that is due."""
+        """Return the programs' time [s]; look at the programs if that is due."""
         now_s = self._clock()
         if now_s >= self._next_s:
             self._look(now_s)
@@ -104,13 +104,13 @@ class CpuClock:
         self._next_s = now_s + max(0.05, (self._clock() - now_s) / LOOKING)
 
     def _ready_threads(self) -> Iterator[int]:
-        """Yield the master's, too: a program may wait for its answer."""
+        """Yield the ready threads, the master's included: a program may wait for its answer."""
         for thread, (process, _, _) in self._last.items():
             if process != os.getpid() and self._ready(process, thread):
                 yield thread
 
     def idle_s(self) -> float:
-        """Return how long the programs have done nothing [s of theirs]; 0 if nothing is counted."""
+        """Return how long the programs have been idle [s of their time]; 0 if it is not counted."""
         idle_s = self.now() - self._worked_s if self._last else 0.0
         if idle_s > STARVED_S and any(self._ready_threads()):
             self._worked_s = self.now()
@@ -118,7 +118,7 @@ class CpuClock:
         return idle_s
 
     def starved(self) -> bool:
-        """Return whether a thread is ready and has had no turn for long."""
+        """Return whether a ready thread has not run for long."""
         now_s = self._clock()
         return any(now_s - self._changed_s[thread] > STARVED_S for thread in self._ready_threads())
 
@@ -126,16 +126,16 @@ class CpuClock:
         return len({process for process, _, _ in self._last.values()} - self._ours)
 
     def begin(self) -> None:
-        """Let busy() judge what begins now on its own, too."""
+        """Let busy() also judge the time from now on."""
         self.now()
         self._whole_and_part[1:] = [(self._clock(), self._lost_s)]
 
     def busy(self) -> bool:
-        """Return whether a late answer proves little: a busy machine, since start or begin()."""
+        """Return whether the machine was busy, since start or begin(): delays prove little."""
         return max(self._lost_shares()) > BUSY
 
     def overloaded(self) -> bool:
-        """Return whether a late answer proves nothing: the machine was too busy."""
+        """Return whether the machine was so busy that a late answer proves nothing."""
         return self._lost_shares()[0] > OVERLOADED
 
     def _lost_shares(self) -> list[float]:

@@ -1,4 +1,4 @@
-"""Trusted helpers in processes of their own, forked from this one so that ROS is loaded once."""
+"""Trusted helpers in forked processes, so that ROS is loaded only once."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from typing import Any, Callable, Generic, Mapping, TypeVar, cast
 
 from tutorial_check.errors import CannotCheck
 
-ASK_AGAIN_S = 1.0  # whether an answer may still come
+ASK_AGAIN_S = 1.0  # then look whether an answer may still come
 FORK = multiprocessing.get_context("fork")
 Served = TypeVar("Served")
 
 
 class Remote:
-    """Stands for an object in another process: call(method, *arguments) calls its methods."""
+    """A proxy of an object in another process, whose methods call(method, *arguments) calls."""
 
     def __init__(self, call: Callable[..., object]) -> None:
         self._call = call
@@ -29,15 +29,15 @@ class Remote:
 
 
 class Helper(Generic[Served]):
-    """An object in a forked process; its methods are called through a socket, which, unlike a pipe,
-    no path in /proc opens: a student's program may plant a link to that.
+    """An object in a forked process. Its methods are called through a socket: unlike a pipe, it has
+    no path in /proc that opens it, to which a student's program could plant a link.
     """
 
     def __init__(self, make: Callable[[], Served], environment: Mapping[str, str]) -> None:
-        """make(): the object, called in the new process, in that environment."""
+        """make(): called in the new process, in that environment; returns the object."""
         self.remote = cast(Served, Remote(self.call))
         self._line, theirs = FORK.Pipe()
-        self._trouble = ""  # why it is asked no more
+        self._trouble = ""  # why it must not be called again
         about = (make, environment, theirs, self._line)
         self._process = FORK.Process(target=_serve, args=about, daemon=True)
         self._process.start()
@@ -55,11 +55,11 @@ class Helper(Generic[Served]):
         deadline_s: float = 60.0,
         in_vain: Callable[[], bool] = lambda: False,
     ) -> object:
-        """Return what the method returns. Raises CannotCheck if it fails or hangs, or did so once.
+        """Return what the method returns. Raises CannotCheck if it fails or hangs, or has hung.
 
-        in_vain(): whether it will never answer; asked when it has not for a while.
+        in_vain(): whether an answer can never come; called when none has come for a while.
         """
-        if self._trouble:  # a late answer would be taken for the answer to this call
+        if self._trouble:  # a late answer would look like the answer to this call
             raise CannotCheck(self._trouble)
         try:
             self._line.send((method, arguments))
@@ -84,7 +84,7 @@ class Helper(Generic[Served]):
 def _serve(
     make: Callable[[], Any], environment: Mapping[str, str], line: Connection, ours: Connection
 ) -> None:
-    ours.close()  # so that the end of the checker is the end of this line
+    ours.close()  # so that this connection ends with the checker
     os.setsid()
     nowhere = os.open(os.devnull, os.O_RDWR)
     for stream in (0, 1, 2):
@@ -98,7 +98,7 @@ def _serve(
         try:
             method, arguments = line.recv()
         except EOFError:
-            os._exit(0)  # whatever threads of ROS still run
+            os._exit(0)  # whatever ROS threads still run
         try:
             served = served or make()
             line.send((True, getattr(served, method)(*arguments)))
@@ -122,7 +122,7 @@ class MasterProcess:
         os._exit(0)
 
     def uri(self) -> str | None:
-        """Return where it answers; None if it does not start."""
+        """Return its URI; None if it does not start."""
         end = time.monotonic() + 30
         while self._master.uri is None and time.monotonic() < end:
             time.sleep(0.002)

@@ -1,7 +1,7 @@
-"""Programs of others: started with limits, read with a limit, and always ended.
+"""Run students' programs: with limits, with bounded output, and always ended.
 
-One thread does it all: each wait also reads what the programs print, so that none blocks on its
-output, and endless output costs only the reading.
+A single thread does it all: each wait also reads what the programs print, so that none blocks on
+its output, and endless output costs only the reading.
 """
 
 from __future__ import annotations
@@ -21,27 +21,27 @@ from tutorial_check.processes.cpu_clock import CpuClock, fields_of
 from tutorial_check.processes.started_program import Program
 from tutorial_check.sandbox import landlock, privileges
 
-GRACE_S = 3.0  # after Ctrl-C a program has this long to end by itself
-IDLE_S = 2.0  # programs idle for so long wait for what does not come; a talker may be for 1 s
-MOST_PROCESSES = 100  # a launch file's are a dozen
-ENDED = (b"Z", b"X")  # states of processes that are no more than a number
+GRACE_S = 3.0  # after Ctrl-C a program has this long to exit
+IDLE_S = 2.0  # programs idle for this long wait in vain; a talker may sleep for 1 s
+MOST_PROCESSES = 100  # a launch file starts about a dozen
+ENDED = (b"Z", b"X")  # states of processes that have exited
 Value = TypeVar("Value")
 
 
 class Runner:
-    """All programs of one check of one workspace."""
+    """All programs of one worker."""
 
     def __init__(
         self, environment: Mapping[str, str], alone: bool, reader: int, ruleset: int | None
     ) -> None:
-        """alone: in a PID namespace of their own. reader: a socket whose other end waits for what
-        is found. ruleset: see landlock.
+        """alone: in a PID namespace of their own. reader: a socket whose other end waits for the
+        replies. ruleset: see landlock.
         """
         self.environment = environment
         self._alone, self._ruleset = alone, ruleset
         self._limits = privileges.limits_of_programs()
         self._open: list[Program] = []
-        # Left alone: ours, and those that we start, which lead sessions of their own.
+        # Not ended: our processes, and helpers, which lead sessions of their own.
         self.trusted = {os.getsid(0), os.getpid()}
         self.clock = CpuClock(self.trusted)
         self._selector = selectors.PollSelector()  # what programs print
@@ -54,7 +54,7 @@ class Runner:
         trusted: bool = False,
         stdin: int = DEVNULL,
     ) -> Program:
-        """Start a program. stdin: a descriptor. Raises OSError if there is nothing to start."""
+        """Start a program. stdin: a descriptor. Raises OSError if the program does not exist."""
         process = subprocess.Popen(
             command,
             bufsize=0,
@@ -63,7 +63,7 @@ class Runner:
             stderr=STDOUT,
             cwd=self.environment["HOME"],
             env={**self.environment, **(environment or {})},
-            start_new_session=True,  # with a group that Ctrl-C reaches, as in a terminal
+            start_new_session=True,  # with a process group for Ctrl-C, as in a terminal
             preexec_fn=None if trusted else self._restrict,  # noqa: PLW1509  one thread
         )
         if trusted:
@@ -75,7 +75,7 @@ class Runner:
         return program
 
     def _restrict(self) -> None:
-        """In the child, before the student's program: its limits and rights."""
+        """Set limits and rights, in the child, before the student's program runs."""
         for number in (signal.SIGINT, signal.SIGHUP, signal.SIGTERM):
             signal.signal(number, signal.SIG_DFL)
         privileges.limit(self._limits)
@@ -90,8 +90,8 @@ class Runner:
     ) -> Value:
         """Return the first true value of condition(), or its value at the deadline, by CpuClock.
 
-        or_idle: or when the programs have done nothing for IDLE_S. Raises CutShort for one that
-        multiplies without end, SystemExit when nobody waits; clear() ends what was started.
+        or_idle: also stop when the programs have been idle for IDLE_S. Raises CutShort if one
+        multiplies without end, SystemExit if the reader has closed; clear() ends what was started.
         """
         began_s = self.clock.now()
         while True:
@@ -104,12 +104,12 @@ class Runner:
             if value or is_over:
                 return value
             if self._alone and self.clock.crowd() > MOST_PROCESSES:
-                self._reap()  # those that have ended do not count
+                self._reap()  # those that have exited do not count
                 if len(self._strays()) > MOST_PROCESSES:
                     raise CutShort(MULTIPLIES, f"more than {MOST_PROCESSES} processes")
-            # Asking takes others' time.
+            # Evaluating the condition takes CPU time from the programs.
             for key, _ in self._selector.select(max(0.01, 2 * (time.monotonic() - asked_s))):
-                if key.data is None:  # no question comes before the answer
+                if key.data is None:  # it sends no question before the reply, so it has closed
                     sys.exit("the checker has ended")
                 self._read(key.data)
 
@@ -123,7 +123,7 @@ class Runner:
         return self.end_all([program], grace_s)[0]
 
     def end_all(self, programs: Sequence[Program], grace_s: float = GRACE_S) -> list[float | None]:
-        """End several at once; return how long each took."""
+        """End several programs at once; return how long each took."""
         began_s = time.monotonic()
         took_s: dict[Program, float] = {}
         for program in programs:
@@ -136,19 +136,19 @@ class Runner:
             return len(took_s) == len(programs)
 
         self.wait(all_ended, grace_s)
-        for program in programs:  # with what one that has ended left behind in its group
+        for program in programs:  # also what it left behind in its process group
             program.signal(signal.SIGKILL)
             program.process.wait()
-            self._read(program)  # at most a pipe's size is left, which is read at once
+            self._read(program)  # at most a pipe's size is left, which one read takes
         return [took_s.get(program) for program in programs]
 
     def clear(self) -> None:
-        """End all that is left, whatever it is called and whatever started it."""
+        """End every process that is left, whatever started it."""
         for program in self._open:
             program.stop(signal.SIGKILL)
         for _ in range(100):
             stopped: set[int] = set()
-            # One that forks without end comes to the limit of its processes.
+            # A fork bomb reaches its limit of processes.
             while new := set(self._strays()) - stopped:
                 _signal(new, signal.SIGSTOP)
                 stopped |= new
@@ -162,7 +162,7 @@ class Runner:
         self._reap()
 
     def _reap(self) -> None:
-        """Reap orphans that have ended: until then they count against the user's limit."""
+        """Reap orphans that have exited: until then they count towards the user's limit."""
         known = {program.process.pid for program in self._open} | self.trusted
         for pid, state, parent, _ in processes():
             if state in ENDED and parent == os.getpid() and pid not in known:
@@ -170,7 +170,7 @@ class Runner:
                     os.waitpid(pid, os.WNOHANG)
 
     def _strays(self) -> list[int]:
-        """Return the ids of the living below this process, whose children orphans become."""
+        """Return the ids of living descendants; orphans become children of this process."""
         visible, ours = list(processes()), {os.getpid()}
         below: set[int] = set()
         while more := {pid for pid, _, parent, _ in visible if parent in below | ours} - below:
@@ -186,8 +186,8 @@ def _signal(pids: Iterable[int], number: int) -> None:
 
 
 def processes() -> Iterator[tuple[int, bytes, int, int]]:
-    """Yield id, state, parent, session of each visible process."""
+    """Yield (id, state, parent, session) of each visible process."""
     for pid in filter(str.isdigit, os.listdir("/proc")):
-        with contextlib.suppress(OSError):  # ended meanwhile
+        with contextlib.suppress(OSError):  # it has ended
             state, parent, _, session = fields_of(f"/proc/{pid}/stat")[:4]
             yield int(pid), state, int(parent), int(session)

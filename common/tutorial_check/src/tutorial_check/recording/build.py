@@ -1,4 +1,4 @@
-"""What catkin_make makes of a workspace."""
+"""Recorders of builds with catkin_make."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ def built(workspace: Builder) -> Built:
 
 
 def own_built(workspace: Builder) -> Built:
-    """Build the packages of the exercises alone, as another may have kept them from it."""
+    """Build only the exercises' packages, because another package may have stopped the build."""
     return workspace.build(only_needed=True)
 
 

@@ -1,4 +1,4 @@
-"""A workspace that can be built, and whose programs have an environment to run in."""
+"""A workspace that can be built, and the environment of its programs."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from tutorial_check.submission.manifests import is_stand_in
 from tutorial_check.submission.order import Order
 from tutorial_check.submission.submission_files import SubmissionFiles
 
-SLOW_S = 120  # [s] for what needs a second, when the machine is very busy
+SLOW_S = 120  # [s] on a very busy machine, for what usually takes a second
 
 
 class Builder(SubmissionFiles):
-    """A SubmissionFiles whose programs can be built."""
+    """A workspace whose packages can be built."""
 
     def __init__(self, order: Order, task: Task, runner: Runner) -> None:
         super().__init__(order, task)
@@ -29,7 +29,7 @@ class Builder(SubmissionFiles):
         self._siblings = 0
 
     def sibling(self, package: str, script: str, text: str) -> str:
-        """Write a changed copy of a script beside it, so that its imports work; return its path."""
+        """Write a changed copy beside a script, so that its imports work; return its path."""
         original = self.package(package).folder / script
         self._siblings += 1
         changed = original.with_name(f"checked_{self._siblings}_{original.name}")
@@ -37,7 +37,7 @@ class Builder(SubmissionFiles):
         return str(Path(script).with_name(changed.name))
 
     def _ended(self, *command: str) -> tuple[Program, bool]:
-        """Return a program that was run, and whether it ended by itself."""
+        """Run a program; return it, and whether it ended by itself."""
         program = self.runner.start(command)
         ended = self.runner.wait(program.has_ended, SLOW_S)
         self.runner.end(program)
@@ -45,14 +45,14 @@ class Builder(SubmissionFiles):
 
     @cached_property
     def built(self) -> Built:
-        """Build all, or if that fails what exercises need: others may need what Debian lacks."""
+        """Build all; if that fails, what the exercises need: others may need what Debian lacks."""
         whole = self.build()
         if whole.code == 0 or len(self.needed) == len(self.packages):
             return whole
         part = self.build(only_needed=True)
         if part.code != 0:
             return whole
-        for package in self.packages:  # the suite's own takes the place of such a one
+        for package in self.packages:  # the suite's stand-in replaces it
             if is_stand_in(package.name):
                 student_files.put_file(self.folder, package.folder / "CATKIN_IGNORE", "")
         return replace(part, unbuilt=whole.output or " ")
@@ -69,7 +69,7 @@ class Builder(SubmissionFiles):
 
     @cached_property
     def environment(self) -> dict[str, str]:
-        """In which the student's programs find their packages before all others."""
+        """The environment in which a student's programs find their own packages first."""
         if self.needs_build() and self.built.code == 0:
             variables = self._sourced(self.folder / "ws" / "devel" / "setup.bash")
         else:
@@ -81,8 +81,8 @@ class Builder(SubmissionFiles):
         return {**variables, "CMAKE_PREFIX_PATH": prefixes}
 
     def _sourced(self, setup: Path) -> dict[str, str]:
-        """Return the environment after a setup.bash, which runs like a program of the student's."""
-        # What is printed before the first \0 is no variable.
+        """Return the environment after a setup.bash, which runs like a student's program."""
+        # Output before the first \0 is no variable.
         source = '. "$1" >/dev/null && printf "\\0" && env -0'
         program, _ = self._ended("bash", "-c", source, "bash", str(setup))
         printed, *variables = program.output.split("\0")
@@ -91,7 +91,7 @@ class Builder(SubmissionFiles):
         return environment_of(variables)
 
     def command(self, package: str, script: str) -> list[str]:
-        """Return the command that starts a script as rosrun does: catkin's own copy, if any."""
+        """Return the command with which rosrun starts a script: catkin's own copy, if any."""
         own_name = self.task.name_of(package)
         installed = self.folder / "ws" / "devel" / "lib" / own_name / Path(script).name
         self.environment  # noqa: B018  builds, if need be

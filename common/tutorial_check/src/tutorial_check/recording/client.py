@@ -1,4 +1,4 @@
-"""The checker's end of any type: services, messages, parameters and transforms."""
+"""The checker's node for any type: services, messages, parameters and transforms."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ from tutorial_check.submission.tracebacks import last_lines
 
 Heard = Tuple[float, str, Dict[str, Any]]  # (when it came [s], from which node, its fields)
 MOST_BYTES = 64 << 20
-SLOW_S = 15.0  # for what needs no program of the student's
+SLOW_S = 15.0  # for replies that need no student's program
 
 
 @dataclass(frozen=True)
 class ServiceAnswer:
-    """What came of a call of a service: the fields of the response, or why there is none."""
+    """The result of a service call: the fields of the response, or why there is none."""
 
     values: Optional[Dict[str, Any]]
     trouble: str = ""
@@ -33,7 +33,7 @@ class ServiceAnswer:
 
 @dataclass(frozen=True)
 class FrameTransform:
-    """Where the source is in the target frame, (x, y, z) [m], and its rotation, (x, y, z, w)."""
+    """Pose of the source in the target frame: (x, y, z) [m], and the rotation (x, y, z, w)."""
 
     translation: Tuple[float, ...]
     rotation: Tuple[float, ...]
@@ -41,7 +41,7 @@ class FrameTransform:
 
 @dataclass(frozen=True)
 class Seen:
-    """A program beside a Client: what that heard, of each topic and service, and was answered."""
+    """A program, and what a Client received on each topic and service, and as answers."""
 
     program: Ran
     heard: Dict[str, Tuple[Dict[str, Any], ...]]
@@ -50,39 +50,39 @@ class Seen:
 
 
 def _fault(why: object) -> CannotCheck:
-    """Return that the course is at fault, with FILE:LINE of it that called the Client."""
+    """Return the CannotCheck for a mistake in the course, with the FILE:LINE of the call."""
     frames = traceback.extract_stack()[::-1]
     frame = next(frame for frame in frames if frame.filename != __file__)
     return CannotCheck(f"{Path(frame.filename).name}:{frame.lineno}: {why}")
 
 
 class Client:
-    """A node on a ros; see common/doc/COURSES.md.
+    """A node in a RosSession; see common/doc/COURSES.md and client_node.
 
-    If a type of the student's workspace is missing or does not fit the values, that is their
-    mistake, and ends the recording; with another type it is the course's. See client_node, too.
+    If a type of the student's workspace is missing or does not fit the values, that is the
+    student's mistake, and ends the recording; with any other type it is the course's.
     """
 
     def __init__(self, ros: RosSession) -> None:
-        """Start it, with the student's rights: it imports what their workspace generates."""
+        """Start it, with the student's rights, as it imports code that the workspace generates."""
         self._ros, self._numbers, self._buffer = ros, itertools.count(), b""
         self._answers: dict[int, Any] = {}
-        self._kinds: dict[str, str] = {}  # of topics that are advertised
+        self._kinds: dict[str, str] = {}  # of advertised topics
         self._line, theirs = socket.socketpair()
         self._line.settimeout(SLOW_S)
         command = ["/usr/bin/python3", str(Path(__file__).with_name("client_node.py"))]
         self._node = ros.runner.start(command, ros.environment, stdin=theirs.fileno())
         theirs.close()
-        self._tell("services")  # it is up: what programs do soon is not missed
+        self._tell("services")  # now it is up, and misses nothing
 
     def fields(self, kind: str) -> Tuple[str, ...]:
-        """Return "TYPE NAME" of each field of a message; of a service with "---" in between."""
+        """Return "TYPE NAME" of each field of a message, or of a service, with "---" in between."""
         return tuple(self._tell("fields", kind, of=kind))
 
     def ask(
         self, service: str, kind: str, values: object = None, seconds: float = START_S
     ) -> ServiceAnswer:
-        """Call a service once it is there; wait no longer than that for the response."""
+        """Wait for a service and call it. seconds: until the response, at most."""
         response = self._tell("ask", service, kind, values or {}, of=kind, seconds=seconds)
         if response:
             return ServiceAnswer(*response)
@@ -91,7 +91,7 @@ class Client:
         return ServiceAnswer(None, f"{service} does not respond" if service in known else trouble)
 
     def serve(self, service: str, kind: str, values: object) -> None:
-        """Offer a service that always responds with these values; heard() has the requests."""
+        """Provide a service with this response; heard() returns the requests."""
         self._tell("serve", service, kind, values, of=kind)
 
     def listen(self, topic: str, kind: str) -> None:
@@ -102,7 +102,7 @@ class Client:
         return [(at_s, node, values) for at_s, node, values in self._tell("heard", name, since)]
 
     def seen(self, program: Program, *names: str, answers: Sequence[object] = ()) -> Seen:
-        """Return what was seen until now. names: of topics and services; answers: plain values."""
+        """Return what was seen so far. names: of topics and services. answers: plain values."""
         if isinstance(answers, (dict, ServiceAnswer)) or any(
             isinstance(it, ServiceAnswer) for it in answers
         ):
@@ -118,11 +118,11 @@ class Client:
         self._kinds[topic] = kind
 
     def send(self, topic: str, values: object) -> float:
-        """Publish one message on a topic that is advertised; return when [s]."""
+        """Publish a message on an advertised topic; return the time [s]."""
         return float(self._tell("send", topic, values, of=self._kinds[topic]))
 
     def meet(self, program: Program, *topics: str) -> bool:
-        """Wait until a program has connected on these topics, and return whether it has."""
+        """Wait until a program has connected on these topics; return whether it has."""
 
         def has_met() -> bool:
             return all(self._tell("connections", topic) for topic in topics)
@@ -137,16 +137,16 @@ class Client:
     def lookup(
         self, target: str, source: str, seconds: float = START_S
     ) -> Optional[FrameTransform]:
-        """Return the newest transform, or None if there is none within that time."""
+        """Return the newest transform, or None if none arrives in that time."""
         newest = self._ros.wait(lambda: self._tell("lookup", target, source), seconds)
         return FrameTransform(*map(tuple, newest)) if newest else None
 
     def transforms(self) -> Tuple[str, ...]:
-        """Return "PARENT -> CHILD" of each transform that came since the first lookup()."""
+        """Return "PARENT -> CHILD" of each transform that has arrived since the first lookup()."""
         return tuple(self._tell("transforms"))
 
     def _tell(self, what: str, *about: Any, of: str = "", seconds: Optional[float] = None) -> Any:
-        """Return the node's answer; None after seconds. of: the type that it is about."""
+        """Return the node's answer; None after that many seconds. of: the type in question."""
         number = next(self._numbers)
         try:
             line = json.dumps({"id": number, "do": what, "with": about})
@@ -168,7 +168,7 @@ class Client:
         return answer["value"]
 
     def _has(self, number: int) -> bool:
-        """Return whether an answer has come, or none will; read what there is, of others, too."""
+        """Return whether an answer has come, or none will come; read all that have come."""
         if select.select([self._line], [], [], 0)[0]:
             with contextlib.suppress(OSError):
                 self._buffer += self._line.recv(1 << 20)

@@ -1,8 +1,9 @@
-"""A node for any type: services, messages, parameters, transforms. See Client, which starts it.
+"""A node for any type: services, messages, parameters, transforms. Client starts it.
 
-It has the student's rights, as it imports what their workspace generates. Standard input is a
-socket: a line of JSON, {"id", "do", "with"}, is answered by {"id", "value"}; by {"id", "fault"}, if
-no such type exists or values do not fit it; or by {"id", "error"}. No line waits for another.
+It has the student's rights, because it imports code that their workspace generates, and imports
+nothing else of the checker. Standard input is a socket. A line of JSON, {"id", "do", "with"}, is
+answered by {"id", "value"}; by {"id", "fault"} if the type is unknown or the values do not fit it;
+or by {"id", "error"}. Lines do not wait for each other.
 """
 
 from __future__ import annotations
@@ -30,11 +31,11 @@ REFUSED = genpy.MessageException, genpy.SerializationError
 
 
 class CallerError(Exception):
-    """There is no such type, or values do not fit it."""
+    """The type is unknown, or the values do not fit it."""
 
 
 def class_of(kind: str, of_service: bool = False) -> type[genpy.Message]:
-    """Return the class of a type, as it was generated. Raises CallerError."""
+    """Return the generated class of a type. Raises CallerError."""
     cls = service_class(kind) if of_service else message_class(kind)
     if cls is None:
         raise CallerError(f"there is no type {kind}")
@@ -42,7 +43,7 @@ def class_of(kind: str, of_service: bool = False) -> type[genpy.Message]:
 
 
 def plain(value: object) -> object:
-    """Return a message, or a value of it, in maps, lists, texts and numbers."""
+    """Return a message, or a value of it, as maps, lists, texts and numbers."""
     if isinstance(value, (genpy.Time, genpy.Duration)):
         return {"secs": value.secs, "nsecs": value.nsecs}
     if isinstance(value, genpy.Message):
@@ -51,7 +52,7 @@ def plain(value: object) -> object:
 
 
 def message_of(kind: type[genpy.Message], values: object) -> genpy.Message:
-    """Return a message of a class with values as rostopic pub takes them. Raises CallerError."""
+    """Return a message of a class, with values as for rostopic pub. Raises CallerError."""
     message, now = kind(), rospy.Time.now()
     words = values if isinstance(values, list) else [values]
     try:
@@ -70,7 +71,7 @@ def _fields_of(cls: Any) -> list[str]:
 
 
 class ClientNode:
-    """Its methods are what a line may ask for."""
+    """The node, whose public methods a line may call."""
 
     def __init__(self, line: socket.socket) -> None:
         self._line, self._sending = line, threading.Lock()
@@ -98,7 +99,7 @@ class ClientNode:
         )
 
     def ask(self, service: str, kind: str, values: object) -> tuple[object, str]:
-        """Return (response, "") or (None, why there is none)."""
+        """Call a service; return (response, "") or (None, why there is none)."""
         cls = class_of(kind, of_service=True)
         request = message_of(cls._request_class, values)
         try:
@@ -150,7 +151,7 @@ class ClientNode:
         return rospy.get_param(name, None)
 
     def lookup(self, target: str, source: str) -> list[list[float]] | None:
-        """Return the values of a translation and a rotation, or None as long as there are none."""
+        """Return the values of translation and rotation, or None until there are some."""
         import tf2_ros  # noqa: PLC0415  only where it is wanted
 
         if self._tf is None:
@@ -164,12 +165,12 @@ class ClientNode:
             return None
 
     def transforms(self) -> list[str]:
-        """Return "PARENT -> CHILD" of each that came since the first lookup."""
+        """Return "PARENT -> CHILD" of each transform that has arrived since the first lookup."""
         known = yaml.safe_load(self._tf[0].all_frames_as_yaml()) if self._tf else None
         return sorted(f"{about['parent']} -> {child}" for child, about in (known or {}).items())
 
     def answer(self, text: str) -> None:
-        """Answer a line."""
+        """Reply to a line."""
         asked = json.loads(text)
         answer = {"id": asked["id"]}
         try:
@@ -183,14 +184,14 @@ class ClientNode:
 
 
 def main() -> None:
-    """Answer until the other end of the socket is closed."""
+    """Reply until the other end of the socket is closed."""
     line = socket.socket(fileno=os.dup(0))
     connect_once()
     rospy.init_node(NAME, disable_signals=True, disable_rosout=True)
     node = ClientNode(line)
     for text in line.makefile():
         threading.Thread(target=node.answer, args=[text], daemon=True).start()
-    os._exit(0)  # whatever still waits
+    os._exit(0)  # even if calls still wait
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
-"""What launch files would start, read as roslaunch reads them and nothing started.
+"""Print what launch files would start, read as roslaunch reads them; start nothing.
 
-A separate program with the student's rights, as it reads what launch files name. Its arguments are
-launch files; it prints a line for each, MARK and a JSON object.
+This is a separate program with the student's rights, because it reads what launch files name. For
+each launch file in its arguments it prints a line: MARK and a JSON object.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ MARK = "launch facts: "
 
 @functools.lru_cache(maxsize=None)
 def can_be_found(package: str, kind: str) -> bool | None:
-    """Return whether there is a program; None if there is no such package, either."""
+    """Return whether a program exists; None if its package does not exist, either."""
     import roslib.packages  # noqa: PLC0415
     import rospkg  # noqa: PLC0415
 
@@ -34,10 +34,10 @@ def can_be_found(package: str, kind: str) -> bool | None:
 
 
 def _device_of(node: Any, params: Any) -> str:
-    """Return the device that a node is made to read, as joy_node is; or empty."""
+    """Return the device that a node such as joy_node is told to read; or ""."""
     try:
         words = shlex.split(node.args or "")
-    except ValueError:  # as a quote without its second; see HandoutLaunch.words_of
+    except ValueError:  # such as an unclosed quote; see HandoutLaunch.words_of
         words = []
     in_args = [word[len("_dev:=") :] for word in words if word.startswith("_dev:=")]
     in_file = params.get(f"{node.namespace}{node.name}/dev")
@@ -45,7 +45,7 @@ def _device_of(node: Any, params: Any) -> str:
 
 
 def place_of_tag(file: str, tag: Element) -> tuple[str, int]:
-    """Return (file, line) of a tag, which minidom knows by its order alone."""
+    """Return (file, line) of a tag, of which minidom knows only the position among the tags."""
     assert tag.ownerDocument
     lines: list[int] = []
     parser = expat.ParserCreate()
@@ -55,12 +55,12 @@ def place_of_tag(file: str, tag: Element) -> tuple[str, int]:
 
 
 def fault_of(error: BaseException, path: str) -> dict[str, object]:
-    """Return the cause of an error of roslaunch's, for Fault. path: the launch file."""
+    """Return the fields of Fault for an error of roslaunch. path: the launch file."""
     chain = [error]
     while chain[-1].__context__:
         chain.append(chain[-1].__context__)
     frames = [frame for cause in chain for frame, _ in traceback.walk_tb(cause.__traceback__)]
-    # A <remap> in a <node> is t there.
+    # roslaunch calls the tag of a <remap> in a <node> t.
     key = "t" if any(frame.f_code.co_name == "add_remap" for frame in frames) else "tag"
     places, name = [(path, 1)], ""
     for about in (frame.f_locals for frame in frames if "xmlloader" in frame.f_code.co_filename):
@@ -88,14 +88,14 @@ def _node(node: Any, params: Any) -> dict[str, object]:
 
 
 def facts_of(path: str) -> dict[str, object]:
-    """Return what a launch file says; with an error, as far as roslaunch reads it."""
+    """Return the content of a launch file; if it has an error, as far as roslaunch reads it."""
     import roslaunch.config  # noqa: PLC0415
     import roslaunch.loader  # noqa: PLC0415
 
     value_of = roslaunch.loader.Loader.param_value
 
     def without_command(self: Any, *about: Any) -> Any:
-        """Do without what <param command=...> prints: wanted is only what would be started."""
+        """Run no <param command=...>: only what would be started matters."""
         *start, value, textfile, binfile, command = about
         return value_of(self, *start, value if command is None else "", textfile, binfile, None)
 
@@ -114,6 +114,6 @@ def facts_of(path: str) -> dict[str, object]:
 
 
 if __name__ == "__main__":
-    sys.path.pop(0)  # this folder, where roslaunch needs nothing
+    sys.path.pop(0)  # this folder, whose modules roslaunch must not import
     for argument in sys.argv[1:]:
         print(MARK + json.dumps(facts_of(argument)), flush=True)

@@ -1,4 +1,4 @@
-"""Launch files as roslaunch reads them, and a launch file at work."""
+"""A recorder of what roslaunch reads in launch files, and a launch file that runs."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from tutorial_check.recording.ros_session import RosSession
 from tutorial_check.recording.workspace import Workspace
 from tutorial_check.submission.tracebacks import last_lines
 
-READ_S = 15.0  # for all four files
+READ_S = 15.0  # for all files
 DIED = re.compile(r"^\[([^\]]+)-\d+\] process has died", re.MULTILINE)
 
 
@@ -38,24 +38,24 @@ def read_launch_files(workspace: Workspace, *paths: str) -> ReadLaunchFiles:
 
 
 class Launch:
-    """A launch file that runs on a ros."""
+    """A launch file that runs in a RosSession."""
 
     def __init__(self, ros: RosSession, path: str, *arguments: str) -> None:
-        """Start it. path: within src; arguments: such as x:=1."""
+        """Start it. path: within src. arguments: such as x:=1."""
         self._ros = ros
         self.program = ros.launch(["roslaunch", str(ros.workspace.source / path), *arguments])
 
     @property
     def nodes(self) -> Tuple[str, ...]:
-        """The nodes that the master knows, without the checker's."""
+        """The nodes at the master, without the checker's."""
         return tuple(sorted(self._ros.peer.state()[0].get("/rosout", ())))
 
     @property
     def died(self) -> Tuple[str, ...]:
-        """Nodes of which roslaunch printed that they have died."""
+        """The nodes that roslaunch reports as dead."""
         return tuple(DIED.findall(self.program.output))
 
     @property
     def is_over(self) -> bool:
-        """Whether it has ended, or a node of it."""
+        """Whether it, or one of its nodes, has ended."""
         return self.program.ended or bool(self.died)

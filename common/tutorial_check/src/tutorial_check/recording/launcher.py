@@ -1,4 +1,4 @@
-"""Starts a worker, isolated: copies what was handed in, and gives it what programs need."""
+"""Start an isolated worker with a copy of the submission and the environment of its programs."""
 
 from __future__ import annotations
 
@@ -19,16 +19,16 @@ from tutorial_check.sandbox.environment import environment_of
 from tutorial_check.submission import handed_in
 from tutorial_check.submission.order import Order
 
-# Of a shell of the suite: roscore.xml, for a faster roslaunch; what CMake 4 needs for catkin.
+# Set in a ./tutorial shell: roscore.xml, for a faster roslaunch; what catkin needs with CMake 4.
 OF_SUITE = ("ROS_ETC_DIR", "CMAKE_POLICY_VERSION_MINIMUM")
 NUMBERS = itertools.count(os.getpid() * 100)
 
 
 @contextlib.contextmanager
 def started(bare: Order) -> Iterator[tuple[Order, Worker]]:
-    """Yield the whole order and a worker that can record."""
+    """Yield the complete order and a worker that can record."""
     user = privileges.unused_user(next(NUMBERS)) if os.geteuid() == 0 else None
-    # Isolated, a worker does not reach the folder itself.
+    # An isolated worker cannot remove the folder itself.
     folder, cleaner = privileges.folder_until_end("tutorial_check_", user)
     try:
         order = prepared(bare, Path(folder))
@@ -49,7 +49,7 @@ def started(bare: Order) -> Iterator[tuple[Order, Worker]]:
 
 
 def prepared(bare: Order, folder: Path) -> Order:
-    """Copy a workspace or zip into an empty folder; return the whole order. Raises CannotCheck."""
+    """Copy a workspace or zip into an empty folder; complete the order. Raises CannotCheck."""
     layout, inside = handed_in.hand_in(os.path.abspath(bare.workspace), folder)
     handed_in.must_be_ones_own(layout, SUITE)
     within = None if bare.is_callers_own else inside
@@ -57,7 +57,7 @@ def prepared(bare: Order, folder: Path) -> Order:
     readable = [inside, copied]
     if bare.is_callers_own:
         readable += [layout.source, *map(Path, handed_in.named_outside(copied))]
-    # A home folder is no workspace, though one may be in it.
+    # A home folder is not shown, even if it has a workspace.
     home = Path(os.path.expanduser("~")).resolve()
     readable = [path for path in readable if path.resolve() not in (home, *home.parents)]
     bare = sourced(bare)
@@ -68,7 +68,7 @@ def prepared(bare: Order, folder: Path) -> Order:
 
 
 def sourced(bare: Order) -> Order:
-    """Return an order with the environment of a shell of its underlay. Raises CannotCheck."""
+    """Return an order with the environment of its underlay. Raises CannotCheck."""
     if bare.environment:
         return bare
     if not os.path.isfile(bare.underlay):
@@ -79,7 +79,7 @@ def sourced(bare: Order) -> Order:
 
 
 def _needed(underlay: str) -> tuple[Path, ...]:
-    """Return what programs need: the underlay and its sources, this package among them."""
+    """Return what programs need: the underlay and its sources, including this package."""
     devel = Path(underlay).parent
     names = devel / ".catkin"
     sources = filter(None, names.read_text().split(";") if names.is_file() else [])
@@ -89,7 +89,7 @@ def _needed(underlay: str) -> tuple[Path, ...]:
 
 @functools.lru_cache(maxsize=None)
 def _environment(underlay: str) -> dict[str, str]:
-    """Return what a shell has that has sourced setup.bash, and nothing else. Raises CannotCheck."""
+    """Return the environment of a bare shell that sourced setup.bash. Raises CannotCheck."""
     words = ["bash", "-c", '. "$1" >/dev/null && env -0', "bash", underlay]
     bare = {"PATH": "/usr/bin:/bin", "LANG": "C.UTF-8"}
     about: dict[str, Any] = {"env": bare, "capture_output": True, "timeout": 120, "text": True}
@@ -98,15 +98,15 @@ def _environment(underlay: str) -> dict[str, str]:
     except (OSError, subprocess.SubprocessError) as error:
         why = (getattr(error, "stderr", "") or str(error))[-200:]
         raise CannotCheck(f"{underlay} cannot be sourced: {why}") from None
-    # rospy loads numpy, which starts a thread for each processor; none is needed here.
+    # rospy loads numpy, which would start a thread for each CPU.
     variables = environment_of(done.stdout.split("\0"))
     own = {name: os.environ[name] for name in OF_SUITE if name in os.environ}
-    # Nor what a student's program puts into a home folder for all that Python starts later.
+    # No Python here loads what a student's program has put into its home folder.
     return {**variables, **own, "OPENBLAS_NUM_THREADS": "1", "PYTHONNOUSERSITE": "1"}
 
 
 def must_start_programs(order: Order, is_other: bool) -> None:
-    """Raise CannotCheck where no program can be started. is_other: as another user."""
+    """Raise CannotCheck if no program can be started. is_other: as another user."""
     if not order.in_namespaces and os.statvfs(order.folder).f_flag & os.ST_NOEXEC:
         why = "is mounted noexec: set TMPDIR to another folder"
         raise CannotCheck(f"no program can be started: {order.folder.parent} {why}")
@@ -114,7 +114,7 @@ def must_start_programs(order: Order, is_other: bool) -> None:
     ways = {up for path in (order.folder, *needed) for up in path.parents} if is_other else set()
     for folder in sorted(needed if order.in_namespaces else needed | ways):
         if not folder.stat().st_mode & 0o001:
-            # What is below a needed one is as closed; but a home folder is opened no further.
+            # Open everything below a needed folder, but of a home folder only the folder itself.
             is_needed = needed & {folder, *folder.parents}
             how = f"{'chmod -R o+rX' if is_needed else 'chmod o+x'} {folder}"
             how += ", or keep this suite, TUTORIAL_WORKSPACE and TMPDIR where others may enter"

@@ -1,4 +1,4 @@
-"""The other end of the student's topics, in a Helper's process; each method returns at once."""
+"""The checker's end of the topics, in a Helper's process; each method returns at once."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from node_kit.ros.rospy_patches.connections import connect_once
 from tutorial_check.data.recordings import Heard, HeardText, Topics
 
 NAME = "tutorial_check"
-JOY = "/joy"  # that it answers
+JOY = "/joy"  # that the Echo answers
 ECHO = f"/{NAME}/echo"  # topic of the Echo
 KINDS = {kind.__name__: kind for kind in (BumperEvent, Joy, LaserScan, Odometry, String, Twist)}
 MOST_KEPT = 20_000  # messages of a topic
@@ -53,7 +53,7 @@ def _plain(message: Any) -> Any:
 
 
 class _Warnings(logging.Handler):
-    """Keeps rospy's warnings: they name a topic whose types do not match."""
+    """Keeps rospy's warnings, which name topics whose types do not match."""
 
     def __init__(self) -> None:
         super().__init__(logging.WARNING)
@@ -65,7 +65,7 @@ class _Warnings(logging.Handler):
 
 
 class Echo:
-    """Our own correct joy2twist: the student's need not answer faster than this on this machine."""
+    """A correct joy2twist of ours: on this machine, the student's need not be faster."""
 
     def __init__(self, joy: str, axis: int) -> None:
         connect_once()
@@ -80,12 +80,12 @@ class Echo:
         self._publisher.publish(twist)
 
     def ready(self) -> bool:
-        """Return whether Joy messages come, and its own have a listener."""
+        """Return whether its publisher is connected."""
         return bool(self._publisher.get_num_connections() > 0)
 
 
 class Peer:
-    """A node with which the checker exchanges messages with the student's."""
+    """A node that exchanges messages with the student's nodes."""
 
     def __init__(self) -> None:
         connect_once()
@@ -121,11 +121,11 @@ class Peer:
         return int(self._publishers[topic].get_num_connections())
 
     def publishers(self, topic: str) -> int:
-        """Return how many publishers our subscriber is connected to."""
+        """Return to how many publishers our subscriber is connected."""
         return int(self._subscribers[topic].get_num_connections())
 
     def has_met(self, topic: str) -> bool:
-        """Return whether each of our ends of a topic has another end."""
+        """Return whether our publisher and subscriber of a topic are connected."""
         ours = (self._publishers.get(topic), self._subscribers.get(topic))
         return all(end.get_num_connections() for end in ours if end)
 
@@ -141,7 +141,7 @@ class Peer:
         return len(self._received[topic])
 
     def send(self, topic: str, values: object) -> float:
-        """Publish (axes, buttons), (bumper, state), 6 velocities or text; return when."""
+        """Publish (axes, buttons), (bumper, state), 6 velocities or a text; return the time [s]."""
         publisher = self._publishers[topic]
         make = {
             Joy: _joy,
@@ -152,7 +152,7 @@ class Peer:
         return time.monotonic()
 
     def stream(self, topic: str, joys: Sequence[object], rate: float, repeat: bool) -> None:
-        """Publish these one after the other at a rate [Hz], in a thread; see sent()."""
+        """Publish these in turn at a rate [Hz], in a thread; see sent()."""
         self._sent[topic], self._streams[topic] = [], threading.Event()
         _in_thread(self._stream, topic, joys, 1.0 / rate, repeat, self._streams[topic])
 
@@ -173,10 +173,10 @@ class Peer:
         self._streams[topic].set()
 
     def state(self) -> tuple[Topics, ...]:
-        """Return publishers and subscribers, without ourselves."""
+        """Return publishers and subscribers, without the checker's nodes."""
         with contextlib.suppress(OSError, rosgraph.MasterException):
             return tuple(map(_others, self._master.getSystemState()[:2]))
-        return {}, {}  # the master has gone; see RosSession.master_lives
+        return {}, {}  # the master has ended; see RosSession.master_lives
 
     def types(self) -> dict[str, str]:
         with contextlib.suppress(OSError, rosgraph.MasterException):
@@ -189,11 +189,11 @@ class Peer:
         return int(answer[2]) if answer else None
 
     def kill_node(self, node: str) -> None:
-        """Do what rosnode kill does, without waiting for the node."""
+        """Act like rosnode kill, but do not wait for the node."""
         _in_thread(self._ask, node, "shutdown", "user request")
 
     def _ask(self, node: str, method: str, *arguments: str) -> Any:
-        """Call a method of a node's; return its answer, or None."""
+        """Call a method of a node's XML-RPC API; return its answer, or None."""
         gone = contextlib.suppress(OSError, rosgraph.MasterException, xmlrpc.client.Error)
         with gone, xmlrpc.client.ServerProxy(self._master.lookupNode(node)) as proxy:
             return getattr(proxy, method)(f"/{NAME}", *arguments)

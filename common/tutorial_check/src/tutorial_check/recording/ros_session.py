@@ -1,4 +1,4 @@
-"""A ROS master, the checker's end of the topics, and what was started on it."""
+"""A ROS master, the checker's node, and the programs that were started."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ if TYPE_CHECKING:  # The module loads ROS.
     from tutorial_check.recording.peer import Echo, Peer
     from tutorial_check.recording.virtual_gamepad import VirtualGamepad
 
-START_S = 8.0  # a node of the student's has this long to appear
-SETTLE_S = 0.5  # once connected, a thread of it has this long to attach its callback
+START_S = 8.0  # a student's node has this long to appear
+SETTLE_S = 0.5  # after connecting, a node has this long to attach its callback
 
 
 class RosSession:
@@ -28,7 +28,7 @@ class RosSession:
 
     def __init__(self, workspace: Builder, renamed: bool = True) -> None:
         """Start a master and a peer. renamed: topics have the names of the student's task."""
-        # ROS, for all that are forked from here on. Not every check needs it, and it takes time.
+        # Load ROS for all processes forked later. It takes time, and not every check needs it.
         import rosmaster.master  # noqa: F401, PLC0415
 
         from tutorial_check.recording import peer  # noqa: PLC0415
@@ -40,8 +40,8 @@ class RosSession:
             port = probe.getsockname()[1]
         master = {"ROS_MASTER_URI": f"http://127.0.0.1:{port}"}
         self.environment = {**workspace.environment, **master}
-        # Our programs are found in the underlay alone, whatever the student has of their name. Logs
-        # are elsewhere: the student's may not write in folders of ours.
+        # Our programs come from the underlay, even if the student has packages of the same name.
+        # They log elsewhere, because the student's programs may not write into our folders.
         own = dict.fromkeys(("HOME", "ROS_HOME", "ROS_LOG_DIR"), str(workspace.folder / "ours"))
         self._ours = {**workspace.underlay_environment, **master, **own}
         self._helpers: list[Helper[Any]] = []
@@ -50,30 +50,30 @@ class RosSession:
             raise CannotCheck("no ROS master can be started here")
         self._peer = self.help(peer.Peer)
         self.peer = cast("Peer", Remote(self._call))
-        # As roscore does; else two roslaunch at once would each make up one, and one of them fail.
+        # As roscore does; else of two roslaunch, which would each choose one, one would fail.
         self.peer.set_parameter("/run_id", str(uuid.uuid4()))
-        # As common/node_kit/etc/ros/roscore.xml, which says why.
+        # See common/node_kit/etc/ros/roscore.xml.
         self.peer.set_parameter("/rosout_disable_topics_generation", False)
 
     def start(self, package: str, script: str, *arguments: str) -> Program:
         return self.launch([*self.workspace.command(package, script), *arguments])
 
     def help(self, make: Callable[..., Served], *arguments: object) -> Helper[Served]:
-        """Return a Helper with what make(*arguments) returns."""
+        """Return a Helper for the object that make(*arguments) returns."""
         helper = Helper(functools.partial(make, *arguments), self._ours)
         self.runner.trusted.add(helper.pid)
         self._helpers.append(helper)
         return helper
 
     def echo(self, axis: int) -> tuple[Echo, str]:
-        """Return an Echo of an axis, and the topic on which it answers."""
+        """Return an Echo of an axis, and its topic."""
         from tutorial_check.recording import peer  # noqa: PLC0415
 
         joy = self._topics.get(peer.JOY, peer.JOY)
         return self.help(peer.Echo, joy, axis).remote, peer.ECHO
 
     def plug_in(self, device: str = "/dev/input/js0") -> tuple[VirtualGamepad, Path]:
-        """Return a virtual F710 and its device, which is a FIFO elsewhere without namespaces."""
+        """Return a virtual F710 and its device; without namespaces, that is a FIFO elsewhere."""
         from tutorial_check.recording.virtual_gamepad import VirtualGamepad  # noqa: PLC0415
 
         workspace = self.workspace
@@ -83,7 +83,7 @@ class RosSession:
         return gamepad, path
 
     def start_ours(self, package: str, program: str, *arguments: str) -> Program:
-        """Start a program of the suite's. Without rosrun, which searches it for half a second."""
+        """Start one of the suite's programs, without rosrun, which searches for half a second."""
         path = Path(self.workspace.order.underlay).parent / "lib" / package / program
         renamed = [f"{topic}:={own}" for topic, own in self._topics.items()]
         return self.launch([str(path), *renamed, *arguments], trusted=True)
@@ -96,7 +96,7 @@ class RosSession:
             raise CutShort(CANNOT_START, seen) from None
 
     def _call(self, method: str, *arguments: object) -> object:
-        """Call the peer. Stop waiting if the master has ended: rospy would retry without end."""
+        """Call the peer. Stop waiting if the master has ended: rospy would retry forever."""
         if arguments:
             arguments = (self._topics.get(str(arguments[0]), arguments[0]), *arguments[1:])
         return self._peer.call(method, *arguments, in_vain=lambda: not self.master_lives)
@@ -107,14 +107,14 @@ class RosSession:
         return not self._master.ended
 
     def wait_for_start(self, condition: Callable[[], Value], deadline_s: float = START_S) -> Value:
-        """Wait until programs are as far as the condition says, or do nothing more."""
+        """Wait until a condition holds, or the programs are idle."""
         return self.wait(condition, deadline_s, or_idle=True)
 
     def meet(self, program: Program, *topics: str) -> bool:
-        """Return whether a program connected to ours on these topics; wait for that, or its end.
+        """Wait until a program connects on these topics, or ends; return whether it connected.
 
-        rospy connects before it attaches the callback, and a publisher counts a subscriber from the
-        connection on: what is sent in between is lost, so wait until all its threads wait.
+        rospy connects before it attaches the callback, and publishers count a subscriber from the
+        connection on. Messages sent in between are lost, so wait until all its threads wait.
         """
 
         def has_met() -> bool:

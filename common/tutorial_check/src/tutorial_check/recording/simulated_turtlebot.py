@@ -1,4 +1,4 @@
-"""The simulated TurtleBot on a ros: started by the checker, driven by a student's program."""
+"""The simulated TurtleBot, started by the checker and driven by a student's program."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from tutorial_check.processes.started_program import Program
 from tutorial_check.recording.ros_session import START_S, RosSession
 
 BUMPER, TRUTH = "/mobile_base/events/bumper", "/base_pose_ground_truth"
-ODOM = "/odom"  # in an empty plane there is no other truth
+ODOM = "/odom"  # in an empty plane it is the true pose
 LONGEST_DRIVE_S = 20.0
-NEWEST = 50  # samples, of a second
+NEWEST = 50  # samples, from one second
 
 
 @dataclass(frozen=True)
 class PoseSample:
-    """Where the robot was: stamp [s], pose in the world [m, rad], velocity [m/s, rad/s]."""
+    """A sample of the robot's path: stamp [s], pose [m, rad], velocity [m/s, rad/s]."""
 
     at_s: float
     x: float
@@ -29,7 +29,7 @@ class PoseSample:
 
 
 class SimulatedTurtleBot:
-    """A robot that drives as /cmd_vel says, and what it did."""
+    """A robot that follows /cmd_vel, and its path."""
 
     def __init__(self, ros: RosSession, *arguments: str) -> None:
         """Start it, with parameters such as _world:=room or _initial_x:=1.0. Raises CannotCheck."""
@@ -44,7 +44,7 @@ class SimulatedTurtleBot:
 
     @property
     def path(self) -> tuple[PoseSample, ...]:
-        """All that it did so far, 50 samples a second."""
+        """Its path so far, with 50 samples a second."""
         return tuple(map(_sample, self._ros.peer.received(self._poses)))
 
     @property
@@ -56,11 +56,11 @@ class SimulatedTurtleBot:
 
     @property
     def bumps(self) -> int:
-        """How often a bumper was pressed or released."""
+        """How many times a bumper was pressed or released."""
         return int(self._ros.peer.count(BUMPER))
 
     def drive(self, program: Program, longest_s: float = LONGEST_DRIVE_S) -> tuple[PoseSample, ...]:
-        """Return its path until it has moved and rests for a second, or for longest_s."""
+        """Wait until it has moved and rested for a second, or for longest_s; return its path."""
         self._ros.wait(lambda: program.ended or self.moves, START_S)
         if self.moves:
             self._ros.wait(lambda: not self.moves, longest_s)

@@ -1,4 +1,4 @@
-"""A virtual F710, in the process of a forked.Helper: the device is a FIFO."""
+"""A virtual F710, in a Helper's process; its device is a FIFO."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from typing import Callable, Tuple
 from gamepad.gamepads import F710
 from gamepad.io.pads import StreamPad
 
-MODE = F710["D"]  # as its switch stands
+MODE = F710["D"]  # position of its switch
 Position = Tuple[Tuple[float, ...], Tuple[int, ...]]  # (axes, buttons)
-PERIOD_S = 0.02  # how often it looks whether a driver has started to read
+PERIOD_S = 0.02  # between two looks whether a driver reads
 
 
 class VirtualGamepad:
-    """Stick and LB are where they were last put."""
+    """A gamepad whose stick and LB stay where they were last put."""
 
     def __init__(self, path: str, arranged: Callable[[Position], Position]) -> None:
-        """path: of the FIFO. arranged: the Joy of a task for one of the handout's."""
+        """path: of the FIFO. arranged: returns the task's Joy for one of the handout's."""
         os.makedirs(os.path.dirname(path), exist_ok=True)
         with contextlib.suppress(FileNotFoundError):
             os.unlink(path)
@@ -39,7 +39,7 @@ class VirtualGamepad:
         return bool(self._pad.connected)
 
     def push(self, left: float, forwards: float, lb: int = 1) -> None:
-        """Hold LB and put the stick there."""
+        """Hold LB, and push the stick to a position."""
         axes = (left, forwards, *(0.0 for _ in MODE.axes[2:]))
         buttons = (0, 0, 0, 0, lb, *(0 for _ in MODE.buttons[5:]))
         self._position = self._arranged((axes, buttons))

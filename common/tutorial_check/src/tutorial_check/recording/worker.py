@@ -1,7 +1,7 @@
-"""Records in isolation: python3 -m tutorial_check.recording.worker.
+"""Record in isolation: python3 -m tutorial_check.recording.worker.
 
-Standard output is a socket, which, unlike a pipe, is opened by no path in /proc. Each line is JSON:
-an Order, then Questions, each answered by a Reply. None of these names a folder of this machine.
+Standard output is a socket: unlike a pipe, it has no path in /proc that opens it. Each line is
+JSON: an Order, then Questions, each answered by a Reply. Replies name no folder of this machine.
 """
 
 from __future__ import annotations
@@ -30,29 +30,29 @@ from tutorial_check.submission.order import Order, Question, Reply
 
 
 def main() -> None:
-    """Read the order, then record what is asked for until nobody asks any more."""
+    """Read the order, then answer questions until the connection closes."""
     privileges.keep_to_itself()
     line = socket.socket(fileno=os.dup(1))
     line.set_inheritable(False)
-    os.dup2(2, 1)  # nothing else gets into the answers
+    os.dup2(2, 1)  # so that nothing else gets into the replies
     lines = line.makefile()
     order = from_json(Order, json.loads(next(lines)))
     if order.in_namespaces:
         privileges.prctl(privileges.PR_SET_PDEATHSIG, signal.SIGKILL)  # ends with bwrap
-    else:  # its runner notices that the reader has ended, and ends what was started
+    else:  # its runner notices the end of the reader, and ends the programs
         signal.signal(signal.SIGTERM, signal.SIG_IGN)
-        # In a container no other process may reap.
+        # In a container there may be no other process that reaps.
         privileges.prctl(privileges.PR_SET_CHILD_SUBREAPER, 1)
     try:
         for reply in _replies(order, line.fileno(), lines):
-            with contextlib.suppress(OSError):  # nobody listens
+            with contextlib.suppress(OSError):  # the reader has ended
                 line.sendall(json.dumps(as_json(reply)).encode() + b"\n")
     finally:  # the process that made the folder may have been killed
         shutil.rmtree(order.folder, ignore_errors=True)
 
 
 def _replies(order: Order, reader: int, lines: Iterable[str]) -> Iterator[Reply]:
-    """Yield that it is ready, then the reply to each question. reader: see Runner."""
+    """Yield a Reply when ready, then the reply to each question. reader: see Runner."""
     try:
         workspace = _prepared(order, reader)
     except Exception as error:
@@ -64,11 +64,11 @@ def _replies(order: Order, reader: int, lines: Iterable[str]) -> Iterator[Reply]
             reply = reply_to(from_json(Question, json.loads(line)), workspace)
             yield workspace.places.named(reply)
     finally:
-        workspace.runner.clear()  # a build, too, is ended; without a namespace nothing else ends it
+        workspace.runner.clear()  # ends builds, too: without a namespace nothing else does
 
 
 def reply_to(question: Question, workspace: Workspace) -> Reply:
-    """Record what is asked for."""
+    """Make a recording."""
     module, _, name = question.recorder.partition(":")
     try:
         recorder = getattr(importlib.import_module(module), name)
@@ -84,7 +84,7 @@ def reply_to(question: Question, workspace: Workspace) -> Reply:
 
 
 def _must_be_data(recording: object, recorder: str) -> None:
-    """Raise CannotCheck for a recording that has something else in it than data."""
+    """Raise CannotCheck for a recording that has anything but data in it."""
     try:
         json.dumps(as_json(recording))
     except TypeError as error:
@@ -94,7 +94,7 @@ def _must_be_data(recording: object, recorder: str) -> None:
 
 
 def _cannot(error: Exception) -> Reply:
-    """Return the reply for what is not the student's fault, whatever it is."""
+    """Return the reply for an error that is not the student's fault."""
     if not isinstance(error, CannotCheck):
         traceback.print_exc()
     return Reply(cannot=fault(error))

@@ -1,4 +1,4 @@
-"""The worker's process, which records in isolation: started, asked, ended."""
+"""The process of a worker, which records in isolation."""
 
 from __future__ import annotations
 
@@ -18,22 +18,22 @@ from tutorial_check.errors import CannotCheck, Ended
 from tutorial_check.sandbox import bubblewrap, privileges
 from tutorial_check.submission.order import Order, Question, Reply
 
-# All exercises take 90 s on two quiet processors. Ten times that is enough: programs with less than
-# a seventh of the time get no verdict anyway (cpu_clock.OVERLOADED), and a student waits.
+# All exercises take 90 s on two idle CPUs. Ten times that is enough: programs that get less than a
+# seventh of the CPU time get no verdict anyway (cpu_clock.OVERLOADED), and a student waits.
 LONGEST_S = 900.0
-MOST_BYTES = 1 << 26  # of an answer; what the handout's programs are recorded to do takes 1 MB
-END_S = 10.0  # a worker whose result is not wanted has this long to end what it started
-# Set to end the workers of all threads, and those that have just started; each raises CannotCheck.
+MOST_BYTES = 1 << 26  # of a reply; the largest of the handout's takes 1 MB
+END_S = 10.0  # a worker that is stopped has this long to end what it started
+# Ends the workers of all threads, also those that have just started; each raises CannotCheck.
 no_more = threading.Event()
 
 
 class Worker:
-    """The process that records in isolation."""
+    """A worker's process."""
 
     def __init__(self, order: Order, wrapper: list[str]) -> None:
-        """Start it. wrapper: the words before its command that isolate it."""
+        """Start it. wrapper: the words before its command, which isolate it."""
         if not order.in_namespaces:
-            privileges.keep_to_itself()  # and the end of the socket
+            privileges.keep_to_itself()  # and its end of the socket
         environment = {**order.environment, "LANG": os.environ.get("LANG", "C.UTF-8")}
         # ROS reads these as it loads.
         own = str(order.folder / "ours")
@@ -42,11 +42,11 @@ class Worker:
         self._order, self._buffer = order, b""
         self._end_s = time.monotonic() + LONGEST_S
         self._log = tempfile.TemporaryFile("w+")  # noqa: SIM115  closed by __exit__
-        # No pipe, which a path in /proc would open: a program could plant a link to that.
+        # No pipe: it has a path in /proc, to which a program could plant a link.
         self._line, theirs = socket.socketpair()
-        self._line.settimeout(END_S)  # for a worker that reads no question
+        self._line.settimeout(END_S)  # for a worker that does not read
         self._process = subprocess.Popen(
-            # -s: without what pip put into the home folder, which may be shown nowhere
+            # -s: without the home folder's packages from pip, which may not be visible
             [*wrapper, "/usr/bin/python3", "-s", "-m", "tutorial_check.recording.worker"],
             stdin=subprocess.DEVNULL,
             stdout=theirs.fileno(),
@@ -73,7 +73,7 @@ class Worker:
             self._log.close()
 
     def end(self) -> None:
-        """Let it answer no more: who waits for an answer gets Ended."""
+        """Stop it: whoever waits for a reply gets Ended."""
         with contextlib.suppress(OSError):  # it has ended
             self._line.shutdown(socket.SHUT_RDWR)
         if self._order.in_namespaces:
@@ -81,12 +81,12 @@ class Worker:
 
     def _kill(self) -> None:
         if self._process.poll() is None:
-            # With it all of its namespaces. Its group: bubblewrap's child, until it may go on,
-            # would wait without end for a parent that is gone.
+            # This ends its namespaces. The whole group, because bubblewrap's child would otherwise
+            # wait forever for a parent that has ended.
             os.killpg(self._process.pid, signal.SIGKILL)
 
     def begin(self) -> None:
-        """Give it the order; wait until it can record. Raises CannotCheck, or Ended."""
+        """Send the order; wait until it can record. Raises CannotCheck, or Ended."""
         reply = self.ask(self._order)
         if reply.cannot:
             raise CannotCheck(str(reply.cannot))
@@ -103,11 +103,11 @@ class Worker:
         text = line.decode(errors="replace")
         try:
             return from_json(Reply, json.loads(text))
-        except (ValueError, RecursionError):  # whatever has written it
+        except (ValueError, RecursionError):  # a student's program may have written it
             raise Ended(f"the worker's answer is no recording: {text[:60]!r}") from None
 
     def _read(self) -> None:
-        """Read what has come. Raises Ended; EOFError or OSError if the worker has ended."""
+        """Read what has arrived. Raises Ended; EOFError or OSError if the worker has ended."""
         if no_more.is_set():
             raise Ended("it was ended")
         if time.monotonic() > self._end_s:

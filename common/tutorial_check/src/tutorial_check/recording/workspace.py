@@ -1,4 +1,4 @@
-"""Where recorders work: a workspace, and stages on which its programs run."""
+"""The workspace that recorders get, and the ROS sessions in which its programs run."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from tutorial_check.errors import MASTER_GONE, UNREADABLE, CannotCheck, CutShort
 from tutorial_check.recording.builder import Builder
 from tutorial_check.recording.ros_session import RosSession
 
-EXIT_S = 1.0  # a master that is killed together with the driver has this long to exit
+EXIT_S = 1.0  # a master that is killed together with the peer has this long to exit
 
 
 class Workspace(Builder):
@@ -17,7 +17,7 @@ class Workspace(Builder):
 
     @contextlib.contextmanager
     def ros_session(self, renamed: bool = True) -> Iterator[RosSession]:
-        """Yield a RosSession, with which all ends; renamed: topics are as in the task."""
+        """Yield a RosSession, and end it. renamed: topics have the names of the student's task."""
         if self.broken:
             raise CutShort(UNREADABLE)
         self.runner.clock.begin()
@@ -25,7 +25,7 @@ class Workspace(Builder):
         try:
             yield ros
         except (CannotCheck, CutShort, LookupError) as error:
-            if isinstance(error, CannotCheck):  # A driver has ended, maybe with its master.
+            if isinstance(error, CannotCheck):  # The peer has ended, perhaps with the master.
                 ros.wait(lambda: not ros.master_lives, EXIT_S)
             if ros.master_lives:
                 raise

@@ -1,4 +1,4 @@
-"""A class at a glance: the table of --all as a page and as CSV, and what is below it (pure)."""
+"""A class at a glance: the table of --all as a page and as CSV, and the tables below it."""
 
 from __future__ import annotations
 
@@ -16,21 +16,21 @@ from urllib.parse import quote
 from tutorial_check.checking.results import NOTE, UNREACHED, Outcome, Result
 from tutorial_check.report.text import lines_of
 
-# Where a spreadsheet may see the start of a cell, with any separator, followed by a formula.
+# The start of a cell, for any separator, followed by a formula.
 FORMULA = re.compile(r"(^|[;,|\t\r\n])(?=\s*[=+\-@])")
 KINDS = {"ok": "ok", "-": "no", "?": "no", "not done": "no", "...": "no"}  # word: CSS class
 LONGEST = 70  # characters of a cause in a cell
 MOST_CAUSES = 10
 BAR = "\u2588"  # one student
 WORDS = ("expected", "seen", "where", "hint")  # a Result's fields, in its order
-# No script, picture or other content can load, whatever a name or an output contains.
+# No script, picture or other content loads, whatever a name or an output contains.
 POLICY = "default-src 'none'; style-src 'unsafe-inline'"
 PAGE = Template(Path(__file__).with_name("class_page.html").read_text(encoding="utf-8"))
 
 
 @dataclass
 class Student:
-    """One workspace, or zip. before: what came of the last run, if there was one."""
+    """A student's workspace or zip. before: the outcomes of the last run."""
 
     name: str
     path: Path
@@ -38,10 +38,10 @@ class Student:
     trouble: str = ""  # why nothing could be checked
     seconds: float = 0.0
     before: list[Outcome] = field(default_factory=list)
-    digest: str = ""  # of what was handed in, and of what checks it
+    digest: str = ""  # of the submission and of the checks
 
     def cell(self, exercise: str) -> tuple[str, str, str]:
-        """Return a word of the page's legend for an exercise, the cause in short, and details."""
+        """Return (word of the page's legend, short cause, details) for an exercise."""
         if not self.outcomes:
             return ("?", "", self.trouble) if self.trouble else ("...", "", "")
         outcome = next(outcome for outcome in self.outcomes if outcome.id == exercise)
@@ -59,19 +59,19 @@ class Student:
 
     @property
     def done(self) -> str:
-        """How many exercises, as "5 of 9"."""
+        """How many exercises are done, as "5 of 9"."""
         solved = sum(outcome.solved for outcome in self.outcomes)
         return f"{solved} of {len(self.outcomes)}" if self.outcomes else ""
 
     @property
     def notes(self) -> int:
-        """How many checks hold with something worth knowing."""
+        """How many checks hold with a remark."""
         results = [result for outcome in self.outcomes for result in outcome.results]
         return sum(result.status == NOTE and not result.empty for result in results)
 
     @property
     def remark(self) -> str:
-        """Why there is no verdict, or how well its programs were isolated, if not by bubblewrap."""
+        """Why there is no verdict, or how programs were isolated, if not by bubblewrap."""
         return self.trouble or next((outcome.remark for outcome in self.outcomes), "")
 
     @property
@@ -80,7 +80,7 @@ class Student:
 
 
 def cause_of(result: Result) -> str:
-    """Return what makes two failures the same: the check and its words, without their numbers."""
+    """Return a key that equal failures share: the check and its words, without numbers."""
     return f"{result.id} {re.sub('[0-9.]+', '#', result.seen)}"
 
 
@@ -90,7 +90,7 @@ def _short(text: str) -> str:
 
 
 def table_csv(students: Iterable[Student], exercises: Sequence[str]) -> str:
-    """Return one line a student, without what a spreadsheet would take for a formula."""
+    """Return one line per student, with nothing that a spreadsheet would take for a formula."""
     lines = io.StringIO()
     table = csv.writer(lines)
     table.writerow(["student", *exercises, "done", "notes", "seconds", "first cause", "remark"])
@@ -107,9 +107,9 @@ def table_csv(students: Iterable[Student], exercises: Sequence[str]) -> str:
 def table_html(
     students: Sequence[Student], exercises: Sequence[str], titles: Mapping[str, str], about: str
 ) -> str:
-    """Return the page. While students are still being checked it loads itself again.
+    """Return the page, which reloads itself while students are still being checked.
 
-    about: of what, and when.
+    about: its subtitle.
     """
     heads = ["student", *(f"{name}<small>{escape(titles[name])}</small>" for name in exercises)]
     rows = [_row((*heads, "done", "notes", "took"), "th")]
@@ -129,8 +129,8 @@ def table_html(
 
 
 def _link(student: Student) -> str:
-    """Return a student's name, which leads to the report."""
-    path = quote(f"{student.name}.txt", errors="surrogateescape")  # a name may be no UTF-8
+    """Return a student's name as a link to the report."""
+    path = quote(f"{student.name}.txt", errors="surrogateescape")  # a name may not be UTF-8
     return f'<a href="./{path}">{escape(student.name)}</a>'
 
 
@@ -151,7 +151,7 @@ def _row(cells: Iterable[str], tag: str = "td") -> str:
 
 
 def _below(students: Sequence[Student]) -> Iterator[str]:
-    """Yield what is below the table: tables with headings, but for empty ones."""
+    """Yield the tables below the class's, each with its heading, except empty ones."""
     failed = (
         (check, escape(title), str(count), BAR * count)
         for check, title, count in failures(students)
@@ -177,7 +177,7 @@ def _words(result: Result) -> Iterator[str]:
 
 
 def _section(title: str, head: Sequence[str], rows: Iterable[Iterable[str]]) -> str:
-    """Return a table with its heading. rows: of HTML."""
+    """Return a table with its heading. rows: in HTML."""
     lines = [*map(_row, rows)]
     return f"<h2>{title}</h2><table>{_row(head, 'th')}{''.join(lines)}</table>" if lines else ""
 
@@ -189,7 +189,7 @@ def failures(students: Iterable[Student]) -> list[tuple[str, str, int]]:
 
 
 def causes(students: Iterable[Student]) -> list[tuple[list[Student], Result]]:
-    """Return (whose, an example without the student's name) of the most frequent causes."""
+    """Return (students, an example without their name) for each of the most frequent causes."""
     examples: dict[str, Result] = {}
     whose: dict[str, list[Student]] = {}
     for student in students:
@@ -203,7 +203,7 @@ def causes(students: Iterable[Student]) -> list[tuple[list[Student], Result]]:
 
 
 def changes(student: Student) -> dict[str, list[str]]:
-    """Return the changes since the last run: exercises now done, no more done, stuck at a check."""
+    """Return the changes since the last run: exercises done, no longer done, stuck at a check."""
     pairs = [(new, old) for new in student.outcomes for old in student.before if old.id == new.id]
     firsts = (both for new, old in pairs for both in zip(new.wrong[:1], old.wrong[:1]))
     return {

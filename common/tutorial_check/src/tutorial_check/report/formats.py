@@ -1,4 +1,4 @@
-"""The report as files for other programs. Pure but for the writing."""
+"""The report as files for other programs."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from tutorial_check.errors import CannotCheck
 from tutorial_check.report.text import heading, lines_of
 
 FIELDS = ("id", "status", "title", "expected", "seen", "where", "hint")
-# What Classroom 50 knows of a submission, in an autograder's environment, by name in the result.
-# Without these it refuses the result; the owner and the times it writes itself (run_entrypoint,
-# finalize_result and validate_result in runner.py of github.com/foundation50/classroom50).
+# {field of the result: environment variable that Classroom 50 sets for an autograder}. It refuses
+# a result without them; it adds the owner and the times itself (run_entrypoint, finalize_result and
+# validate_result in runner.py of github.com/foundation50/classroom50).
 SUBMISSION = {
     "classroom": "CLASSROOM",
     "assignment": "ASSIGNMENT",
@@ -35,7 +35,7 @@ def without_hints(outcomes: Sequence[Outcome]) -> list[Outcome]:
 
 
 def as_json(outcomes: Sequence[Outcome], with_recordings: bool = True) -> str:
-    """Return one object with all exercises and checks, and what they were judged by."""
+    """Return one object with all exercises, checks and the recordings behind them."""
     exercises = [
         {
             "id": outcome.id,
@@ -53,7 +53,7 @@ def as_json(outcomes: Sequence[Outcome], with_recordings: bool = True) -> str:
 
 
 def as_junit(outcomes: Sequence[Outcome]) -> str:
-    """Return JUnit's XML: an exercise is a suite, a check a case; one more without a verdict."""
+    """Return JUnit's XML: a suite per exercise, a case per check, and one if no verdict."""
     root = ET.Element("testsuites", name="tutorial check")
     for outcome in outcomes:
         statuses = [result.status for result in outcome.results]
@@ -82,12 +82,12 @@ def as_junit(outcomes: Sequence[Outcome]) -> str:
 
 
 def points_of(outcome: Outcome) -> float:
-    """Return the points of one check: those of the exercise, divided by its checks, or one."""
+    """Return the points of one check: an equal share of the exercise's, or 1."""
     return outcome.points / len(outcome.results) if outcome.points else 1.0
 
 
 def as_gradescope(outcomes: Sequence[Outcome]) -> str:
-    """Return Gradescope's results.json: points of a course, or one a check; first, any trouble."""
+    """Return Gradescope's results.json: the course's points, or 1 per check; any trouble first."""
     tests = [
         {
             "name": f"{outcome.id} {result.id}: {result.title}",
@@ -110,7 +110,7 @@ def as_gradescope(outcomes: Sequence[Outcome]) -> str:
 
 
 def as_classroom(outcomes: Sequence[Outcome], environment: Mapping[str, str] = os.environ) -> str:
-    """Return Classroom 50's result: an exercise's points, or one. environment: of a submission."""
+    """Return Classroom 50's result. environment: of the submission."""
     tests: list[dict[str, Any]] = [
         {
             "test-name": heading(outcome),
@@ -129,7 +129,7 @@ def as_classroom(outcomes: Sequence[Outcome], environment: Mapping[str, str] = o
     return json.dumps(result, indent=1)
 
 
-# {name of an option: (what it writes, the function that makes it)}
+# {option: (what it writes, the function that makes it)}
 FORMATS: dict[str, tuple[str, Callable[[Sequence[Outcome]], str]]] = {
     "json": ("all results", as_json),
     "junit": ("JUnit's XML", as_junit),
@@ -146,7 +146,7 @@ def keep(folder: str | Path, name: str, outcomes: Sequence[Outcome]) -> None:
 
 
 def clear(path: str | Path) -> None:
-    """Remove a file of an earlier check, but nothing else, as a pipe. Raises CannotCheck."""
+    """Remove a file of an earlier check, but not, for example, a pipe. Raises CannotCheck."""
     if os.path.isfile(path) or os.path.isdir(path) or not os.path.exists(path):
         write(path, "")
         with contextlib.suppress(OSError):
@@ -154,7 +154,7 @@ def clear(path: str | Path) -> None:
 
 
 def write(path: str | Path, text: str) -> None:
-    """Write a file; escape names in it that are not UTF-8. Raises CannotCheck."""
+    """Write a file; names that are not UTF-8 are escaped. Raises CannotCheck."""
     try:
         with open(path, "w", encoding="utf-8", errors="backslashreplace", newline="") as file:
             file.write(text)

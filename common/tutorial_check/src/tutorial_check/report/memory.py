@@ -1,7 +1,7 @@
-"""What earlier checks found: for hints, graded, and so that --all checks only what has changed.
+"""Results of earlier checks, for graded hints, and so that --all checks only what has changed.
 
-How to fix it is shown when the same is wrong again. What was wrong and what was done is remembered
-in the cache, for each workspace, and not in it; that of --all beside the table.
+A hint is shown when the same mistake is made again. The mistakes and the exercises done are kept in
+the user's cache, for each workspace; those of --all are kept beside the table.
 """
 
 from __future__ import annotations
@@ -23,14 +23,14 @@ from tutorial_check.submission.handed_in import all_below
 
 NEVER, AGAIN, ALWAYS = 0, 1, 2  # --hints
 CACHE = Path(os.environ.get("XDG_CACHE_HOME") or "~/.cache", "ros1_tutorial", "checked.json")
-State = Dict[str, Any]  # {workspace or student: what is kept of it}
-STATE = ".state.json"  # beside the table, out of reach of what is checked
-MOST_BYTES = 200_000_000  # per student; a larger one is not remembered
+State = Dict[str, Any]  # {workspace or student: what is kept}
+STATE = ".state.json"  # beside the table, where no student's program reaches it
+MOST_BYTES = 200_000_000  # per student; a larger submission is not remembered
 LATER = "check again to see it here, or with --hints 2"
 
 
 def read_state(file: Path) -> State:
-    """Return what write_state has written; empty if it is not there or broken."""
+    """Return what write_state has written; empty if the file is missing or broken."""
     with contextlib.suppress(OSError, ValueError):
         state = json.loads(file.read_text(encoding="utf-8"))
         if isinstance(state, dict):
@@ -39,10 +39,10 @@ def read_state(file: Path) -> State:
 
 
 def write_state(file: Path, state: State) -> None:
-    """Write a file in one step, if it can be written."""
+    """Write a file atomically, if it can be written."""
     with contextlib.suppress(OSError):
         file.parent.mkdir(parents=True, exist_ok=True)
-        # Hidden: one that is killed now leaves it behind, beside the reports of a class.
+        # Hidden, because a process killed here leaves it behind, beside a class's reports.
         descriptor, name = tempfile.mkstemp(file.suffix, f".{file.stem}.", file.parent)
         with open(descriptor, "w", encoding="utf-8") as written:
             json.dump(state, written)
@@ -50,7 +50,7 @@ def write_state(file: Path, state: State) -> None:
 
 
 class Memory:
-    """What the last check of a workspace found."""
+    """The results of the last check of a workspace."""
 
     def __init__(self, workspace: str, course: Course, level: int, cache: Path = CACHE) -> None:
         """level: NEVER, AGAIN or ALWAYS. A memory that cannot be read is empty."""
@@ -61,14 +61,14 @@ class Memory:
         self._wrong, self.done = about.get("wrong", []), about.get("done", [])
 
     def hint_of(self, result: Result) -> str:
-        """Return the hint for a result, or when there will be one, or ""."""
+        """Return the hint for a result, or when it will be shown, or ""."""
         if self._level == NEVER or not result.hint:
             return ""
         is_due = self._level == ALWAYS or result.status != WRONG or result.eager
         return result.hint if is_due or cause_of(result) in self._wrong else LATER
 
     def keep(self, outcomes: Sequence[Outcome]) -> None:
-        """Remember what these came to; what was not checked stays as it was."""
+        """Remember these outcomes; those of other exercises stay as they are."""
         checked = {outcome.id for outcome in outcomes}
         now = {cause_of(result) for outcome in outcomes for result in outcome.wrong}
         made = {result.id for outcome in outcomes for result in outcome.results}
@@ -78,12 +78,12 @@ class Memory:
         self.done += [outcome.id for outcome in outcomes if outcome.solved]
         known = read_state(self._cache)
         there = {key: known[key] for key in known if os.path.exists(key.split("\n")[0])}
-        # Without a memory each failure is a first one.
+        # If it cannot be written, each failure counts as the first.
         write_state(self._cache, {**there, self._key: {"wrong": self._wrong, "done": self.done}})
 
 
 def show_solution(course: Course, exercises: Sequence[str], memory: Memory) -> None:
-    """Print the course's own solution of exercises that are done. Raises CannotCheck."""
+    """Print the course's solution of exercises that are done. Raises CannotCheck."""
     for name in exercises:
         files = course.exercises[name].solution
         if not files:
@@ -102,7 +102,7 @@ def show_solution(course: Course, exercises: Sequence[str], memory: Memory) -> N
 
 
 class LastRun:
-    """The outcomes of the last run, by the name of the student. A file that is broken is empty."""
+    """The outcomes of the last run, by student. A broken file counts as empty."""
 
     def __init__(self, out: Path) -> None:
         """out: the folder of the results."""
@@ -110,7 +110,7 @@ class LastRun:
         self._state = read_state(self._file)
 
     def outcomes(self, name: str) -> list[Outcome]:
-        """Return what came of a student in the last run; empty if there is nothing."""
+        """Return a student's outcomes of the last run; empty if there are none."""
         with contextlib.suppress(KeyError, TypeError):
             return [
                 Outcome(**{**outcome, "results": [Result(**words) for words in outcome["results"]]})
@@ -119,14 +119,14 @@ class LastRun:
         return []
 
     def is_same(self, student: Student) -> bool:
-        """Return whether the last run checked the same, and came to a verdict."""
+        """Return whether the last run checked the same submission and reached a verdict."""
         if not student.before or not student.digest:
             return False
         digest = self._state[student.name].get("digest")
         return digest == student.digest and not any(old.trouble for old in student.before)
 
     def keep(self, students: Iterable[Student]) -> None:
-        """Write what the next run needs; students not checked yet keep what they had."""
+        """Write the outcomes for the next run; students not checked yet keep their old ones."""
         state = {}
         for student in students:
             if student.outcomes:
@@ -134,11 +134,11 @@ class LastRun:
                 state[student.name] = {"digest": student.digest, "outcomes": outcomes}
             elif student.name in self._state and not student.trouble:
                 state[student.name] = self._state[student.name]
-        write_state(self._file, state)  # or all are checked again
+        write_state(self._file, state)  # if not, all are checked again
 
 
 def digest_of_checks(course: Course, exercises: Iterable[str], hints: int) -> str:
-    """Return what makes two runs the same: the checker, the course, the exercises and the hints."""
+    """Return a digest of the checker, the course, the exercises and the hints."""
     package = Path(__file__).parents[1]
     kinds = ("*.py", "*.yaml", "*.txt")
     sources = [path for kind in kinds for path in sorted(package.rglob(kind))]
@@ -149,7 +149,7 @@ def digest_of_checks(course: Course, exercises: Iterable[str], hints: int) -> st
 
 
 def digest_of(path: Path, checks: str) -> str:
-    """Return a digest of what a student handed in, and of what checks it; empty if it has none.
+    """Return a digest of a submission and its checks; empty if it has none.
 
     Raises CannotCheck.
     """
@@ -161,7 +161,7 @@ def digest_of(path: Path, checks: str) -> str:
             digest.update(name.encode("utf-8", "replace"))
             if os.path.islink(file):
                 digest.update(os.fsencode(os.readlink(file)))
-            elif os.path.isfile(file):  # no pipe, which would never end
+            elif os.path.isfile(file):  # not a pipe, which would never end
                 left -= about.st_size
                 if left < 0:
                     return ""

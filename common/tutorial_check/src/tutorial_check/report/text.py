@@ -1,4 +1,4 @@
-"""What the student reads in the terminal. Pure but for the printing."""
+"""The report in the terminal."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def summary(outcomes: Sequence[Outcome]) -> str:
 
 
 def text_of(outcomes: Sequence[Outcome]) -> str:
-    """Return the whole report without colours."""
+    """Return the complete report without colours."""
     lines = []
     for outcome in outcomes:
         lines += [
@@ -53,16 +53,16 @@ def text_of(outcomes: Sequence[Outcome]) -> str:
 
 
 class Terminal:
-    """Prints results as they come, with a line of what is done now where there is a terminal."""
+    """Prints results as they come, and in a terminal a line on the current activity."""
 
     def __init__(self, hint_of: Callable[[Result], str], only_first: bool = False) -> None:
-        """hint_of: what to show as a Result's hint. only_first: show the first that is wrong."""
+        """hint_of: returns the hint to show for a Result. only_first: show one mistake only."""
         self._hint_of, self._only_first, self._heading = hint_of, only_first, ""
         self._is_terminal = sys.stdout.isatty()
         self._has_colour = self._is_terminal and "NO_COLOR" not in os.environ
 
     def busy(self, words: str) -> None:
-        """Show a line that the next one replaces; without words remove it."""
+        """Show a line that the next one replaces; if words is empty, remove it."""
         if self._is_terminal:
             print(f"\r\x1b[K{words}", end="", flush=True)
 

@@ -1,8 +1,8 @@
-"""Isolation: bubblewrap shows a student's program its own copy and no other file of anybody.
+"""Isolation by bubblewrap: a student's program sees its own copy and nobody else's files.
 
-Network: loopback only. Processes, System V shared memory: its own, which end with the check. Files:
-the system and what students use of this suite, read-only; an empty /tmp, /var/tmp and /dev/shm of
-limited size; no /run. No capability, nor a way to one.
+Network: loopback only. Processes and System V shared memory: its own, which end with the check.
+Files: the system and what students use of this suite, read-only; an empty /tmp, /var/tmp and
+/dev/shm of limited size; no /run. Capabilities: none, and no way to gain one.
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ from typing import Any, Iterable, Sequence
 from tutorial_check.sandbox import landlock
 from tutorial_check.sandbox.environment import SYSTEM
 
-SCRATCH_MB = 600  # for the copy, its build, logs and what the programs write
+SCRATCH_MB = 600  # for the copy, its build, logs and files that programs write
 NAMESPACES = ("--unshare-ipc", "--unshare-net", "--unshare-pid", "--unshare-uts", "--as-pid-1")
-# Of root's rights only those to become another user.
+# Of root's capabilities, only those to become another user.
 AS_ROOT = ("--cap-drop", "ALL", "--cap-add", "CAP_SETGID", "--cap-add", "CAP_SETUID")
-SIZES_MB = {"/dev/shm": 64, "/tmp": 64, "/var/tmp": 64, "/dev/input": 1}  # one for a joystick
-# Before a command, in place of --perms: folders, --, the command.
+SIZES_MB = {"/dev/shm": 64, "/tmp": 64, "/var/tmp": 64, "/dev/input": 1}  # the last for a joystick
+# Replaces --perms before a command. Arguments: folders, --, the command.
 OPENED = (
     "sh",
     "-c",
@@ -40,17 +40,17 @@ _one_at_a_time = threading.Lock()
 class Isolation:
     """How bubblewrap isolates on this system."""
 
-    options: tuple[str, ...] = ()  # words of its command; none without isolation
-    is_limited: bool = False  # no program can fill the memory with files
+    options: tuple[str, ...] = ()  # words of its command; none if it cannot isolate
+    is_limited: bool = False  # programs cannot fill the memory with files
     has_sizes: bool = True  # it knows --size, since 0.7
     has_perms: bool = True  # it knows --perms, since 0.5
-    why: str = ""  # there is none
+    why: str = ""  # it cannot isolate
     descriptors: tuple[int, ...] = ()  # that it inherits
 
 
 def granted() -> Isolation:
-    """Return what this system grants; without options where it grants no isolation."""
-    with _one_at_a_time:  # A second thread finds the first one's descriptors.
+    """Return the isolation that this system grants; if none, it has no options."""
+    with _one_at_a_time:  # So a second thread uses the first one's descriptors.
         return _granted()
 
 
@@ -60,7 +60,7 @@ def _granted() -> Isolation:
     if not bwrap:
         return Isolation(why="bubblewrap is not installed")
     descriptors: tuple[int, ...] = ()
-    # Since 0.8 bubblewrap has --disable-userns, which root is refused.
+    # bubblewrap has --disable-userns since 0.8, but refuses it to root.
     users: tuple[str, ...] = ("--unshare-user",)
     closed = (*users, "--disable-userns")
     if os.geteuid() == 0:
@@ -82,9 +82,9 @@ def _granted() -> Isolation:
 
 
 def _closed_user_namespace() -> int:
-    """Return a descriptor of a user namespace with root's users, in which none can make another.
+    """Return a descriptor of a user namespace with root's users, where nobody can make another.
 
-    A program in a user namespace of its own could mount a tmpfs of any size. Raises OSError.
+    A program in its own user namespace could mount a tmpfs of any size. Raises OSError.
     """
     words = ["unshare", "--user", "sh", "-c", "echo; read -r _"]
     with subprocess.Popen(words, stdin=PIPE, stdout=PIPE, stderr=DEVNULL) as made:
@@ -114,7 +114,7 @@ def _fault(command: Sequence[str], descriptors: tuple[int, ...] = ()) -> str:
 
 
 def lacking() -> list[str]:
-    """Return what this system does not provide, a line for each, to be printed before a verdict."""
+    """Return lines on what this system does not provide, to print before a verdict."""
     isolation = granted()
     if isolation.options and isolation.is_limited:
         return []
@@ -131,7 +131,7 @@ def lacking() -> list[str]:
 
 
 def instead() -> str:
-    """Return what is in place of bubblewrap on this system; empty where that isolates."""
+    """Return what replaces bubblewrap on this system; empty if bubblewrap isolates."""
     if granted().options:
         return ""
     return "isolated by Landlock alone" if landlock.version() else "not isolated"
@@ -143,9 +143,9 @@ def _tmpfs(path: str, megabytes: int, isolation: Isolation) -> list[str]:
 
 
 def command(folder: str | Path, readable: Iterable[str | Path], hidden: str | Path) -> list[str]:
-    """Return the words before a command that isolate it; empty without isolation.
+    """Return the words before a command that isolate it; empty if bubblewrap cannot.
 
-    folder: to write into, empty at first; readable: what is seen, read-only; hidden: what is not.
+    folder: writable, and empty at first. readable: visible, read-only. hidden: invisible.
     """
     isolation = granted()
     if not isolation.options:
@@ -160,11 +160,11 @@ def command(folder: str | Path, readable: Iterable[str | Path], hidden: str | Pa
             mounts[path] = ["--ro-bind", path, path]
     given = {str(path) for path in readable if os.path.exists(path)}
     real = set(map(os.path.realpath, given))
-    # catkin may have written down the name of a link.
+    # catkin may have stored the path of a link.
     links = {path for path in given - real if not real & set(map(str, Path(path).parents))}
     mounts.update({path: ["--ro-bind", path, path] for path in real | links})
-    perms = ["--perms", "0755"] if isolation.has_perms else []  # an older one's are these
-    for above in {above for path in mounts for above in Path(path).parents}:  # bwrap closes its own
+    perms = ["--perms", "0755"] if isolation.has_perms else []  # older ones always use these
+    for above in {above for path in mounts for above in Path(path).parents}:  # bwrap's are closed
         mounts.setdefault(str(above), [*perms, "--dir", str(above)])
     outer_first = sorted(mounts, key=lambda path: len(Path(path).parts))
     words = [word for path in outer_first for word in mounts[path]]

@@ -1,4 +1,4 @@
-"""The folders and variables in which a student's programs run."""
+"""The folders and environment variables of a student's programs."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ SYSTEM = (
     *("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32", "/opt/ros"),
     *(f"/etc/{name}" for name in ETC.split()),
 )
-OWN = ("home", "tmp", "ws")  # folders of a session in which the student's programs may write
+OWN = ("home", "tmp", "ws")  # folders of a worker that the student's programs may write
 
 
 def environment_of(words: Iterable[str]) -> dict[str, str]:
-    """Return the variables of NAME=value words, without those of the shell itself."""
+    """Return the variables in NAME=value words, without the shell's own."""
     variables = dict(word.split("=", 1) for word in words if "=" in word)
     return {
         name: variables[name] for name in variables if name not in ("_", "SHLVL", "PWD", "OLDPWD")
@@ -28,7 +28,7 @@ def environment_of(words: Iterable[str]) -> dict[str, str]:
 
 
 def variables(folder: Path, environment: Mapping[str, str]) -> dict[str, str]:
-    """Return an environment, of a shell that sourced the underlay, with a session's folders."""
+    """Return the environment of the underlay, with a worker's folders."""
     return {
         **environment,
         "PATH": f"{folder}/bin:{environment['PATH']}",
@@ -37,14 +37,14 @@ def variables(folder: Path, environment: Mapping[str, str]) -> dict[str, str]:
         "ROS_IP": "127.0.0.1",
         "ROS_HOME": f"{folder}/home/.ros",
         "ROS_LOG_DIR": f"{folder}/home/.ros/log",
-        "DISPLAY": ":99",  # whatever is there: for RViz stands a program that only waits
+        "DISPLAY": ":99",  # need not exist: a program that only waits replaces RViz
         "PYTHONUNBUFFERED": "1",
         "PYTHONDONTWRITEBYTECODE": "1",
     }
 
 
 def copy_tree(source: Path, target: Path) -> None:
-    """Copy a folder of the suite, which a user may not write; what is copied may be written."""
+    """Copy a folder of the suite, and make the copy writable."""
     shutil.copytree(source, target, symlinks=True, dirs_exist_ok=True)
     for path in (target, *target.rglob("*")):
         if not path.is_symlink():
@@ -52,15 +52,15 @@ def copy_tree(source: Path, target: Path) -> None:
 
 
 def prepare(folder: Path) -> None:
-    """Make the folders of a session, with stand-ins of programs that need a screen."""
+    """Make a worker's folders, with stand-ins for programs that need a screen."""
     for name in ("bin", "view"):  # and where ROS finds RViz
         copy_tree(Path(__file__).parent / "without_screen" / name, folder / name)
-    for program in (folder / "bin").iterdir():  # here they are data
+    for program in (folder / "bin").iterdir():  # in the package they are data
         program.chmod(0o755)
-    # The handout's listings begin with `env python`, as did all in its time.
+    # The handout's listings begin with `env python`, as was usual then.
     (folder / "bin" / "python").symlink_to("/usr/bin/python3")
     for name in (*OWN, "ours", "devel"):
         (folder / name).mkdir(exist_ok=True)
-    # What a build makes where there is nothing to build.
+    # What a build would make if there is nothing to build.
     (folder / "view/.catkin").write_text(str(folder / "view/src"))
     (folder / "devel/.catkin").write_text(str(folder / "ws" / "src"))

@@ -1,7 +1,8 @@
-"""Landlock and seccomp: without any privilege a program keeps to its own files.
+"""Landlock and seccomp restrict a program to its own files, without any privilege.
 
-For where bubblewrap cannot make namespaces. Of https://docs.kernel.org/userspace-api/landlock.html,
-linux/landlock.h, linux/seccomp.h and the kernel's tables of system calls.
+Used where bubblewrap cannot make namespaces. Sources:
+https://docs.kernel.org/userspace-api/landlock.html, linux/landlock.h, linux/seccomp.h and the
+kernel's tables of system calls.
 """
 
 from __future__ import annotations
@@ -19,35 +20,35 @@ from typing import Iterable, Sequence
 from tutorial_check.sandbox.privileges import prctl
 
 CREATE_RULESET, ADD_RULE, RESTRICT_SELF = 444, 445, 446
-# Rights of files by the version that added them: of Linux 5.13, 5.19 (rename to another folder,
-# which version 1 refuses everywhere), 6.2 (truncation), 6.10 (ioctl of devices). Those of TCP (6.7)
-# know ports and no addresses, so that they cannot tell loopback from the network.
+# {version: rights on files that it added}: Linux 5.13, 5.19 (rename to another folder, which
+# version 1 always refuses), 6.2 (truncation), 6.10 (ioctl of devices). The rights on TCP (6.7) are
+# about ports, not addresses, so they cannot distinguish loopback from the network.
 ADDED = {1: (1 << 13) - 1, 2: 1 << 13, 3: 1 << 14, 5: 1 << 15}
 EXECUTE, WRITE, READ, LIST, TRUNCATE, IOCTL = 1 << 0, 1 << 1, 1 << 2, 1 << 3, 1 << 14, 1 << 15
 OF_FILES = EXECUTE | WRITE | READ | TRUNCATE | IOCTL
 WITH_TRUNCATE, WITH_SCOPES = 3, 6  # Linux 6.12: scopes
-SIGNALS = 1 << 1  # scope: only to those of the same restriction
+SIGNALS = 1 << 1  # scope: only to processes of the same restriction
 DEVICES = tuple(f"/dev/{name}" for name in ("null", "zero", "full", "random", "urandom"))
-# {machine: (its number in linux/audit.h, socket, other system calls that lead out)}. Those are
-# shmget, semget, msgget, mq_open, and io_uring_setup, which would open sockets past the filter.
+# {machine: (its number in linux/audit.h, socket(), other system calls that lead out)}: shmget,
+# semget, msgget, mq_open, and io_uring_setup, which would open sockets past the filter.
 MACHINES = {
     "x86_64": (0xC000003E, 41, (29, 64, 68, 240, 425)),
     "aarch64": (0xC00000B7, 198, (194, 190, 186, 180, 425)),
 }
-# Where Landlock lets everybody truncate: {machine: (truncate and openat2, {open, openat: which of
-# its arguments has the flags})}. A file opened to be read may be truncated by that, too.
+# For versions of Landlock that do not restrict truncation: {machine: (truncate and openat2,
+# {open, openat: index of the flags argument})}. Opening a file for reading may truncate it, too.
 TRUNCATING = {"x86_64": ((76, 437), {2: 1, 257: 2}), "aarch64": ((45, 437), {56: 2})}
 TRUNCATES = os.O_TRUNC | os.O_ACCMODE
-FAMILIES = (socket.AF_INET, socket.AF_INET6, socket.AF_NETLINK)  # and not a desktop's
-# In namespaces of its own a program sees no desktop. AF_VSOCK leads out of them, to the machine.
+FAMILIES = (socket.AF_INET, socket.AF_INET6, socket.AF_NETLINK)  # not a desktop's AF_UNIX
+# In namespaces a program sees no desktop. AF_VSOCK leads out of them, to the machine.
 IN_NAMESPACES = (socket.AF_UNIX, *FAMILIES)
-PR_SET_SECCOMP, FILTER, ALLOWED, REFUSED = 22, 2, 0x7FFF0000, 0x00050000 | 13  # by EACCES
+PR_SET_SECCOMP, FILTER, ALLOWED, REFUSED = 22, 2, 0x7FFF0000, 0x00050000 | 13  # with EACCES
 LOAD, EQUAL, AT_LEAST, AND, RETURN = 0x20, 0x15, 0x35, 0x54, 0x06  # Source: linux/bpf_common.h.
-X32 = 0x40000000  # and above: system calls of x86_64 with numbers of their own
+X32 = 0x40000000  # from here on: x86_64's second set of system calls
 
 
 def _call(number: int, *arguments: object) -> int:
-    """Return what a system call returns. Raises OSError."""
+    """Make a system call; return its result. Raises OSError."""
     result = int(ctypes.CDLL(None, use_errno=True).syscall(ctypes.c_long(number), *arguments))
     if result < 0:
         raise OSError(ctypes.get_errno(), os.strerror(ctypes.get_errno()))
@@ -56,7 +57,7 @@ def _call(number: int, *arguments: object) -> int:
 
 @functools.lru_cache(maxsize=None)
 def version() -> int:
-    """Return the version of Landlock on this system; 0 without it, or on an unknown machine."""
+    """Return the version of Landlock here; 0 if there is none, or on an unknown machine."""
     if platform.machine() not in MACHINES or not Path("/proc/sys/kernel/seccomp").is_dir():
         return 0
     with contextlib.suppress(OSError):
@@ -65,14 +66,14 @@ def version() -> int:
 
 
 def rights_of(known: int) -> int:
-    """Return all rights of files of a version of Landlock."""
+    """Return all rights on files of a version of Landlock."""
     return sum(rights for since, rights in ADDED.items() if since <= known)
 
 
 def ruleset(readable: Iterable[str | Path], own: Iterable[str | Path]) -> int:
     """Return a descriptor for confine(). Raises OSError.
 
-    readable: what may be read and run; own: also written.
+    readable: what may be read and run. own: what may also be written.
     """
     everything = rights_of(version())
     about = struct.pack("=QQQ", everything, 0, SIGNALS if version() >= WITH_SCOPES else 0)
@@ -89,24 +90,24 @@ def ruleset(readable: Iterable[str | Path], own: Iterable[str | Path]) -> int:
 
 
 def confine(descriptor: int) -> None:
-    """Confine this process and its children for good, once rights are given up. Raises OSError."""
+    """Confine this process and its children for good, after give_up_rights(). Raises OSError."""
     _call(RESTRICT_SELF, descriptor, ctypes.c_uint32(0))
     _filter_calls(FAMILIES, MACHINES[platform.machine()][2], version() < WITH_TRUNCATE)
 
 
 def confine_sockets() -> None:
-    """Leave a program in namespaces no socket that leads out of them, where Linux can do that."""
+    """Refuse sockets that lead out of a program's namespaces, if Linux can do that."""
     if platform.machine() in MACHINES:
         with contextlib.suppress(OSError):
             _filter_calls(IN_NAMESPACES, MACHINES[platform.machine()][2][-1:], False)
 
 
 def _filter_calls(families: Sequence[int], refused_calls: Sequence[int], truncating: bool) -> None:
-    """Refuse system calls. families: of sockets that may be opened. truncating: also that."""
+    """Refuse system calls. families: of allowed sockets. truncating: refuse that, too."""
     machine, open_socket, _ = MACHINES[platform.machine()]
     others = [*refused_calls]
     refused = [(RETURN, 0, 0, REFUSED)]
-    # Each (code, steps forward if so, if not, value); the steps count the instructions in between.
+    # Each (code, jump if true, jump if false, value); jumps count the instructions to skip.
     steps = [(LOAD, 0, 0, 4), (EQUAL, 1, 0, machine), *refused, (LOAD, 0, 0, 0)]
     steps += [(AT_LEAST, 0, 1, X32), *refused]
     if truncating:

@@ -1,4 +1,4 @@
-"""The student's workspace: found, unpacked, copied. Needs no ROS but catkin_pkg."""
+"""Find, unpack and copy a student's workspace. Of ROS, only catkin_pkg is needed."""
 
 from __future__ import annotations
 
@@ -26,22 +26,22 @@ from tutorial_check.submission.packages import (
 )
 from tutorial_check.submission.student_files import is_too_large
 
-MOST_BYTES = 300 << 20  # sources of a workspace, including bags
+MOST_BYTES = 300 << 20  # of a workspace's sources, including bags
 MOST_FILES = 20_000
 COPY = "handed_in/src"  # the copy of what was handed in, as in a workspace
-# The words of a launch file, and in one of them what a node of the exercises reads.
+# Separators of a launch file's words, and the path in a word of a file that a node reads.
 BETWEEN_WORDS, WHOLE_PATH = re.compile(r"[\s\"'<>$]+"), re.compile(r"/.+\.(?:bag|rviz)\b")
 
 
 def hand_in(given: str | Path, folder: Path) -> tuple[Layout, Path]:
-    """Return the Layout, and its folder, of a workspace or zip, which is unpacked in a folder.
+    """Return (Layout, its folder) of a workspace, or of a zip, which is unpacked into a folder.
 
-    A folder with nothing but a zip, as Moodle has it, is that zip. Raises CannotCheck.
+    A folder with a zip and no workspace, as from Moodle, counts as that zip. Raises CannotCheck.
     """
     given = archive = Path(given)
     if not os.path.isfile(given):
         layout = find_layout(given)
-        # A link may lead to what is not the student's.
+        # A link may lead to somebody else's file.
         zips = [p for p in given.glob("*.[zZ][iI][pP]") if p.is_file() and not p.is_symlink()]
         if layout.source.is_dir() or len(zips) != 1:
             return layout, given
@@ -51,7 +51,7 @@ def hand_in(given: str | Path, folder: Path) -> tuple[Layout, Path]:
 
 
 def unpack(archive: Path, folder: Path) -> None:
-    """Unpack a zip into a folder. Raises CannotCheck, also for one with a path outside."""
+    """Unpack a zip into a folder. Raises CannotCheck, also for a path that leads outside."""
     try:
         with zipfile.ZipFile(archive) as opened:
             members = opened.infolist()
@@ -59,25 +59,25 @@ def unpack(archive: Path, folder: Path) -> None:
             if size > MOST_BYTES or len(members) > MOST_FILES:
                 raise CannotCheck(f"{archive}: unpacked it is larger than {MOST_BYTES >> 20} MB")
             for member in members:
-                # Of an older PowerShell, whose zips have them against the rule.
+                # Older versions of PowerShell write backslashes, against the standard.
                 member.filename = member.filename.replace("\\", "/")
                 path, mode = Path(member.filename), member.external_attr >> 16
                 if path.is_absolute() or ".." in path.parts:
                     raise CannotCheck(f"{archive}: has a path outside of itself: {member.filename}")
                 target = folder if stat.S_ISLNK(mode) else Path(opened.extract(member, folder))
                 if target.is_file():
-                    # One made on Windows knows no rights; then chmod +x cannot be judged.
+                    # A zip from Windows has no permissions, so chmod +x cannot be checked.
                     target.chmod((mode & 0o777 or 0o755) | 0o600)
     except CannotCheck:
         raise
-    except Exception as error:  # each way to pack has errors of its own for broken bytes
+    except Exception as error:  # each compression has exceptions of its own
         raise CannotCheck(f"{archive}: cannot be unpacked: {error}") from None
 
 
 def find_layout(folder: str | Path) -> Layout:
     """Return the Layout of a workspace, its src, a folder of packages, or a package, at any depth.
 
-    Of several that with the exercises' packages. A home folder is not searched: it may have others.
+    If there are several, prefer the exercises' packages. A home folder is not searched.
     """
     folder = Path(folder)
     if not folder.exists():
@@ -121,7 +121,7 @@ def _layout_of(folder: Path) -> Layout | None:
 
 
 def must_be_ones_own(layout: Layout, suite: Path) -> None:
-    """Raise CannotCheck if a package, or what it is a link to, is one of the suite's solutions."""
+    """Raise CannotCheck if a package is, or is a link to, one of the suite's solutions."""
     solutions = {os.path.realpath(suite / name) for name in SOLUTIONS}
     for path in (layout.source, *sorted(layout.source.glob("*"))):
         if os.path.realpath(path) in solutions:
@@ -131,7 +131,7 @@ def must_be_ones_own(layout: Layout, suite: Path) -> None:
 def copy(layout: Layout, target: Path, inside: str | Path | None = None) -> Path:
     """Copy sources to a folder; return it. Raises CannotCheck if they are unreadable or too large.
 
-    inside: follow only links that lead to something in this folder; None: all.
+    inside: follow only links into this folder; None: follow all links.
     """
     target.mkdir(parents=True)
     source = layout.source
@@ -139,7 +139,7 @@ def copy(layout: Layout, target: Path, inside: str | Path | None = None) -> Path
         copying = _Copying(str(target.resolve()), os.path.realpath(inside) if inside else None)
         is_package = (source / "package.xml").exists()
         copying.copy(source, target / source.name if is_package else target, frozenset())
-    # Of the student's catkin; git without links, zip and Windows make a file of that link.
+    # catkin's link, which git without links, zip and Windows turn into a file.
     toplevel = target / "CMakeLists.txt"
     if toplevel.is_file() and b"toplevel" in toplevel.read_bytes():
         toplevel.unlink()
@@ -148,7 +148,7 @@ def copy(layout: Layout, target: Path, inside: str | Path | None = None) -> Path
 
 @dataclass
 class _Copying:
-    """What is at a path may change meanwhile: it is first held, then looked at, then opened."""
+    """Copies files that may change meanwhile: each is held, then examined, then opened."""
 
     target: str
     inside: str | None
@@ -156,7 +156,7 @@ class _Copying:
     count: int = 0
 
     def copy(self, source: Path, target: Path, seen: frozenset[str]) -> None:
-        """Copy a file, or what is in a folder; nothing else, and nothing that is outside."""
+        """Copy a file, or a folder's content; skip special files, and what is outside."""
         with contextlib.ExitStack() as stack:
             try:
                 held = os.open(source, os.O_PATH | os.O_CLOEXEC)
@@ -195,17 +195,17 @@ class _Copying:
 
 
 def named_outside(source: Path) -> list[str]:
-    """Return the recordings and RViz views that exist and that launch files name by whole paths."""
+    """Return existing bags and RViz configurations that launch files name by absolute paths."""
     files = [path for path in source.rglob("*.launch") if path.is_file()]
     texts = [path.read_text(errors="replace") for path in files if not is_too_large(path)]
     words = {word for text in texts for word in BETWEEN_WORDS.split(text)}
-    # A path, or a parameter's as _file:=/a/path.
+    # A path, alone or in a parameter such as _file:=/a/path.
     named = (WHOLE_PATH.match(w, 0 if w[:1] == "/" else w.find("=/") + 1) for w in words)
     return sorted({path[0] for path in named if path and os.path.isfile(path[0])})
 
 
 def all_below(folder: str | Path) -> Iterator[str]:
-    """Yield the path of all that is in a folder, in order, without what is IGNORED."""
+    """Yield the paths of everything in a folder, in order, except IGNORED folders."""
     for here, folders, files in walk(folder):
         folders[:] = sorted(set(folders) - IGNORED)
         # A folder may be a link.

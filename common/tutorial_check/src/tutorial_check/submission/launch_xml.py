@@ -1,4 +1,4 @@
-"""The text of a launch file or manifest: its comments, its lines, and what roslaunch says of it."""
+"""The text of a launch file or manifest: comments, lines, and roslaunch's errors."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Iterator, Sequence
 
 COMMENT_START, COMMENT_END = "<!--", "-->"
-# Names in two words. (That of a node may have them, says roslaunch; that is worth a note.)
+# Names with a space. (roslaunch allows it in the name of a node, which gets a note.)
 GAPS = (
     r"\$\(find\s+(\w+(?:[ \t]+\w+)+)\s*\)",
     r"\b(?:pkg|type)\s*=\s*[\"'](\w+(?:[ \t]+[\w.]+)+)[\"']",
@@ -14,7 +14,7 @@ GAPS = (
 
 
 def comments(text: str) -> Iterator[tuple[int, int]]:
-    """Yield (start, end) of each comment, in time that grows as the text: no regular expression."""
+    """Yield (start, end) of each comment in linear time, unlike a regular expression."""
     start = text.find(COMMENT_START)
     while start >= 0:
         end = text.find(COMMENT_END, start + len(COMMENT_START))
@@ -25,7 +25,7 @@ def comments(text: str) -> Iterator[tuple[int, int]]:
 
 
 def without_comments(text: str) -> str:
-    """Return the text with blanks in place of comments: its lines keep their numbers."""
+    """Return the text with blanks instead of comments, so that lines keep their numbers."""
     parts, done = [], 0
     for start, end in comments(text):
         blank = "\n".join(" " * len(line) for line in text[start:end].split("\n"))
@@ -35,7 +35,7 @@ def without_comments(text: str) -> str:
 
 
 def place_of(where: str, text: str, *words: str) -> str:
-    """FILE:LINE of the first line with the first of the words that is there; else the file."""
+    """Return FILE:LINE of the first line with the first of the words that occurs; else the file."""
     for word in words:
         for number, line in enumerate(text.splitlines(), 1):
             if word and word in line:
@@ -44,13 +44,13 @@ def place_of(where: str, text: str, *words: str) -> str:
 
 
 def line_of(text: str, index: int) -> int:
-    """Return the number of the line, from 1, in which text[index] stands."""
+    """Return the number, from 1, of the line that text[index] is in."""
     return text.count("\n", 0, index) + 1
 
 
 @dataclass(frozen=True)
 class Fault:
-    """What roslaunch said of a launch file, and the tag that it was reading then."""
+    """An error of roslaunch in a launch file, and the tag that it was reading."""
 
     kind: str
     words: str
@@ -59,5 +59,5 @@ class Fault:
 
 
 def attribute(name: str, value: str) -> tuple[str, ...]:
-    """Return how it may be written, for place_of."""
+    """Return the ways to write an attribute, for place_of."""
     return f'{name}="{value}"', f"{name}='{value}'", value

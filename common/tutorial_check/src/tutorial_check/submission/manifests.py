@@ -1,4 +1,4 @@
-"""Every package.xml of the workspace: a fault in one stops the other packages, too."""
+"""The package.xml files of a workspace: a broken one stops the other packages, too."""
 
 from __future__ import annotations
 
@@ -9,19 +9,19 @@ from typing import Sequence
 from node_kit.manifests import broken_manifests
 from tutorial_check.submission.packages import Package
 
-# The real ones may well be in a student's src.
+# A student's src may have the real packages.
 STAND_INS = Path(__file__).resolve().parents[5] / "common/stand_ins"
 
 
 def is_stand_in(name: str) -> bool:
-    """Return whether the suite's package of that name stands in for the one that Debian lacks."""
+    """Return whether the suite has a stand-in for a package of that name."""
     return (STAND_INS / name / "package.xml").is_file()
 
 
 def first_broken(source: Path, packages: Sequence[Package]) -> Package | None:
-    """Return the first package below src whose package.xml is no XML, or None: no node starts then.
+    """Return the first package below src whose package.xml is no XML, or None. No node starts then.
 
-    rospy reads every package.xml first, also in a hidden folder, where catkin sees no package.
+    rospy first reads every package.xml, even in hidden folders, which catkin skips.
     """
     broken = broken_manifests(source)
     if not broken:

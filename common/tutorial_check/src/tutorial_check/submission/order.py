@@ -1,4 +1,4 @@
-"""What a launcher and its worker send each other, as frozen data: an order, questions, replies."""
+"""What a launcher and its worker send each other: an order, questions, replies."""
 
 from __future__ import annotations
 
@@ -11,30 +11,30 @@ from tutorial_check.course.tasks import Variant
 from tutorial_check.errors import CutShort
 from tutorial_check.submission.packages import Layout
 
-VERSION = 2  # raised by each change of recordings that an older check could not read
+VERSION = 2  # increased by each change that an older check could not read
 
 
 @dataclass(frozen=True)
 class Order:
-    """One workspace to be checked. What follows the variant is from launcher.prepared()."""
+    """A workspace to check. launcher.prepared() sets the fields after the variant."""
 
     workspace: Path  # or a zip
-    underlay: str  # setup.bash of the devel space with what students use and never write
+    underlay: str  # setup.bash of the underlay's devel space
     exercises: Tuple[str, ...]
-    only_first: bool = False  # end at the first check that is wrong
+    only_first: bool = False  # stop at the first wrong check
     is_callers_own: bool = True  # its links may lead into the home folder
     course: Path = HANDOUT
-    variant: Variant = field(default_factory=dict)  # The student's task names it.
-    folder: Path = Path()  # for this order alone; the copy of the workspace is in it
-    layout: Layout = field(default_factory=Layout)  # Messages name places as they were handed in.
-    environment: Dict[str, str] = field(default_factory=dict)  # A shell with the underlay has it.
+    variant: Variant = field(default_factory=dict)  # of the student's task
+    folder: Path = Path()  # for this order only, with the copy of the workspace
+    layout: Layout = field(default_factory=Layout)  # messages name its paths
+    environment: Dict[str, str] = field(default_factory=dict)  # of the underlay
     readable: Tuple[Path, ...] = ()  # what the student's programs may read
-    in_namespaces: bool = False  # in namespaces of its own, by bubblewrap
+    in_namespaces: bool = False  # isolated by bubblewrap
 
 
 @dataclass(frozen=True)
 class Question:
-    """What is to be recorded."""
+    """A request for a recording."""
 
     recorder: str  # MODULE:NAME
     arguments: Tuple[Any, ...] = ()  # JSON
@@ -42,9 +42,9 @@ class Question:
 
 @dataclass(frozen=True)
 class Reply:
-    """What was recorded, or why nothing was; without these a worker has started."""
+    """A recording, or why there is none; with neither, the worker is ready."""
 
-    recording: Any = None  # a dataclass; JSON where it arrives
+    recording: Any = None  # a dataclass; JSON at the receiver
     cut_short: Optional[CutShort] = None
     cannot: Optional[str] = None
     busy: bool = False  # the machine kept programs waiting: a late answer proves little
@@ -52,4 +52,4 @@ class Reply:
     version: int = VERSION
 
 
-Ask = Callable[[Question], Reply]  # the worker, for those who ask it
+Ask = Callable[[Question], Reply]  # asks a worker

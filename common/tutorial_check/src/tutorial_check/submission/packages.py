@@ -1,4 +1,4 @@
-"""The packages of a workspace, as their files say. Needs no ROS but catkin_pkg."""
+"""The packages of a workspace, from their files. Of ROS, only catkin_pkg is needed."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from catkin_pkg.package import InvalidPackage, parse_package
 from tutorial_check.errors import CannotCheck
 from tutorial_check.submission.student_files import TOO_LARGE, is_too_large, text_of_file
 
-MOST_DEPTH = 100  # Folders in folders: Python calls a function in itself for each.
+MOST_DEPTH = 100  # of nested folders, because Python's recursion is limited
 SOLUTIONS = {"beginner_tutorials", "joy2twist"}  # the packages of the exercises
-IGNORED = {"build", "devel", ".git", "__pycache__"}  # folders that no student writes
-LEFT_OUT = {*IGNORED, "install", ".catkin_tools", "logs"}  # not sources of a workspace
+IGNORED = {"build", "devel", ".git", "__pycache__"}  # folders that tools write
+LEFT_OUT = {*IGNORED, "install", ".catkin_tools", "logs"}  # no sources
 
 
 @dataclass
@@ -28,9 +28,9 @@ class Package:
     inside: str  # its path within the workspace, for the student
     name: str = ""
     error: str = ""  # why catkin cannot read package.xml
-    malformed: bool = False  # so that it is no XML at all
+    malformed: bool = False  # package.xml is no XML
     format: int = 2
-    depends: set[str] = field(default_factory=set)  # for building or running
+    depends: set[str] = field(default_factory=set)  # build and exec dependencies
 
     @property
     def cmake(self) -> str | None:
@@ -43,14 +43,14 @@ class Package:
 class Layout:
     """Where the sources of a workspace are."""
 
-    root: Path = Path()  # what the student handed in
+    root: Path = Path()  # of the submission
     source: Path = Path()  # its src folder, or the folder of packages itself
-    is_workspace: bool = False  # there is a src
-    place: str = ""  # root within what was handed in, if another folder
+    is_workspace: bool = False  # has a src
+    place: str = ""  # root within the submission, if another folder
 
 
 def walk(top: str | Path) -> Iterator[tuple[str, list[str], list[str]]]:
-    """Yield what os.walk does, which may be changed as there. Raises CannotCheck."""
+    """Yield from os.walk, whose lists may be changed. Raises CannotCheck for too deep folders."""
     for here, folders, files in os.walk(top):
         if len(Path(here).parts) - len(Path(top).parts) > MOST_DEPTH:
             raise CannotCheck(too_deep(top))
@@ -62,7 +62,7 @@ def too_deep(folder: str | Path) -> str:
 
 
 def packages_below(folder: str | Path) -> list[Package]:
-    """Return every package in a folder, with what is wrong with it, in the order of their paths."""
+    """Return all packages in a folder, with their errors, in the order of their paths."""
     packages = []
     for here, folders, files in walk(folder):
         folders[:] = sorted(name for name in {*folders} - LEFT_OUT if name[0] != ".")
@@ -74,7 +74,7 @@ def packages_below(folder: str | Path) -> list[Package]:
 
 
 def packages_beside(layout: Layout) -> list[Package]:
-    """Return the packages right beside the src of a workspace; deeper may be another student's."""
+    """Return the packages directly beside src; deeper ones may be another student's."""
     manifests = sorted(layout.root.glob("*/package.xml")) if layout.is_workspace else []
     beside = (manifest.parent for manifest in manifests if manifest.is_file())
     return [read_package(path, layout.root) for path in beside if path != layout.source]
@@ -88,7 +88,7 @@ def read_package(place: Path, root: str | Path) -> Package:
     try:
         parsed = parse_package(str(place), warnings=[])
         parsed.evaluate_conditions({"ROS_PYTHON_VERSION": "3", "ROS_VERSION": "1"})
-    # An AssertionError is catkin's word for a format that is yet to come.
+    # catkin_pkg raises AssertionError for a future format.
     except (InvalidPackage, AssertionError, OSError, ValueError) as error:
         package.error = " ".join(str(error).split())
         try:
@@ -104,11 +104,11 @@ def read_package(place: Path, root: str | Path) -> Package:
 
 
 def underlays(devel: str | Path) -> tuple[str, list[str] | None]:
-    """Return (the folder a devel space was made for, or ""; what it was laid over, or None)."""
+    """Return (the folder of a devel space when it was made, or ""; its underlays, or None)."""
     files = [Path(devel) / name for name in ("_setup_util.py", "setup.sh")]
-    # A pipe would never be read to its end.
+    # Reading a pipe would never end.
     text, setup = (f.read_text(errors="replace") if f.is_file() else "" for f in files)
-    # The first of its assignments, written by catkin: CMAKE_PREFIX_PATH = r'/a;/b'.split(';')
+    # catkin's first assignment: CMAKE_PREFIX_PATH = r'/a;/b'.split(';')
     paths = re.search(r"^\s*CMAKE_PREFIX_PATH = r?(['\"])(.*)\1\.split\(", text, re.MULTILINE)
     made_for = re.search(r"_CATKIN_SETUP_DIR:=(.*)", setup)
     below = list(filter(None, paths[2].split(";"))) if paths else None

@@ -1,4 +1,4 @@
-"""The folders that a recording names by a word, as they are elsewhere on each machine. Pure."""
+"""Words for folders in recordings, because paths differ between machines."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ import re
 from pathlib import Path
 from typing import Any, Mapping, TypeVar
 
-Part = TypeVar("Part")  # a recording, or what is in one
+Part = TypeVar("Part")  # a recording, or a part of one
 
 
 class Places:
-    """What programs print names folders of this machine; what leaves a worker must not."""
+    """Replaces this machine's folders in a recording by words, and words by folders."""
 
     def __init__(self, folders: Mapping[str, Path]) -> None:
-        """folders: by their words; those of / and of no whole path are not used."""
+        """folders: {word: path}; / and relative paths are ignored."""
         known = {word: path for word, path in folders.items() if path.root and path.name}
         self._folders = {f"{{{word}}}": str(path) for word, path in known.items()}
         self._words = {path: word for word, path in self._folders.items()}
@@ -23,16 +23,16 @@ class Places:
         self._word = re.compile("|".join(map(re.escape, self._folders)) or "(?!)")
 
     def named(self, part: Part) -> Part:
-        """Return a recording with words in place of these folders."""
+        """Return a recording with words instead of folders."""
         return _replaced(part, self._path, self._words)
 
     def whole(self, part: Part) -> Part:
-        """Return a recording with the folders of this machine in place of words."""
+        """Return a recording with this machine's folders instead of words."""
         return _replaced(part, self._word, self._folders)
 
 
 def _replaced(part: Any, pattern: re.Pattern[str], words: Mapping[str, str]) -> Any:
-    """Return a recording, or a part of it, with other words for what fits, in all its texts."""
+    """Return a recording, or a part of it, with all matches in its texts replaced."""
 
     def word(fit: re.Match[str]) -> str:
         return words[fit[0]]

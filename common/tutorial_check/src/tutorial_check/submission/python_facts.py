@@ -1,4 +1,4 @@
-"""What a Python file says of itself, read as Python reads it and never run. Pure."""
+"""Facts from the text of a Python file, which is parsed and never run."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ from tutorial_check.submission.python_text import is_broad, last_name, python_li
 from tutorial_check.submission.student_files import MOST_BYTES, TOO_LARGE
 
 KEYBOARD = ("input", "raw_input", "tcgetattr", "setraw", "setcbreak", "initscr", "getch", "getchar")
-Place = Union[Tuple[int, str], Tuple[()]]  # (line, text), or empty: there is none
+Place = Union[Tuple[int, str], Tuple[()]]  # (line, text), or empty
 
 
 @dataclass
 class Call:
-    """rospy.Publisher(...), rospy.Subscriber(...) and their like."""
+    """A call, such as rospy.Publisher(...)."""
 
     line: int
-    words: list[str]  # the arguments as text, strings without quotes
-    names: dict[str, str]  # the same of keyword arguments
+    words: list[str]  # the positional arguments as text, without quotes
+    names: dict[str, str]  # the keyword arguments, likewise
 
 
 @dataclass
@@ -34,12 +34,12 @@ class ClassFacts:
     methods: list[str]
     instantiated: bool
     is_node: bool
-    attributes: set[str]  # that an object has, besides methods
-    bases: set[str]  # but object
+    attributes: set[str]  # of an object, without methods
+    bases: set[str]  # except object
 
 
 class PythonFacts:
-    """What a file contains: nothing but an error where Python cannot read it."""
+    """The content of a file; only an error if Python cannot read it."""
 
     def __init__(self, text: str) -> None:
         self.error, self.error_line = "", 0
@@ -64,7 +64,7 @@ class PythonFacts:
             self.calls.setdefault(last_name(node), []).append(Call(node.lineno, words, names))
         self.classes = [_class_facts(node, set(self.calls)) for node in self._of(ast.ClassDef)]
         inner = [node for function in self._of(ast.FunctionDef) for node in ast.walk(function)]
-        self.inner_names = {name for _, name in _made(inner)}  # that functions make, or are given
+        self.inner_names = {name for _, name in _made(inner)}  # of functions' variables, parameters
         self.has_main = any(map(_is_main, self._nodes))
         self.loops = [node.lineno for node in self._of(ast.While)]
         self.broad_excepts = list(filter(is_broad, self._of(ast.ExceptHandler)))
@@ -87,21 +87,21 @@ class PythonFacts:
 
     @property
     def bare_names(self) -> list[tuple[int, str]]:
-        """(line, text) of statements that do nothing, as rospy.spin without ()."""
+        """(line, text) of statements without effect, such as rospy.spin without ()."""
         kinds = (ast.Attribute, ast.Name)
         bare = [node for node in self._of(ast.Expr) if isinstance(node.value, kinds)]
         return [(node.lineno, text_of(node.value)) for node in bare]
 
     @property
     def sunken_main(self) -> Place:
-        """(line, function) of an `if __name__ == '__main__':` that stands within a function."""
+        """(line, function) of an `if __name__ == '__main__':` that is inside a function."""
         functions = self._of(ast.FunctionDef)
         inner = ((n, f.name) for f in functions for n in ast.walk(f) if isinstance(n, ast.If))
         return next(((node.lineno, name) for node, name in inner if _is_main(node)), ())
 
     @property
     def odd_main(self) -> Place:
-        """(line, text) of `if __name__ == ' main ':` and its like."""
+        """(line, text) of `if __name__ == ' main ':` and similar lines."""
         tests = [node.test for node in self._nodes[0].body if isinstance(node, ast.If)]
         for test in (compare for compare in tests if isinstance(compare, ast.Compare)):
             left, right = text_of(test.left), text_of(test.comparators[0])
@@ -121,7 +121,7 @@ class PythonFacts:
 
     @property
     def attributes(self) -> dict[str, tuple[int, str]]:
-        """{"msg.linear.x": (first line, what it is set to)}."""
+        """{"msg.linear.x": (first line, value assigned)}."""
         pairs = [(target, node.value) for node in self._of(ast.Assign) for target in node.targets]
         pairs = [both for both in pairs if isinstance(both[0], ast.Attribute)]
         texts = [(target.lineno, text_of(target), text_of(value)) for target, value in pairs]
@@ -129,7 +129,7 @@ class PythonFacts:
 
     @property
     def loose(self) -> dict[int, str]:
-        """{line beside functions, which may have fallen out of one: the function above it}."""
+        """{line that may have lost its indentation: the function above it}."""
         functions: dict[int, str] = {}
         for block in self._of(ast.Module, ast.ClassDef):
             above = ""
@@ -144,16 +144,16 @@ class PythonFacts:
 
     @cached_property
     def called_back(self) -> dict[str, list[int]]:
-        """{name: lines} of what callbacks call, and what these call."""
+        """{name: lines} of calls in callbacks, and in what they call."""
         return self.called_by("Subscriber", 2)
 
     def given(self, name: str, place: int) -> list[tuple[int, str]]:
-        """Return (line, what is called back) of each call of a name, which has that in a place."""
+        """Return (line, callback) of each call of a name. place: the callback's position."""
         calls = self.calls.get(name, [])
         return [(c.line, (c.words[place:] or [c.names.get("callback", "")])[0]) for c in calls]
 
     def called_by(self, name: str, place: int) -> dict[str, list[int]]:
-        """Return {name: lines} of what functions call that are given to calls of a name."""
+        """Return {name: lines} of calls in the callbacks that are passed to calls of a name."""
         functions = {node.name: node for node in self._of(ast.FunctionDef)}
         waiting = [word.rsplit(".", 1)[-1] for _, word in self.given(name, place)]
         lines: dict[str, set[int]] = {}
@@ -167,26 +167,26 @@ class PythonFacts:
 
     @property
     def unusual_node_name(self) -> Place:
-        """(line, name) of an init_node of whose name ROS warns, as of joy2twist.py."""
+        """(line, name) of an init_node whose name ROS warns about, such as joy2twist.py."""
         for node in self._of(ast.Call):
             if last_name(node) == "init_node" and node.args:
                 name = getattr(node.args[0], "value", None)
-                # With a / it comes to no warning: rospy refuses it.
+                # rospy refuses a / without a warning.
                 if isinstance(name, str) and not re.fullmatch(r"[A-Za-z]\w*|.*/.*|", name):
                     return node.lineno, name
         return ()
 
     @property
     def keyboard(self) -> int:
-        """The first line that reads the keyboard; 0 if none does."""
+        """The first line that reads the keyboard, or 0."""
         stdin = [node.lineno for node in self._of(ast.Attribute) if text_of(node) == "sys.stdin"]
         return min(sum(map(self.lines, KEYBOARD), stdin), default=0)
 
     def catcher(self, lines: Sequence[int]) -> ast.ExceptHandler | None:
-        """Return what catches an error. lines: of the calls to it, the innermost last."""
+        """Return the handler that catches an error. lines: of the traceback, the innermost last."""
         blocks = [block for block in self._of(ast.Try) if any(map(is_broad, block.handlers))]
         for line in lines[::-1]:
-            # ast.walk comes to what is outside first.
+            # ast.walk yields outer blocks first.
             around = [block for block in blocks if block.lineno <= line < block.handlers[0].lineno]
             if around:
                 return around[-1].handlers[-1]
@@ -196,18 +196,18 @@ class PythonFacts:
         return next(iter(self.calls.get(name, [])), None)
 
     def lines(self, *names: str) -> list[int]:
-        """Return the lines of the calls of these names."""
+        """Return the lines of calls of these names."""
         return [call.line for name in names for call in self.calls.get(name, [])]
 
     @property
     def without_callback(self) -> Call | None:
-        """The first Subscriber that is given no callback."""
+        """The first Subscriber without a callback."""
         calls = self.calls.get("Subscriber", [])
         return next((c for c in calls if len(c.words) == 2 and "callback" not in c.names), None)
 
     @property
     def publishing_loops(self) -> list[int]:
-        """Lines that publish within a loop, and not in a callback."""
+        """Lines that publish in a loop outside callbacks."""
         outside = set(self.lines("publish")) - set(self.called_back.get("publish", []))
         return [line for line in sorted(outside) if any(loop <= line for loop in self.loops)]
 
@@ -228,7 +228,7 @@ def _made(nodes: Iterable[ast.AST]) -> Iterator[tuple[int, str]]:
 
 
 def shows(handler: ast.ExceptHandler) -> bool:
-    """Return whether it displays anything."""
+    """Return whether a handler displays anything."""
     calls = (node for node in ast.walk(handler) if isinstance(node, ast.Call))
     return any(re.match("print|log|write|error|warn|exception", last_name(call)) for call in calls)
 
@@ -247,7 +247,7 @@ def _class_facts(node: ast.ClassDef, called: set[str]) -> ClassFacts:
         line=node.lineno,
         methods=[part.name for part in node.body if isinstance(part, ast.FunctionDef)],
         instantiated=node.name in called,
-        # A message or an exception of its own is no node.
+        # The student's own message or exception is no node.
         is_node=bool(words & {"Subscriber", "Publisher", "init_node", "publish"})
         and not any(base.endswith(("Exception", "Error")) for base in bases),
         attributes={getattr(part, "attr", getattr(part, "id", "")) for part in stored},
@@ -256,7 +256,7 @@ def _class_facts(node: ast.ClassDef, called: set[str]) -> ClassFacts:
 
 
 def with_bases(classes: list[ClassFacts]) -> list[ClassFacts]:
-    """Return the ClassFacts, each with what the bases among them give it."""
+    """Return the ClassFacts, each with what it inherits from the others."""
     by_name = {facts.name: facts for facts in classes}
 
     def whole(facts: ClassFacts, below: tuple[str, ...] = ()) -> ClassFacts:

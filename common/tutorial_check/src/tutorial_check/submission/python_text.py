@@ -1,4 +1,4 @@
-"""The text of a Python file: its coding, lines, expressions; with one thing changed. Pure."""
+"""The text of a Python file: encoding, lines, expressions, and changed copies."""
 
 from __future__ import annotations
 
@@ -7,16 +7,16 @@ import io
 import re
 from typing import Iterable
 
-# In which a file is written, from a comment in the first or second line (PEP 263).
+# The encoding in a comment in the first or second line (PEP 263).
 CODING = re.compile(rb"(?:[ \t\f]*(?:#[^\n]*)?\n)??[ \t\f]*#[^\n]*?coding[:=][ \t]*([-\w.]+)")
-# The start of an except that hides every kind of error.
+# The start of an except that hides every error.
 MASK = re.compile(
     r"^([ \t]*except)\b[ \t(]{0,99}(?:(?:Base)?Exception)?\)?(?=[ \t]{0,99}(?:as\b.*)?:)", re.M
 )
 
 
 def unreadable(data: bytes) -> tuple[int, str] | None:
-    """Return (line, what is there) of the first bytes not of a file's coding; None if all are."""
+    """Return (line, what is wrong) of the first bytes that do not fit the encoding, or None."""
     declared = CODING.match(data)
     coding = declared[1].decode() if declared else "utf-8"
     try:
@@ -32,12 +32,12 @@ def unreadable(data: bytes) -> tuple[int, str] | None:
 
 
 def python_lines(text: str) -> list[str]:
-    """Return the lines as Python counts them; splitlines() also splits at a form feed or U+2028."""
+    """Return the lines as Python counts them; splitlines() also splits at form feed and U+2028."""
     return [line.rstrip("\r\n") for line in io.StringIO(text, newline="")]
 
 
 def text_of(node: ast.AST) -> str:
-    """Return a short text of an expression; for what has none, its kind."""
+    """Return a short text of an expression, or else its kind."""
     if isinstance(node, ast.Constant):
         return str(node.value)
     if isinstance(node, ast.Name):
@@ -56,7 +56,7 @@ def last_name(node: ast.Call) -> str:
 
 
 def is_broad(handler: ast.ExceptHandler) -> bool:
-    """Return whether it catches every kind of error."""
+    """Return whether a handler catches every error."""
     return not handler.type or text_of(handler.type) in ("Exception", "BaseException")
 
 
@@ -65,13 +65,13 @@ def _joined(lines: Iterable[str]) -> str:
 
 
 def unmasked(text: str) -> str | None:
-    """Return the program with each catch-all except: made to catch nothing; None without one."""
+    """Return the program with each catch-all except catching nothing; None if it has none."""
     changed, count = MASK.subn(r"\1 ()", _joined(python_lines(text)))
     return changed if count else None
 
 
 def without_name(text: str, name: str) -> str | None:
-    """Return the program without something that it imports; None if it imports no such name."""
+    """Return the program without an imported name; None if it does not import it."""
     lines = python_lines(text)
     for node in ast.walk(ast.parse(text)):
         if not isinstance(node, ast.ImportFrom):
@@ -85,7 +85,7 @@ def without_name(text: str, name: str) -> str | None:
 
 
 def flipped_anonymous(text: str, wanted: bool) -> str | None:
-    """Return the program with anonymous=wanted in its init_node; None if none is plain."""
+    """Return the program with anonymous=wanted in init_node; None if that cannot be changed."""
     for node in ast.walk(ast.parse(text)):
         if not (isinstance(node, ast.Call) and last_name(node) == "init_node"):
             continue

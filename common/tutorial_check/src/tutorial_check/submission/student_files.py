@@ -1,4 +1,4 @@
-"""A student's files: so much of them is read, and no link that a program planted is followed."""
+"""Read and write a student's files, with a limit, and without following planted links."""
 
 import contextlib
 import os
@@ -8,26 +8,26 @@ from typing import Iterator, Tuple
 
 from tutorial_check.errors import CannotCheck, FileTooLarge
 
-# A program, launch file or manifest of the exercises has some 2 kB; what is said of one must not
-# take the time and memory that a hundred times as much takes.
+# A program, launch file or manifest of the exercises has about 2 kB. Diagnosing a file a hundred
+# times as large would take too much time and memory.
 MOST_BYTES = 256 << 10
 TOO_LARGE = f"larger than {MOST_BYTES >> 10} kB"
 
 
 def is_too_large(path: Path) -> bool:
-    """Return whether a text file is larger than any that is written by hand."""
+    """Return whether a text file is larger than any written by hand."""
     return path.stat().st_size > MOST_BYTES
 
 
 def text_of_file(path: Path) -> str:
-    """Return what a text file holds. Raises FileTooLarge."""
+    """Return the content of a text file. Raises FileTooLarge."""
     if is_too_large(path):
         raise FileTooLarge(path.name)
     return path.read_text(errors="replace")
 
 
 def put_file(base: Path, path: Path, text: str, mode: int = 0o644) -> None:
-    """Make a new file below a folder; what is there is removed. Raises CannotCheck."""
+    """Replace a file below a folder with a new one. Raises CannotCheck."""
     with _folder_of(base, path) as (folder, name):
         with contextlib.suppress(FileNotFoundError):
             os.unlink(name, dir_fd=folder)
@@ -38,7 +38,7 @@ def put_file(base: Path, path: Path, text: str, mode: int = 0o644) -> None:
 
 
 def read(base: Path, path: Path) -> bytes:
-    """Return what a file below a folder holds, of one that is TOO_LARGE a byte more than it may.
+    """Return the content of a file below a folder, but at most one byte more than MOST_BYTES.
 
     Raises CannotCheck, also for a pipe or a device.
     """
@@ -52,10 +52,10 @@ def read(base: Path, path: Path) -> bytes:
 
 @contextlib.contextmanager
 def _folder_of(base: Path, path: Path) -> Iterator[Tuple[int, str]]:
-    """Yield (descriptor of the folder that a file is in, its name there)."""
+    """Yield (descriptor of a file's folder, its name)."""
     wanted = os.path.normpath(os.path.realpath(base) / path.parent.relative_to(base))
     try:
-        if ".." in path.parts:  # a recording may be made up
+        if ".." in path.parts:  # a recording may be forged
             raise OSError("its path leads elsewhere")
         folder = os.open(path.parent, os.O_RDONLY | os.O_DIRECTORY)
         try:

@@ -1,4 +1,4 @@
-"""All that the checks of one workspace share: what its files say, and the recordings."""
+"""The files of a workspace, which its checks and recorders share."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from tutorial_check.submission.packages import SOLUTIONS, Package, packages_belo
 from tutorial_check.submission.places import Places
 from tutorial_check.submission.python_facts import PythonFacts
 
-# What of CMakeLists.txt makes a build necessary before anything can run.
+# Lines of CMakeLists.txt that require a build before anything can run.
 NEEDS_BUILD = re.compile(
     r"^[ \t]*(catkin_python_setup|add_message_files|add_service_files|generate_messages"
     r"|add_executable|catkin_install_python)\s*\(",
@@ -28,23 +28,23 @@ Value = TypeVar("Value")
 
 
 class SubmissionFiles:
-    """One workspace: what its files say, and what its programs were recorded to do."""
+    """The files of one workspace."""
 
     def __init__(self, order: Order, task: Task) -> None:
-        """task: of this student."""
+        """task: the student's."""
         self.order, self.folder, self.layout = order, order.folder, order.layout
         self.task: Any = task  # the course's own
         self.source = self.folder / "ws" / "src"
         self.underlay_environment: Mapping[str, str] = order.environment
         self._memory: dict[object, Any] = {}
-        self._visible = [Path("/")]  # what the student's programs may see, with all below it
+        self._visible = [Path("/")]  # folders that the student's programs may read
 
     def is_own(self, path: str | Path) -> bool:
-        """Return whether a path is within src. One in a recording may be made up, with .. in it."""
+        """Return whether a path is within src. One in a recording may be forged, with .. in it."""
         return Path(os.path.realpath(self.source)) in Path(os.path.realpath(path)).parents
 
     def may_see(self, path: str | Path) -> bool:
-        """Return whether the student's programs may see what is at a path, so that we may, too."""
+        """Return whether the student's programs may read a path, so that the checker may, too."""
         real = Path(os.path.realpath(path))
         return any(folder in (real, *real.parents) for folder in self._visible)
 
@@ -56,28 +56,28 @@ class SubmissionFiles:
         return Places({**copied, "workspace": self.layout.root, "underlay": below, "suite": SUITE})
 
     def memo(self, key: object, make: Callable[[], Value]) -> Value:
-        """Return make(), called once. For facts, which do not change."""
+        """Return make(), called only once, for facts that do not change."""
         if key not in self._memory:
             self._memory[key] = make()
         return cast(Value, self._memory[key])
 
     @cached_property
     def course(self) -> Course:
-        """The course that it is checked by."""
+        """The course of its checks."""
         return read_course(self.order.course)
 
     @cached_property
     def broken(self) -> Package | None:
-        """A package whose package.xml keeps every node from starting."""
+        """A package whose package.xml prevents every node from starting."""
         return first_broken(self.source, self.packages)
 
     @cached_property
     def packages(self) -> list[Package]:
-        """In the order of their paths."""
+        """The packages, in the order of their paths."""
         return packages_below(self.source)
 
     def has(self, name: str) -> bool:
-        """Return whether there is the package that the checks know by a name."""
+        """Return whether the package exists that the checks know by a name."""
         return self.task.name_of(name) in {package.name for package in self.packages}
 
     def package(self, name: str) -> Package:
@@ -91,7 +91,7 @@ class SubmissionFiles:
     def _programs(self, package: Package) -> Iterator[tuple[str, PythonFacts]]:
         for path in sorted(package.folder.rglob("*")):
             inside = path.relative_to(package.folder)
-            # What editors and file managers keep for themselves is hidden.
+            # Files of editors and file managers are hidden.
             if not path.is_file() or any(part.startswith(".") for part in inside.parts):
                 continue
             is_python = path.suffix == ".py"
@@ -102,21 +102,21 @@ class SubmissionFiles:
                 yield str(inside), PythonFacts(self.read(path))
 
     def read(self, path: Path) -> str:
-        """Return the text of a file or program of the student's. Raises CannotCheck."""
+        """Return the text of a student's file. Raises CannotCheck."""
         return student_files.read(self.folder, path).decode(errors="replace")
 
     def text(self, package: str, script: str) -> str:
-        """Return the text of a script, its line ends as they are."""
+        """Return the text of a script, with its line ends unchanged."""
         return self.read(self.package(package).folder / script)
 
     def whole(self, path: str | Path, package: str = "") -> str:
-        """Return a path, here, for a shell; Submission.as_sent makes it the student's own."""
+        """Return an absolute path for a shell; Submission.as_sent makes it the student's own."""
         own = self.package(package).folder if package else self.source.parent
         return shlex.quote(str(own / path))
 
     @property
     def needed(self) -> list[Package]:
-        """The packages of the exercises, and those of the workspace that they depend on."""
+        """The exercises' packages, and those of the workspace that they depend on."""
         needed, names = [], set(map(self.task.name_of, SOLUTIONS))
         for _ in self.packages:
             needed = [package for package in self.packages if package.name in names]
@@ -124,5 +124,5 @@ class SubmissionFiles:
         return needed or self.packages
 
     def needs_build(self) -> bool:
-        """Return whether something has to be made before a program can run."""
+        """Return whether a build is needed before a program can run."""
         return any(NEEDS_BUILD.search(package.cmake or "") for package in self.packages)

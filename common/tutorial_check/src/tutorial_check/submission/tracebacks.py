@@ -1,4 +1,4 @@
-"""From what a program printed to its traceback. Pure."""
+"""The traceback in a program's output."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ class Traceback:
     error: str  # "NameError: name 'pub' is not defined"
     where: str = ""  # "scripts/joy2twist.py:14", the student's own line
     text: str = ""  # the source line
-    places: tuple[str, ...] = ()  # all calls to it, the outermost first
+    places: tuple[str, ...] = ()  # of all calls in the student's files, the outermost first
 
     @property
     def message(self) -> str:
-        """What str() of the exception gives."""
+        """str() of the exception."""
         return re.sub(r"^[\w.]+: |\. Did you mean: .*", "", self.error)
 
     def lines_of(self, script: str) -> list[int]:
@@ -27,23 +27,23 @@ class Traceback:
 
 FRAME = re.compile(r'^\s*File "(?P<file>[^"]+)", line (?P<line>\d+)')
 ERROR = re.compile(r"^(?:[A-Za-z_][\w.]*(?:[Ee]rror|Exception|NotFound|Interrupt|Exit)\b.*)$")
-# Said of a node that is being ended: rospy closes topics shortly before it says so. No mistake.
+# No mistake: printed by a node that is ending, because rospy closes topics shortly before.
 CLOSED = re.compile(r"publish\(\) to a closed topic|topic was closed during publish\(\)")
-# As rospy prints what came up in a service: a list of lines, as Python writes it.
+# rospy prints an exception in a service as Python's representation of a list of lines.
 OF_SERVICE, LINE_END = "['Traceback", re.compile(r"\\n(?:['\"](?:, ['\"]|\]))?")
 ABOVE = "During handling of the above exception"
 
 
 def first_traceback(output: str, folder: str) -> Traceback | None:
-    """Return the first Traceback in the output, or None; files of the folder are the student's."""
+    """Return the first Traceback in the output, or None. folder: of the student's files."""
     if OF_SERVICE in output:
         output = LINE_END.sub("\n", output)
     traces: list[Traceback] = []
     is_closed = False
     for block in reversed(output.split("Traceback (most recent call last)")[1:51]):
-        if block.strip(": \n"):  # else it was cut off behind this line
+        if block.strip(": \n"):  # else the output was cut here
             trace = _traceback(block, folder)
-            # What led to such an end, which rospy reports before it, is none, either.
+            # Nor is what rospy reports before it, as the cause of such an end, a mistake.
             is_closed = bool(CLOSED.search(trace.error)) or (is_closed and ABOVE in block)
             traces += [] if is_closed else [trace]
     return next((trace for trace in traces[::-1] if trace.where), traces[-1] if traces else None)
@@ -64,8 +64,8 @@ def _traceback(block: str, folder: str) -> Traceback:
 
 
 def last_lines(output: str, count: int = 3) -> str:
-    """Return the end of an output, in one line, without colours."""
+    """Return the last lines of an output, joined into one, without colours."""
     plain = re.sub(r"\x1b\[[0-9;]*m", "", output)
-    # Of what rospy says of types that differ, the md5sum is most.
+    # rospy's md5sums of types that differ are long and useless.
     lines = [line.strip() for line in plain.splitlines() if line.strip() and "md5sum" not in line]
     return " / ".join(line[:200] for line in lines[-count:])
