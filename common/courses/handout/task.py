@@ -1,7 +1,7 @@
-"""What a variant of the handout's task changes: axes, buttons, topics, factors, names. Pure.
+"""What a variant of the handout's task changes: axes, buttons, topics, factors, names.
 
-Checks use the handout's axes and buttons: a Joy is rearranged as it is sent. In messages a Words
-stands for what a variant may change.
+Checks use the handout's axes and buttons; a Joy is rearranged when it is sent. Messages take what a
+variant may change from a Words.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ LB = 4  # the dead-man button of the handout's memo
 FIELDS = {"axis_linear": (1, "scale_linear"), "axis_angular": (0, "scale_angular")}
 AXES = 6
 NEUTRAL = ((0.0,) * AXES, (0,) * 12)  # a Joy at rest
-OF_ALL = ("/rosout", "/rosout_agg", "/clock")  # topics of every node
+OF_ALL = ("/rosout", "/rosout_agg", "/clock")  # topics that every node has
 TOPICS = {"joy": JOY, "cmd_vel": CMD_VEL}
 
 T = TypeVar("T")
@@ -26,20 +26,20 @@ Joy = Tuple[Tuple[float, ...], Tuple[int, ...]]  # (axes, buttons)
 
 @dataclass(frozen=True)
 class Words:
-    """What messages call the values of a task: by their names, or in hints as they are."""
+    """A task's values in messages: by name, or, in hints, as they are."""
 
     joy: str
     cmd_vel: str
     package: str
     lb: str
     button: str  # LB in a program
-    axes: tuple[str, ...]  # in a program, each by its place in the handout's
-    sticks: tuple[str, ...]  # the same, elsewhere
-    rules: Mapping[int, str]  # what follows each of the two axes that drive
+    axes: tuple[str, ...]  # in a program, by the handout's index
+    sticks: tuple[str, ...]  # likewise, elsewhere
+    rules: Mapping[int, str]  # {axis that drives: the expression for its field}
 
 
 def order(places: Mapping[int, int]) -> dict[int, int]:
-    """Return a rearrangement with these places, {from: to}, in which nothing gets lost."""
+    """Return a permutation, {from: to}, with these places."""
     left = [place for place in places.values() if place not in places]
     free = [place for place in places if place not in places.values()]
     return {**places, **dict(zip(left, free))}
@@ -59,10 +59,10 @@ class JoystickTask(Task):
         self.axes = order({index: values.get(name, index) for name, (index, _) in FIELDS.items()})
         self.buttons = order({LB: values.get("enable_button", LB)})
         self.topics = {TOPICS[key]: values[key] for key in TOPICS if key in values}
-        # Of linear.x and angular.z, by the index of the Twist's values; without one any is right.
+        # {index of linear.x or angular.z in a Twist: factor}; if there is none, any is right.
         given = (values.get(scale) for _, scale in FIELDS.values())
         self.factors = {i: abs(scale) for i, scale in zip((0, 5), given) if scale is not None}
-        # For a factor below 0 the axis is sent with the other sign: the checks see one above 0.
+        # For a negative factor the axis is sent negated, so that checks see a positive factor.
         self.signs = {i: -1 if values.get(scale, 1) < 0 else 1 for i, scale in FIELDS.values()}
         self.needs_button = "enable_button" in values
         scales = [scale for _, scale in FIELDS.values()]
@@ -70,7 +70,7 @@ class JoystickTask(Task):
         self.answers = self._words(values)
 
     def _words(self, said: Mapping[str, object]) -> Words:
-        """Return the Words for what is said of the given values: the value, or its name."""
+        """Return the Words for {value's name: its name or value in messages}."""
         axes = [f"axes[{self.axes.get(index, index)}]" for index in range(AXES)]
         sticks, rules = [f"axis {index}" for index in range(AXES)], {}
         for key, (index, scale) in FIELDS.items():
@@ -85,17 +85,17 @@ class JoystickTask(Task):
         return Words(joy, cmd_vel, package, lb, button, tuple(axes), tuple(sticks), rules)
 
     def joy(self, joy: Joy) -> Joy:
-        """Return the (axes, buttons) that are to this program what a Joy is to the handout's."""
+        """Return the (axes, buttons) to send to this program instead of the handout's Joy."""
         axes = [self.signs.get(index, 1) * value for index, value in enumerate(joy[0])]
         return moved(axes, self.axes), moved(joy[1], self.buttons)
 
     def held(self, left: float, forwards: float) -> Joy:
-        """Return the Joy of this program with LB held and the stick at these positions."""
+        """Return the Joy for this program with LB held and the stick at these positions."""
         buttons = tuple(int(index == LB) for index in range(12))
         return self.joy(((left, forwards, 0.0, 0.0, 0.0, 0.0), buttons))
 
     def product(self, factor: float, axis: int) -> str:
-        """Return what a program multiplies, in a message."""
+        """Return words for a program's product of factor and axis."""
         return f"{self.signs.get(axis, 1) * factor:.2f} * {self.names.axes[axis]}"
 
     def topic(self, name: str) -> str:
@@ -115,6 +115,6 @@ HANDOUT = JoystickTask({})
 
 
 def other_topic(topics: Iterable[str], wanted: str, types: Mapping[str, str], kind: str) -> str:
-    """Return another topic than the one wanted, with its type if that is another; or empty."""
+    """Return a topic other than the wanted one, with its type if that differs, too; or ""."""
     topic = min(set(topics) - {wanted, *OF_ALL}, default="")
     return topic if types.get(topic, kind) == kind else f"{topic}, of type {types[topic]}"

@@ -1,4 +1,4 @@
-"""The worked example of COURSES.md: a program that drives a square of 1 m, and rests."""
+"""The example of COURSES.md: a program must drive a square of 1 m, and then rest."""
 
 import math
 from dataclasses import dataclass
@@ -15,14 +15,14 @@ from tutorial_check import (
     program_of,
 )
 
-CORNERS = [(1, 0), (1, 1), (0, 1), (0, 0)]  # [m], to the left; to the right the y are negative
+CORNERS = [(1, 0), (1, 1), (0, 1), (0, 0)]  # [m] to the left; to the right, y is negative
 NEAR_M = 0.1
 LONGEST_S = 25.0
 
 
 @dataclass(frozen=True)
 class Drive:
-    """What is written down: the program, and the path of the robot."""
+    """The recording: the program, and the robot's path."""
 
     program: Ran
     path: Tuple[PoseSample, ...]
@@ -38,7 +38,7 @@ def drive(workspace, script) -> Drive:
 
 
 def path_of(submission):
-    """Return the path of the robot; recorded once, for all checks."""
+    """Return the robot's path, which is recorded once for all checks."""
     seen = submission.recording(drive, program_of(submission, "square", "square.py"))
     if not has_moved(seen.path):
         hint = "publish geometry_msgs/Twist on /cmd_vel"
@@ -58,7 +58,7 @@ def passes_corners(submission):
     """It passes the corners."""
     path = path_of(submission)
     side = 1 if max(path, key=lambda s: abs(s.y)).y > 0 else -1
-    for number, (x, y) in enumerate(CORNERS, 1):  # each on the way that is left
+    for number, (x, y) in enumerate(CORNERS, 1):  # each on the rest of the path
         gap, at = min((math.dist((s.x, s.y), (x, side * y)), k) for k, s in enumerate(path))
         if gap > NEAR_M:
             expected = f"corner {number}, ({x}, {side * y}), within {NEAR_M} m"

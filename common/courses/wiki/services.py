@@ -1,4 +1,4 @@
-"""Exercises 1 and 2: a message and a service, a server that adds, and a client that asks it."""
+"""Exercises 1 and 2: a message and a service, a server that adds, and its client."""
 
 import re
 
@@ -6,18 +6,18 @@ from tutorial_check import Client, File, Seen, Wrong, check, must_build, package
 
 from .turtles import PACKAGE, START_S
 
-FIELDS = {  # Others may stand beside them.
+FIELDS = {  # Other fields may be added.
     "msg/Num.msg": ["int64 num"],
     "srv/AddTwoInts.srv": ["int64 a", "int64 b", "---", "int64 sum"],
 }
 CLIENT = "add_two_ints_client.py"
 SERVICE, KIND = "/add_two_ints", f"{PACKAGE}/AddTwoInts"
 ASKED, SUM = {"a": 2**40, "b": -7}, 2**40 - 7
-GIVEN, STRANGE = {"a": 31, "b": 12}, 4321  # for the client, and what our server responds
+GIVEN, STRANGE = {"a": 31, "b": 12}, 4321  # arguments of the client, and our server's response
 
 
 def serve(workspace, script) -> Seen:
-    """Ask the student's server."""
+    """Call the student's server."""
     with workspace.ros_session() as ros:
         client = Client(ros)
         program = ros.start(PACKAGE, script)
@@ -26,7 +26,7 @@ def serve(workspace, script) -> Seen:
 
 
 def ask(workspace, script) -> Seen:
-    """Start the student's client, and our server only when it waits."""
+    """Start the student's client, and then, while it waits, our server."""
     with workspace.ros_session() as ros:
         client = Client(ros)
         program = ros.start(PACKAGE, script, *map(str, GIVEN.values()))
@@ -37,7 +37,7 @@ def ask(workspace, script) -> Seen:
 
 
 def check_fields(submission, path):
-    """Look at the text of a type."""
+    """Check the text of a type."""
     folder, wanted = package_of(submission, PACKAGE).folder, FIELDS[path]
     if not (folder / path).is_file():
         names = [str(path.relative_to(folder)) for path in folder.rglob(f"*{path[-4:]}")]

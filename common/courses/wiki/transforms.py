@@ -6,7 +6,7 @@ from tutorial_check import Client, File, Launch, Seen, check, launch_file, progr
 
 from .turtles import KINDS, POSE, START_S, gap, turtles
 
-# Packages of the pages of tf2 and of tf, and how the names of their programs begin.
+# {package of the tf2 or tf tutorial: prefix of its programs' names}
 PACKAGES = {"learning_tf2": "turtle_tf2", "learning_tf": "turtle_tf"}
 DEMO = "start_demo.launch"
 TELEPORT = "/turtle1/teleport_absolute", "turtlesim/TeleportAbsolute"
@@ -16,13 +16,13 @@ SECOND, FOLLOWS_S, NEAR_M = "/turtle2/pose", 8.0, 1.5
 
 
 def names(submission):
-    """Return the package, and the names of broadcaster and listener."""
+    """Return (package, broadcaster, listener)."""
     package = next(filter(submission.has, PACKAGES), "learning_tf2")
     return package, *(f"{PACKAGES[package]}_{word}.py" for word in ("broadcaster", "listener"))
 
 
 def broadcast(workspace, script, package) -> Seen:
-    """Move turtle1, and listen to transforms."""
+    """Move turtle1, and record transforms."""
     with turtles(workspace) as (ros, client):
         client.listen("/tf", "tf2_msgs/TFMessage")
         program = ros.start(package, script, "_turtle:=turtle1")

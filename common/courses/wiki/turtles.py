@@ -1,4 +1,4 @@
-"""Exercises 3 to 6: the background of turtlesim, a turtle that mimics, a goal, a recording."""
+"""Exercises 3 to 6: turtlesim's background, a turtle that mimics, a goal, a bag."""
 
 import math
 from contextlib import contextmanager
@@ -19,17 +19,17 @@ from tutorial_check import (
 PACKAGE = "beginner_tutorials"
 POSE, COMMAND, START_S = "/turtle1/pose", "/turtle1/cmd_vel", 8.0
 KINDS = {POSE: "turtlesim/Pose", COMMAND: "geometry_msgs/Twist"}
-# Where the real one is installed, it is that, which draws with Qt.
+# If the real turtlesim is installed, it draws with Qt.
 TURTLESIM = ["env", "QT_QPA_PLATFORM=offscreen", "rosrun", "turtlesim", "turtlesim_node"]
 MIMIC = "turtlemimic.launch"
 RGB, SENSOR = {"r": 10, "g": 200, "b": 30}, "/turtle1/color_sensor"
 LEADER, FOLLOWER = "/turtlesim1/turtle1", "/turtlesim2/turtle1"
 ARC = {"linear": {"x": 2.0}, "angular": {"z": -1.8}}
-NEAR_M = 0.3  # the second begins a moment later
+NEAR_M = 0.3  # the second turtle starts a moment later
 CLEANER = "turtlesim_cleaner"
 GOALS = ((9.0, 8.0), (2.0, 4.0), (8.0, 2.5))
 TOLERANCE_M, NEARLY_M, LONGEST_S = 0.3, 0.35, 12.0
-# As the page reads them, on standard input; and as parameters.
+# The goal, on standard input as on the wiki's page, and as parameters.
 TYPED = 'printf "%s\\n%s\\n%s\\n" "$1" "$2" "$3" | "$4" "_x:=$1" "_y:=$2" "_tolerance:=$3"'
 RECORD = f"rosbag record -O subset {COMMAND} {POSE}, while turtle_teleop_key drives; Ctrl-C"
 LEAST_M, LONGEST_BAG_S = 0.5, 120.0
@@ -37,7 +37,7 @@ LEAST_M, LONGEST_BAG_S = 0.5, 120.0
 
 @contextmanager
 def turtles(workspace, *words):
-    """Yield a ros with turtlesim, and a Client that listens to turtle1."""
+    """Yield a RosSession with turtlesim, and a Client that listens to turtle1."""
     with workspace.ros_session() as ros:
         client = Client(ros)
         ros.launch([*TURTLESIM, *words], trusted=True)
@@ -87,7 +87,7 @@ def background(submission):
 
 
 def launch_mimic(workspace, path) -> Seen:
-    """Start the launch file, and send the first turtle off."""
+    """Start the launch file, and drive the first turtle."""
     with workspace.ros_session() as ros:
         client, topics = Client(ros), (f"{LEADER}/pose", f"{FOLLOWER}/pose")
         for topic in topics:
@@ -130,7 +130,7 @@ def mimics(submission):
 
 
 def drive(workspace, script, x: float, y: float) -> Seen:
-    """Give the program a goal, and wait until the turtle rests."""
+    """Start the program with a goal, and wait until the turtle rests."""
     with turtles(workspace) as (ros, client):
         words = ["bash", "-c", TYPED, "bash", *map(str, (x, y, TOLERANCE_M))]
         program = ros.launch([*words, *workspace.command(CLEANER, script)])
@@ -163,7 +163,7 @@ def reaches(submission):
 
 
 def play(workspace, path) -> Seen:
-    """Play a recording to a turtle. path: within src."""
+    """Play a bag to a turtle. path: within src."""
     with turtles(workspace, f"{COMMAND}:=/played{COMMAND}") as (ros, client):
         for topic, kind in KINDS.items():
             client.listen(f"/played{topic}", kind)

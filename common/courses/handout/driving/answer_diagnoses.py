@@ -1,4 +1,4 @@
-"""What is wrong with what a program from Joy to Twist displays and answers, and when. Pure."""
+"""Diagnoses of what a Joy-to-Twist program displays and answers, and when."""
 
 from __future__ import annotations
 
@@ -92,7 +92,7 @@ ANSWERED = (crashed, ended_early, hidden_crash, few_answers)
 
 def zeros_between_answers(node: Joy2TwistNode) -> Wrong | None:
     numbered = node.run.numbered
-    # An odd answer may be such a zero.
+    # An answer against the rule may be such a zero.
     is_mixed = numbered.has_clock and len({any(twist) for twist in numbered.twists}) == 2
     if node.run.stream.stray_zeros <= MOST_STRAY_ZEROS and not (is_mixed and node.is_odd):
         return None
@@ -147,7 +147,7 @@ def another_rule(node: Joy2TwistNode) -> Wrong | None:
 
 
 def _setting_line(text: dict[int, str], seen: str) -> tuple[int, bool]:
-    """Return (line that sets the field that is named, or 0; whether to a button)."""
+    """Return (line that sets the named field, or 0; whether it takes a button)."""
     field = re.search(r"(linear|angular)\.[xyz]", seen)
     name = re.escape(field[0]) if field else r"(?:linear\.x|angular\.z)"
     for number, line in text.items():

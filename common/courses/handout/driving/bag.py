@@ -1,4 +1,4 @@
-"""A recording of Joys, as a file."""
+"""A recorder that reads a bag of Joys."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from ..task import JOY
 
 @dataclass(frozen=True)
 class Bag:
-    """A file of rosbag's."""
+    """The content of a bag."""
 
     error: str = ""  # why it cannot be read
     topics: Tuple[str, ...] = ()
-    axes: Optional[int] = None  # the first Joy has so many; None: there is no Joy
+    axes: Optional[int] = None  # of the first Joy; None: there is no Joy
 
 
 def bag(workspace: Workspace, path: str) -> Bag:
-    """Read a recording. path: within src."""
+    """Read a bag. path: within src."""
     import rosbag  # noqa: PLC0415
 
     try:

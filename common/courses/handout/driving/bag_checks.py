@@ -1,4 +1,4 @@
-"""Whether a recording of Joys can be played to joy2twist."""
+"""Check that a bag of Joys can be played to joy2twist."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ NO_JOY = "sensor_msgs/Joy on /joy"
 
 
 def check_recording(submission: Submission, name: str) -> tuple[str, ...]:
-    """Return the topics of a recording fit for joy2twist. name: within src. Raises Wrong."""
+    """Return the topics of a bag that suits joy2twist. name: within src. Raises Wrong."""
     recording = submission.recording(bag, name)
     if recording.error:
         hint = f"copy it again: {COPY_BAG[:-1]}{shlex.quote(str(submission.source / name))}"

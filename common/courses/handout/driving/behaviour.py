@@ -1,4 +1,4 @@
-"""What a program from Joy to Twist does: section 4.3 asks it of joy2twist.py, 6.2 of the class."""
+"""Checks of a Joy-to-Twist program: joy2twist.py in section 4.3, the class in 6.2."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from .record import drive
 
 
 def _node(submission: Submission, script: str = "") -> Joy2TwistNode:
-    """Return what a program did: the one of section 4.3, or another script."""
+    """Return the run of the program of section 4.3, or of another script."""
     run = submission.recording(drive, script or main_script(submission))
     return Joy2TwistNode(submission, run)
 
 
 def _connected(submission: Submission, script: str) -> Joy2TwistNode:
-    """Return the same of a program that subscribes to Joys. Raises Wrong."""
+    """Return the same if it subscribes to Joys. Raises Wrong."""
     node = _node(submission, script)
     expected = f"it subscribes to {node.names.joy}, sensor_msgs/Joy"
     must_pass(connections.CONNECTED, node, expected)
@@ -45,7 +45,7 @@ def displays(submission: Submission, script: str = "", few_are_enough: bool = Fa
 
 
 def topics(submission: Submission, script: str = "") -> Note | str:
-    """Check that Twists are published where the robot obeys them."""
+    """Check that it publishes Twists on the robot's topic."""
     node = _connected(submission, script)
     joy, cmd_vel = node.answers.joy, node.answers.cmd_vel
     expected = f"it publishes on {node.names.cmd_vel}, geometry_msgs/Twist"
@@ -60,7 +60,7 @@ def topics(submission: Submission, script: str = "") -> Note | str:
 
 
 def mapping(submission: Submission, script: str = "") -> Note | None:
-    """Check that linear.x follows axis 1, angular.z axis 0; a Wrong names the rule by which."""
+    """Check that linear.x follows axis 1, and angular.z axis 0; a Wrong names the actual rule."""
     node = _node(submission, script)
     rules = node.names.rules
     expected = f"for each Joy one Twist: linear.x = {rules[1]}, angular.z = {rules[0]}, all else 0"

@@ -1,4 +1,4 @@
-"""What is wrong with the topics of a program from Joy to Twist, or with how it started. Pure."""
+"""Diagnoses of the topics of a Joy-to-Twist program, and of its start."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What Twists a program gave for which Joys, and how each field follows its axis. Pure."""
+"""The Twists of a program for each Joy, and how each field follows its axis."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from ..task import AXES, HANDOUT, JoystickTask
 JoySample = Tuple[Sequence[float], Sequence[float]]  # (axes, six values of the Twist)
 
 FIELDS = ("linear.x", "linear.y", "linear.z", "angular.x", "angular.y", "angular.z")
-LINEAR, ANGULAR = 0, 5  # the two fields that a robot in the plane obeys
-RIGHT = {LINEAR: 1, ANGULAR: 0}  # the axis that each of them follows
+LINEAR, ANGULAR = 0, 5  # the two fields that move a robot in the plane
+RIGHT = {LINEAR: 1, ANGULAR: 0}  # {field: the axis that it follows}
 SMALL = 1e-4
 
 
 class Rule(NamedTuple):
-    """field = factor * axes[axis], of all samples."""
+    """field = factor * axes[axis], in all samples."""
 
     axis: int
     factor: float
@@ -29,7 +29,7 @@ def is_near(value: float, other: float) -> bool:
 
 
 def factor_of(values: Sequence[float], inputs: Sequence[float]) -> float | None:
-    """Return the constant of proportion, or None. Values may be zero (dead zone), or at a limit."""
+    """Return the constant factor, or None. Values may be zero (dead zone), or at a limit."""
     pairs = [(value, given) for value, given in zip(values, inputs) if abs(given) > SMALL]
     moving = [(value, given) for value, given in pairs if abs(value) > SMALL]
     ratios = sorted((value / given for value, given in moving), key=abs)
@@ -37,7 +37,7 @@ def factor_of(values: Sequence[float], inputs: Sequence[float]) -> float | None:
         return None
     limit = max(abs(value) for value, _ in pairs)
     dead_zone = min(abs(given) for _, given in moving)
-    # Beyond a limit the ratio is less than the factor.
+    # Beyond a limit, the ratio is smaller than the factor.
     for factor, enough in ((sorted(ratios)[len(ratios) // 2], 0.5 * len(pairs)), (ratios[-1], 3)):
         fits = limited = 0
         for value, given in pairs:
@@ -65,9 +65,9 @@ def rule_of(index: int, samples: Sequence[JoySample]) -> Rule | None:
 
 @dataclass
 class Evidence:
-    """What a program answered; `again` to the same Joys sent earlier, `at_rest` to all axes at 0.
+    """A program's answers; `again`: to the same Joys earlier; `at_rest`: with all axes at 0.
 
-    factors: those that are asked for, by the index of the field; without one any is right.
+    factors: {index of a field: the factor that the task demands}; if there is none, any is right.
     """
 
     samples: list[JoySample]
@@ -85,14 +85,14 @@ class Evidence:
 
     @property
     def is_right(self) -> bool:
-        """Whether all values are numbers, each field follows its axis, and the others stay 0."""
+        """Whether all values are finite, both fields follow their axes, and the others stay 0."""
         if self.strange or no_number(self.samples):
             return False
         return all(field.is_followed for field in self.fields)
 
 
 class TwistField:
-    """One field of the Twists, beside the axis that it should follow."""
+    """A field of the Twists, and the axis that it should follow."""
 
     def __init__(self, evidence: Evidence, index: int, axis: int) -> None:
         self.evidence, self.index, self.name, self.axis = evidence, index, FIELDS[index], axis
@@ -105,16 +105,16 @@ class TwistField:
 
     @property
     def is_right(self) -> bool:
-        """Whether it is a positive constant times its axis, and the one that is asked for."""
+        """Whether it is a positive constant times its axis, and the task's constant, if any."""
         factor = self.own_factor
         if factor is None or factor <= 0:
             return False
-        # Rounded to two decimals a factor is off by 0.005.
+        # A factor rounded to two decimals is off by up to 0.005.
         return not self.wanted or abs(factor / self.wanted - 1) < 0.02
 
     @property
     def is_followed(self) -> bool:
-        """Whether it is right, or nothing but a curve of its axis where any factor is right."""
+        """Whether it is right, or, if any factor is right, a curve of its axis without faults."""
         if self.rule or self.wanted:
             return self.is_right
         oddities = (
@@ -126,17 +126,17 @@ class TwistField:
 
     @property
     def own_factor(self) -> float | None:
-        """The factor of its own axis, if it follows that."""
+        """The factor, if it follows its own axis."""
         return self.rule.factor if self.rule and self.rule.axis == self.axis else None
 
     @property
     def is_late(self) -> bool:
-        """Whether it follows the Joy before."""
+        """Whether it follows the previous Joy."""
         return factor_of(self.values[1:], self.given[:-1]) is not None
 
     @property
     def changes_sign(self) -> bool:
-        """Whether it follows its axis with the sign of the other one."""
+        """Whether it follows its axis, but with the sign of the other axis."""
         axes_sent = [axes for axes, _ in self.evidence.samples]
         signed = [axes[self.axis] * (1 if axes[1 - self.axis] >= 0 else -1) for axes in axes_sent]
         return factor_of(self.values, signed) is not None
@@ -151,7 +151,7 @@ class TwistField:
 
     @property
     def other_answer(self) -> tuple[float, float] | None:
-        """What the same Joy gave earlier and now, where that differs."""
+        """Values for the same Joy (earlier, now) that differ."""
         earlier = {tuple(axes): twist[self.index] for axes, twist in self.evidence.again}
         known = ((tuple(axes), twist[self.index]) for axes, twist in self.evidence.samples)
         pairs = ((earlier[axes], now) for axes, now in known if axes in earlier)
@@ -159,7 +159,7 @@ class TwistField:
 
     @property
     def has_lost_its_sign(self) -> bool:
-        """Return whether it grows with the axis to either side: abs(), or a square."""
+        """Whether it grows in both directions of the axis: abs(), or a square."""
         if factor_of(self.values, [*map(abs, self.given)]):
             return True
         values = [value for _, value in sorted((abs(given), value) for given, value in self.pairs)]
@@ -168,7 +168,7 @@ class TwistField:
 
     @property
     def mixture(self) -> tuple[Rule, Rule] | None:
-        """The two axes whose sum, or difference, it is, each with its factor."""
+        """The two axes whose weighted sum it is, with their factors."""
         samples = [(axes, twist[self.index]) for axes, twist in self.evidence.samples]
         order = sorted(range(AXES), key=lambda axis: axis != self.axis)
         for i, j in itertools.combinations(order if len(samples) > 3 else (), 2):
@@ -186,7 +186,7 @@ class TwistField:
         if len(steps) < 3 or not self.given[-1]:
             return False
         factor = steps[-1] / self.given[-1]
-        # Values that only change sign are nearly twice as much as those before.
+        # A change of sign alone is a step of nearly twice the value.
         fits = (abs(step - factor * axis) < 1e-3 for step, axis in zip(steps, self.given[1:]))
         return abs(factor) > 1e-2 and all(fits)
 
@@ -206,7 +206,7 @@ class TwistField:
 
     @property
     def steps(self) -> list[float]:
-        """Return the values if there are few for many positions; zero and a limit may be many."""
+        """The values, if many positions share few of them; zero and a limit do not count."""
         speeds = {abs(given): abs(value) for given, value in self.pairs}.values()
         limit = max(speeds)
         between = [round(value, 6) for value in speeds if SMALL < value < limit - SMALL]
@@ -228,6 +228,6 @@ def _rises(values: Sequence[float]) -> bool:
 
 
 def no_number(samples: Iterable[JoySample]) -> tuple[str, float] | None:
-    """Return the first field with a value that is infinite or no number, and that value."""
+    """Return (field, value) of the first value that is infinite or not a number, or None."""
     values = ((name, value) for _, twist in samples for name, value in zip(FIELDS, twist))
     return next((pair for pair in values if not math.isfinite(pair[1])), None)

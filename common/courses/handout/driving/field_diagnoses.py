@@ -1,6 +1,6 @@
-"""Which rule turns these Joys into these Twists? A diagnosis for each mistake that is known. Pure.
+"""Diagnoses of the rule that turns Joys into Twists, one for each known mistake.
 
-A Wrong says what was seen, and what to do; what is expected, and where, the check knows.
+A Wrong has what was seen and a hint; the check adds what was expected, and where.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from tutorial_check import Note, Wrong, first_of
 from ..task import JoystickTask
 from .evidence import ANGULAR, FIELDS, LINEAR, Evidence, JoySample, TwistField, no_number
 
-# {axis: where the robot goes for a value above 0, and below it}
+# {axis: direction of the robot for a positive value, and for a negative one}
 SIDES = {0: ("left", "right"), 1: ("forwards", "backwards")}
 
 
@@ -156,7 +156,7 @@ def no_constant_factor(field: TwistField) -> Wrong | None:
     return None if is_right else _odd(field, f"is no constant times {_axis(field)}")
 
 
-# Of a field that is no positive constant times its axis, or not by the factor of the task.
+# For a field that is no positive constant times its axis, or has another factor than the task's.
 OF_A_FIELD = (
     another_factor, wrong_sign, another_axis, another_field_follows, always_zero, two_axes_in_one,
     one_message_late, adds_up, another_answer, sign_lost, sign_of_the_other_axis, always_the_same,
@@ -165,7 +165,7 @@ OF_A_FIELD = (
 
 
 def rule_verdict(evidence: Evidence) -> Wrong | Note | None:
-    """Return the Wrong for the answers, or a Note on a factor or curve where any is right."""
+    """Return the Wrong for the answers, or, if any factor is right, a Note on factor or curve."""
     wrong = not_a_number(evidence.samples) or first_of((all_zero, axes_swapped), evidence)
     wrongs = (first_of(OF_A_FIELD, field) for field in evidence.fields if not field.is_right)
     wrong = wrong or next(filter(None, wrongs), None) or other_field_moves(evidence)

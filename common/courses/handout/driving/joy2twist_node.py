@@ -1,4 +1,4 @@
-"""A run of a program beside its text: what the diagnoses look at."""
+"""A run of a program together with its text, for the diagnoses."""
 
 from __future__ import annotations
 
@@ -29,25 +29,25 @@ from .record import drive
 
 
 class Joy2TwistNode:
-    """A run of a program beside its text."""
+    """A run of a program together with its text."""
 
     def __init__(self, submission: Submission, run: Joy2TwistRun) -> None:
         self.submission, self.run, self.script = submission, run, run.script
         self.source = submission.scripts(PACKAGE)[run.script]
-        # What messages call the values of the task: by their names, or in hints as they are.
+        # The task's values in messages: by name, or in hints as they are.
         self.names, self.answers = submission.task.names, submission.task.answers
         self.graph = graph = run.connections
         joy, types = self.answers.joy, graph.types
         self.joys_elsewhere = other_topic(graph.subscribers, joy, types, "sensor_msgs/Joy")
         self.twists_elsewhere = other_topic(graph.publishers, joy, types, "geometry_msgs/Twist")
         self.drivers = sorted(set(graph.publishers.get(self.answers.cmd_vel, ())))
-        self.repeated = (1, False)  # how many Twists for each Joy, and whether they differ
+        self.repeated = (1, False)  # (Twists for each Joy, whether they differ)
         if run.numbered.samples and not run.numbered.has_clock:
             answers = [twist for _, twist in run.numbered.samples]
             self.repeated = repetition(answers, run.numbered.twists)
 
     def at(self, lines: Sequence[int]) -> str:
-        """Return FILE:LINE of the first of the lines; the file if there is none."""
+        """Return FILE:LINE of the first of the lines, or the file."""
         return f"{self.script}:{lines[0]}" if lines else self.script
 
     def at_call(self, name: str) -> str:
@@ -55,19 +55,19 @@ class Joy2TwistNode:
 
     @property
     def loop(self) -> str:
-        """Where it publishes by a clock."""
+        """Where it publishes at a fixed rate."""
         return self.at(self.source.publishing_loops or self.source.lines("Timer", "Rate"))
 
     @property
     def second_publish(self) -> str:
-        """Where a second Twist may come from: another publish, or another Subscriber."""
+        """Where a second Twist may come from: another publish() or Subscriber."""
         several = (self.source.called_back.get("publish", []), self.source.lines("Subscriber"))
         seconds = [lines[1:] for lines in several if len(lines) > 1]
         return self.at(seconds[-1] if seconds else [])
 
     @property
     def subscriber(self) -> str:
-        """The line that subscribes to Joys, to be written."""
+        """The line to write that subscribes to Joys."""
         line = f"rospy.Subscriber('{self.answers.joy}', Joy, callback)"
         return with_import(line, "Joy", self.source)
 
@@ -78,7 +78,7 @@ class Joy2TwistNode:
 
     @functools.cached_property
     def rule_verdict(self) -> Wrong | Note | None:
-        """What is wrong with the rule by which it answers, or is worth a word."""
+        """The Wrong for the rule of its answers, or a Note on it."""
         task = self.submission.task
         verdict = rule_verdict(self.run.evidence(task))
         if isinstance(verdict, Wrong):
@@ -91,7 +91,7 @@ class Joy2TwistNode:
 
     @property
     def carried(self) -> str:
-        """The type of its velocities, if that is another; rospy says whose types differ."""
+        """The type of its velocities, if it is wrong; rospy warns of types that differ."""
         cmd_vel = self.answers.cmd_vel
         kind = self.graph.types.get(cmd_vel, "")
         refused = "".join(line for line in self.graph.warnings if "datatype" in line)
@@ -99,7 +99,7 @@ class Joy2TwistNode:
 
     @property
     def first_version(self) -> str:
-        """The separate file with the handout's first version, if that displays every Joy."""
+        """The separate file with the handout's first version, if it displays every Joy."""
         for script, source in self.submission.scripts(PACKAGE).items():
             is_first = "Subscriber" in source.calls and "Publisher" not in source.calls
             if script != self.script and is_first:
@@ -114,7 +114,7 @@ class Joy2TwistNode:
         return values_displayed(numbered_joys(), self.run.ending.output, within)
 
     def crash(self) -> Wrong:
-        """Return the Wrong for its end or traceback, also for one that an except hides."""
+        """Return the Wrong for its end or traceback, even if an except hides it."""
         submission, run = self.submission, self.run
         text = unmasked(submission.text(PACKAGE, self.script))
         if text and not run.program.spins and (run.ending.early or not run.has_traceback):
@@ -126,7 +126,7 @@ class Joy2TwistNode:
         return crash(submission, PACKAGE, run.program, "")
 
     def _hidden_by(self, bare: Joy2TwistRun) -> str:
-        """Return which except hid the error that a changed program shows; empty if none did."""
+        """Return words for the except that hid the error of a changed program; "" if none did."""
         folder = str(self.submission.package(PACKAGE).folder)
         trace = first_traceback(bare.ending.output, folder)
         catcher = self.source.catcher(trace.lines_of(bare.script)) if trace else None
@@ -145,9 +145,9 @@ class Joy2TwistNode:
 
 
 def repetition(answers: Sequence[Twist], twists: Sequence[Twist]) -> tuple[int, bool]:
-    """Return (how many Twists came for each Joy, whether they differ); (1, False) if unclear.
+    """Return (Twists for each Joy, whether they differ); (1, False) if that is unclear.
 
-    answers: one for each Joy; twists: all. One may come late: so it is counted how often each came.
+    answers: one for each Joy. twists: all. Because a Twist may be late, equal Twists are counted.
     """
     count = round(len(twists) / len(answers))
     if count < 2 or abs(len(twists) - count * len(answers)) > 0.1 * len(answers):

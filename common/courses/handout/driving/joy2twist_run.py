@@ -1,4 +1,4 @@
-"""What came of starting a program and sending it Joy messages. Pure."""
+"""The recording of a program that was started and sent Joys."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .evidence import FIELDS, Evidence
 from .replies import Replies, Silence
 
 SOON_S = 0.05  # from Joy to Twist
-NAP_S = 0.3  # for one Twist: a correct program never takes this long
+NAP_S = 0.3  # for a Twist: a correct program never takes this long
 
 Twist = Tuple[float, ...]
 JoySample = Tuple[Tuple[float, ...], Twist]
@@ -22,7 +22,7 @@ JoySample = Tuple[Tuple[float, ...], Twist]
 
 @dataclass(frozen=True)
 class Connections:
-    """Where a program is in the graph."""
+    """A program's connections in the graph."""
 
     connected: bool = False
     publishers: Topics = field(default_factory=dict)
@@ -34,20 +34,20 @@ class Connections:
 
 @dataclass(frozen=True)
 class NumberedJoys:
-    """What it answered to the numbered Joys, one at a time."""
+    """Its answers to the numbered Joys, sent one at a time."""
 
     sent: int = 0
     samples: Tuple[JoySample, ...] = ()
     first_samples: Tuple[JoySample, ...] = ()  # from an earlier pass
     missing: int = 0
-    extra: int = 0  # Twists besides the answers
-    came: int = 0  # Twists in all
+    extra: int = 0  # Twists in addition to the answers
+    came: int = 0  # all Twists
     waits: Tuple[float, ...] = ()  # [s] from a Joy to the next Twist
     at_rest: Optional[Twist] = None  # the answer to a Joy at rest
-    twists: Tuple[Twist, ...] = ()  # all of the second pass
-    has_clock: bool = False  # more come without a Joy
-    repeats: bool = False  # and move the robot
-    displayed: int = 0  # how many Joys were
+    twists: Tuple[Twist, ...] = ()  # all Twists of the second pass
+    has_clock: bool = False  # Twists come without a Joy
+    repeats: bool = False  # and they move the robot
+    displayed: int = 0  # number of Joys that it displayed
 
     @property
     def all_displayed(self) -> bool:
@@ -56,21 +56,21 @@ class NumberedJoys:
 
 @dataclass(frozen=True)
 class Probes:
-    """What it answered to the probes."""
+    """Its answers to the probes."""
 
     answers: Tuple[Tuple[Joy, Twist], ...] = ()
-    unanswered: Optional[Tuple[Joy, Joy]] = None  # (Joy, the one before) without a Twist
+    unanswered: Optional[Tuple[Joy, Joy]] = None  # (Joy without a Twist, the Joy before it)
 
 
 @dataclass(frozen=True)
 class Stream:
-    """What it answered to a stream of Joys."""
+    """Its answers to a stream of Joys."""
 
     sent: int = 0
     answered: int = 0
     stray_zeros: int = 0  # between the answers
     delays: Tuple[float, ...] = ()
-    possible: Optional[int] = None  # what our own Echo answered beside it
+    possible: Optional[int] = None  # the answers of our Echo to the same stream
     unavoidable_s: Optional[float] = None
 
     @property
@@ -78,7 +78,7 @@ class Stream:
         return statistics.median(self.delays) if self.delays else None
 
     def is_prompt(self, enough: float) -> bool:
-        """Return whether enough Joys were answered, and soon, as far as the machine allows."""
+        """Return whether enough Joys were answered in time, as far as the machine allows."""
         if self.answered < enough * min(self.sent, self.possible or self.sent):
             return False
         return self.delay_s is None or self.delay_s < SOON_S + (self.unavoidable_s or 0.0)
@@ -89,20 +89,20 @@ class Ending:
     """How it ended."""
 
     early: bool = False  # before Ctrl-C
-    output: str = ""  # before that
-    taken_s: Optional[float] = None  # to the end; None: it was killed
+    output: str = ""  # until Ctrl-C
+    taken_s: Optional[float] = None  # after Ctrl-C; None: it was killed
     last_words: str = ""
 
 
 @dataclass(frozen=True)
 class Joy2TwistRun:
-    """A program that was sent Joys, which have the axes and buttons of the handout's task."""
+    """A program that was sent Joys, with the axes and buttons of the handout's task."""
 
     script: str
     program: Ran = Ran("", "", None, False, False)  # noqa: RUF009  frozen
     sleep_lines: Tuple[int, ...] = ()  # in a callback
-    enough: float = 0.95  # so many of the Joys of a stream have to be answered
-    factors: Dict[str, float] = field(default_factory=dict)  # by the name of the field
+    enough: float = 0.95  # share of a stream's Joys that it must answer
+    factors: Dict[str, float] = field(default_factory=dict)  # {name of a field: factor}
     needs_button: bool = False
     connections: Connections = Connections()
     numbered: NumberedJoys = NumberedJoys()
@@ -111,7 +111,7 @@ class Joy2TwistRun:
     ending: Ending = Ending()
 
     def evidence(self, task: JoystickTask = HANDOUT) -> Evidence:
-        """Return the answers to the numbered Joys. task: for names."""
+        """Return the evidence in the answers to the numbered Joys. task: for names."""
         seen, given = self.numbered, self.factors
         factors = {index: given[name] for index, name in enumerate(FIELDS) if name in given}
         return Evidence([*seen.samples], [*seen.first_samples], seen.at_rest, factors, task)
@@ -121,7 +121,7 @@ class Joy2TwistRun:
         return Replies(self.evidence(task), self.probes.answers, self.needs_button)
 
     def silence(self, task: JoystickTask) -> Silence | None:
-        """Return the first probe that was not answered."""
+        """Return the first probe without an answer, or None."""
         joys_sent, answers = self.probes.unanswered, self.probes.answers
         last = answers[-1][1] if answers else (1.0,)
         return Silence(*joys_sent, last, task) if joys_sent else None
@@ -132,14 +132,14 @@ class Joy2TwistRun:
 
     @property
     def naps(self) -> bool:
-        """Whether its callback sleeps, and so long that each Joy waits for the one before."""
+        """Whether its callback sleeps so long that each Joy waits for the one before."""
         waits = self.numbered.waits
         is_slow = len(waits) > 2 and statistics.median(waits[:5]) > NAP_S
         return bool(self.sleep_lines) and is_slow
 
     @property
     def displays_numbers(self) -> bool:
-        """Whether it prints lines with as many numbers as a Joy has axes."""
+        """Whether it prints a line with as many numbers as a Joy has axes."""
         lines = self.ending.output.splitlines()
         return any(len(joys.NUMBER.findall(line)) >= 6 for line in lines)
 

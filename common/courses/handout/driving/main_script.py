@@ -1,4 +1,4 @@
-"""Which program turns Joys into Twists, and whether its manifest can be loaded."""
+"""The program that turns Joys into Twists, and its load_manifest."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from .record import known_package
 
 
 def main_script(submission: Submission) -> str:
-    """Return the program from Joy to Twist: not joy2twist.py if that is the first version."""
+    """Return the Joy-to-Twist program; it is not joy2twist.py if that is the first version."""
     script, scripts = find_script(submission, PACKAGE, NAME), submission.scripts(PACKAGE)
     facts = scripts.get(script)
     if facts is None:
-        return script  # no Python, as C13 says
+        return script  # not Python, which C13 reports
     is_first = "Subscriber" in facts.calls and not {"Publisher", "publish"} & set(facts.calls)
     is_whole = any(name.startswith("sensor_msgs.msg") for name in facts.imports)
     if is_first and is_whole and "geometry_msgs.msg.Twist" not in facts.imports:
         both = [p for p, f in scripts.items() if {"Publisher", "Subscriber"} <= set(f.calls)]
-        # A class comes last: that is section 6.2.
+        # A class, of section 6.2, comes last.
         return min(both, key=lambda p: any(c.is_node for c in scripts[p].classes), default=script)
     return script
 
@@ -28,7 +28,7 @@ def check_manifest(submission: Submission, script: str) -> None:
     facts = submission.scripts(PACKAGE).get(script)
     call = facts.first("load_manifest") if facts else None
     name = call.words[0] if call and call.words else ""
-    # PKG = "joy2twist": what is in it shows when the program runs.
+    # The value of a variable, as in PKG = "joy2twist", shows only when the program runs.
     packages = [package.name for package in submission.packages]
     is_known = not facts or name in ("", *facts.names, *packages)
     if call and not is_known and not submission.recording(known_package, name).is_known:

@@ -1,4 +1,4 @@
-"""What is wrong with the answers to the probes, or where none came. Pure."""
+"""Diagnoses of wrong or missing answers to the probes."""
 
 from __future__ import annotations
 
@@ -115,7 +115,7 @@ def drives_released(replies: Replies) -> Wrong | None:
 
 
 def probe_verdict(replies: Replies) -> Wrong | None:
-    """Return the Wrong for the answers of a program whose rule for the numbered Joys is right."""
+    """Return the Wrong for the probes, if the answers to the numbered Joys are right."""
     wrong = not_a_number(replies.samples)
     wrong = wrong or (first_of(REPLIES, replies.odd) if replies.odd else None)
     wrong = wrong or first_of((still_alone, drives_released), replies)

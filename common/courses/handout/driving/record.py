@@ -1,4 +1,4 @@
-"""Section 4.3: one program that turns Joy into Twist, driven over its topics."""
+"""Section 4.3: a recorder that sends Joys to a program."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from .joy2twist_run import Connections, Ending, Joy2TwistRun, NumberedJoys, Stre
 from .joys import COUNT
 
 RATE, STREAM_S = 50.0, 2.5
-RATED = frozenset(["4.3", "6.2"])  # the exercises that look at the rate
-ANSWER_S = 1.0  # for one Twist, before it counts as missing
-SETTLE_S = 0.15  # after it, in which more of them may come
-QUIET_S = 0.25  # without a Joy, or longer for a slow one: a clock of its own makes itself received
+RATED = frozenset(["4.3", "6.2"])  # the exercises that check the rate
+ANSWER_S = 1.0  # then a Twist counts as missing
+SETTLE_S = 0.15  # after a Twist, for more of them
+QUIET_S = 0.25  # without a Joy, or longer for a slow program, to reveal a clock
 REST_S = 0.5  # for a Twist at rest; not every program sends one
-SAME_S = 0.06  # in which several Twists answer one Joy
+SAME_S = 0.06  # Twists this close answer the same Joy
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ class KnownPackage:
 def drive(
     workspace: Workspace, script: str, wants_twist: bool = True, text: str = ""
 ) -> Joy2TwistRun:
-    """Start a program and send it Joys. text: in place of its own."""
+    """Start a program and send it Joys. text: replaces the program's."""
     if text:
         script = workspace.sibling(PACKAGE, script, text)
     with workspace.ros_session() as ros:
@@ -48,20 +48,20 @@ def known_package(workspace: Workspace, package: str) -> KnownPackage:
 
 
 def rest(ros: RosSession, *topics: str, joys: str = JOY) -> None:
-    """Send Joys at rest until a Twist answers, or for a while: some drive only after it."""
+    """Send Joys at rest until a Twist comes, or for a while: some programs drive only after it."""
     ros.peer.stream(joys, [NEUTRAL], 20.0, True)
     ros.wait(lambda: any(ros.peer.count(topic) for topic in topics), REST_S)
     ros.peer.end_stream(joys)
 
 
 class _Conversation:
-    """Drives one program, and looks at what it has seen to choose what to send next."""
+    """Sends Joys to a program, and chooses the next ones by its answers."""
 
     def __init__(self, workspace: Workspace, ros: RosSession, script: str) -> None:
         self._workspace, self._ros, self._task = workspace, ros, workspace.task
         facts = workspace.scripts(PACKAGE).get(script)
         sleeps = tuple(facts.called_back.get("sleep", [])) if facts else ()
-        # A queue of one drops what it has no time for, and the newest value is not late.
+        # A queue of one drops messages, so the newest value is not late.
         drops = facts and facts.keeps_newest and not sleeps
         self._run = Joy2TwistRun(
             script,
@@ -94,7 +94,7 @@ class _Conversation:
         late, _ = ros.peer.state() if ros.master_lives else ({}, {})
         output, master_alive = program.output, ros.master_lives
         types, warnings = ros.peer.types(), tuple(ros.peer.warnings())
-        # Only where its end is asked for it is waited for.
+        # Wait for its end only if an exercise checks it.
         grace_s = GRACE_S if "4.3" in self._workspace.order.exercises else 0.5
         taken_s = self._workspace.runner.end(program, grace_s)
         topics = {**publishers, **late}
@@ -127,7 +127,7 @@ class _Conversation:
         sent = [*map(self._task.joy, joys)]
 
         def displayed() -> int:
-            """Return how many of the Joys were displayed, all six axes in a line."""
+            """Return how many Joys were displayed, with all six axes in a line."""
             return len(sent_joys.displayed(sent, self._program.output))
 
         self._wait(0.7, lambda: displayed() >= min(5, self._seen.sent))
@@ -151,31 +151,31 @@ class _Conversation:
             self._keep_quiet()
             seen = self._seen
             if seen.has_clock and not seen.repeats and not seen.twists:
-                self._ask_again(joys)  # zeros by a watchdog, or between all answers
+                self._ask_again(joys)  # zeros from a watchdog, or between all answers
             if not self._seen.repeats and self._run.evidence().is_right:
                 self._probe(joys)
 
     def _ask_again(self, joys: Sequence[Joy]) -> None:
-        """Ask the same with time: it has a clock of its own, publishes several, or is only slow."""
+        """Repeat the Joys slowly: it has a clock, publishes several Twists, or is only slow."""
         is_plain = self._seen.extra <= 2
         low = [] if self._seen.missing else sent_joys.low_joys()
         first = self._seen.samples
         self._note(samples=(), missing=0)
-        self._wait(SETTLE_S)  # late ones belong to the first pass
+        self._wait(SETTLE_S)  # late Twists belong to the first pass
         before = self._count()
         self._one_by_one([*joys, *low], SETTLE_S)
         twists = tuple(twist for _, _, twist in self._received(before))
         if len(self._seen.samples) < len(first):
             again, first = first, self._seen.samples
             self._note(samples=again)
-        # Of several Twists for one Joy it is not known which of them answers it.
+        # If a Joy gets several Twists, it is unknown which is the answer.
         self._note(twists=twists, first_samples=first if is_plain else ())
         received = self._ask(sent_joys.AT_REST, SETTLE_S)[1]
         self._note(at_rest=received[-1][2] if received else None)
-        self._ask(joys[-1], SETTLE_S)  # the last one moves the robot
+        self._ask(joys[-1], SETTLE_S)  # so that the last Joy moves the robot
 
     def _keep_quiet(self) -> None:
-        """See whether Twists come without a Joy. The last one moves the robot."""
+        """Note whether Twists come without a Joy, after one that moves the robot."""
         begun_s, before = time.monotonic(), self._count()
         usual_s = statistics.median(self._seen.waits)
         self._wait(max(QUIET_S, 2.5 * min(ANSWER_S, usual_s)))
@@ -185,10 +185,10 @@ class _Conversation:
         self._note(has_clock=has_clock, repeats=has_clock and any(map(any, late)))
 
     def _probe(self, joys: Sequence[Joy]) -> None:
-        """Send the other Joys, each until it is answered; end at one that is not in two tries."""
+        """Send the probes, each until it is answered; stop at one that is not in two tries."""
         seen = self._seen
         before, settle_s = joys[-1], SETTLE_S if seen.twists else 0.0
-        # By now it is known how many Twists one Joy gets: no time is needed to wait for more.
+        # The number of Twists for a Joy is now known, so there is no need to wait for more.
         times = max(1, round(len(seen.twists) / len(seen.samples)))
         plan = [(joy, settle_s, 1) for joy in sent_joys.probes(joys)]
         plan += [(joy, 0.0, times) for joy in sent_joys.small_and_button_probes()]
@@ -210,7 +210,7 @@ class _Conversation:
     def _ask(
         self, joy: Joy, settle_s: float, often: int = 1, longest_s: float = ANSWER_S
     ) -> tuple[float, list[Any]]:
-        """Return (when a Joy was sent, what came then). often: how many Twists are waited for."""
+        """Send a Joy; return (time sent, Twists received). often: number of Twists to wait for."""
         before = self._count()
         sent_s = self._ros.peer.send(JOY, self._task.joy(joy))
         self._wait(longest_s if often == 1 else SETTLE_S, lambda: self._count() - before >= often)
@@ -233,17 +233,17 @@ class _Conversation:
                 unanswered += 1
             if unanswered == 3 or self._program.ended or self._run.naps:
                 break
-        # Also those that came between an answer and the next Joy.
+        # This includes Twists between an answer and the next Joy.
         self._note(extra=self._seen.extra + self._count() - before - answered)
         if unanswered == 3 and not self._program.ended and not self._run.naps:
-            # The rest without much patience, to see how many of all are answered.
+            # Send the rest quickly, to count how many of all are answered.
             for joy in joys[answered + unanswered :]:
                 self._ask(joy, 0.0, longest_s=SAME_S)
         self._note(came=self._count() - before)
 
 
 def _stream(workspace: Workspace, ros: RosSession, run: Joy2TwistRun, beside_ours: bool) -> Stream:
-    """Send Joys at RATE. beside_ours: a joy2twist of the checker's answers the same ones."""
+    """Send Joys at RATE. beside_ours: the checker's own joy2twist answers them, too."""
     task, count = workspace.task, int(RATE * STREAM_S)
     if beside_ours:
         known = ros.peer.listeners(JOY)

@@ -1,4 +1,4 @@
-"""The answers to the probes, beside those to the numbered Joys: does each follow its Joy? Pure."""
+"""The answers to the probes, compared with those to the numbered Joys."""
 
 from __future__ import annotations
 
@@ -9,19 +9,19 @@ from ..task import HANDOUT, LB, Joy, JoystickTask
 from .evidence import FIELDS, RIGHT, SMALL, Evidence, JoySample, TwistField, is_near, no_number
 from .joys import pressed
 
-ProbeAnswer = Tuple[Joy, Sequence[float]]  # and the six values of its Twist
+ProbeAnswer = Tuple[Joy, Sequence[float]]  # (Joy, six values of its Twist)
 
-SLOWEST = 0.25  # an axis below this may be in a dead zone, and is no measure of a factor
+SLOWEST = 0.25  # an axis below this may be in a dead zone
 
 
 def other_button(task: JoystickTask, joy: Joy) -> str:
-    """Return which button is pressed besides LB, or an empty text."""
+    """Return the button that is pressed besides LB, or ""."""
     numbers = (index for index, value in enumerate(joy[1]) if value and index != LB)
     return next((f"buttons[{task.buttons.get(index, index)}]" for index in numbers), "")
 
 
 class Silence(NamedTuple):
-    """A Joy that no Twist answered, the one before it, and the last Twist that came."""
+    """A Joy without an answer, the Joy before it, and the last Twist."""
 
     joy: Joy
     before: Joy
@@ -30,7 +30,7 @@ class Silence(NamedTuple):
 
 
 class ProbeReply(NamedTuple):
-    """One field of an answer, with that to the Joy before, and to the same Joy the first time."""
+    """A field of an answer, compared with the previous answer and the first to the same Joy."""
 
     name: str
     axis: int
@@ -53,14 +53,14 @@ class ProbeReply(NamedTuple):
     def drives_on(self) -> bool:
         """Whether the robot moves where it should not."""
         given = self.joy[0][self.axis]
-        # A button may turn the direction while it is held, but at rest the robot stands.
+        # A button may reverse the direction while held, but at rest the robot must stand.
         against = self.value * given < 0 and not other_button(self.task, self.joy)
         is_odd = not given or against or (self.stays and self.differs)
         return abs(self.value) > SMALL and is_odd
 
 
 class Replies:
-    """The answers to the probes of a program that answers the numbered Joys by the right rule."""
+    """The answers to the probes of a program whose rule is otherwise right."""
 
     def __init__(
         self, evidence: Evidence, answers: Iterable[ProbeAnswer], needs_button: bool
@@ -76,7 +76,7 @@ class Replies:
 
     @cached_property
     def odd(self) -> ProbeReply | None:
-        """The first one that moves the robot against its Joy, or differs from an earlier one."""
+        """The first answer against its Joy, or different from an earlier answer."""
         return next((reply for reply in self._replies() if reply.drives_on or reply.differs), None)
 
     def _replies(self) -> Iterator[ProbeReply]:
@@ -93,7 +93,7 @@ class Replies:
 
     @property
     def _held(self) -> list[JoySample]:
-        """The answers to Joys with LB alone, at rest or beyond a dead zone."""
+        """The answers to Joys with only LB held, at rest or beyond a dead zone."""
         return [
             (axes, twist)
             for (axes, buttons), twist in self.answers
@@ -102,14 +102,14 @@ class Replies:
 
     @property
     def still_alone(self) -> TwistField | None:
-        """The first field that is 0 when its axis alone is moved."""
+        """The first field that is 0 when only its axis is moved."""
         still = {tuple(map(bool, axes[:2])) for axes, twist in self._held if not any(twist)}
         alone = {field: tuple(i == field.axis for i in (0, 1)) for field in self.evidence.fields}
         return next((field for field, moved in alone.items() if moved in still), None)
 
     @property
     def drives_released(self) -> bool:
-        """Whether it drives with LB released, though the task wants it held."""
+        """Whether it drives with LB released, although the task wants it held."""
         moving = (any(twist) for (_, buttons), twist in self.answers if not buttons[LB])
         return self.needs_button and any(moving)
 

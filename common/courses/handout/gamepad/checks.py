@@ -1,4 +1,4 @@
-"""C20: a joystick drives it."""
+"""C20: a joystick drives the program."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Section 4.5: a virtual joystick."""
+"""Section 4.5: a recorder with a virtual joystick."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from tutorial_check import START_S, CannotCheck, Program, Ran, RosSession, Works
 
 from ..task import CMD_VEL, JOY, LB, PACKAGE
 
-SLOW_S = 4.0  # for a program that sleeps in its callback to answer what has gathered
+SLOW_S = 4.0  # for a program that sleeps in its callback to work off its queue
 
 
 @dataclass(frozen=True)
 class Stick:
-    """joy_node with a virtual F710, its switch at D, then Joys as at X."""
+    """A run with joy_node and a virtual F710, its switch at D, then with Joys as at X."""
 
     program: Ran
     drives: bool
@@ -59,11 +59,11 @@ def _speeds_told(ros: RosSession, since: int = 0) -> list[float]:
 
 def _survives_eight_axes(workspace: Workspace, ros: RosSession, program: Program) -> bool:
     ros.peer.advertise(JOY, "Joy")
-    # Our own Subscriber is one of them.
+    # Our own subscriber is one of them.
     ros.wait(lambda: ros.peer.listeners(JOY) > 1 or program.ended, START_S)
 
     def drive_backwards() -> None:
-        """Only this does; once it shows, all that was sent before has been answered."""
+        """Send the only Joy backwards; its answer shows that all earlier ones are answered."""
         index = ros.peer.count(CMD_VEL)
         ros.peer.send(JOY, workspace.task.held(0.1, -0.5))
         ros.wait(lambda: min(_speeds_told(ros, index), default=0.0) < 0 or program.ended, SLOW_S)

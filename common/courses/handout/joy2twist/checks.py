@@ -1,4 +1,4 @@
-"""C13 to C18, C34: joy2twist.py, first and second version."""
+"""C13 to C18, C34: both versions of joy2twist.py."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ def ctrl_c(submission: Submission) -> Note | str:
 @check("C18", "it starts while the joystick sends", "4.3", needs=mapping,
        look="rosbag play --loop joy.bag; rosrun {n.package} joy2twist.py")  # fmt: skip
 def under_load(submission: Submission) -> Note | None:
-    """Start it while 200 Joys a second come. Never a failure."""
+    """Start it while 200 Joys arrive each second; at worst a Note."""
     script = main_script(submission)
     made = map(submission.scripts(PACKAGE)[script].first, ("Subscriber", "Publisher"))
     first, second = (call.line if call else 0 for call in made)

@@ -1,4 +1,4 @@
-"""Section 4.3: the program is started while Joys stream."""
+"""Section 4.3: a recorder that starts the program while Joys arrive."""
 
 from __future__ import annotations
 
@@ -8,18 +8,18 @@ from tutorial_check import START_S, Workspace
 
 from ..task import CMD_VEL, JOY, NEUTRAL, PACKAGE
 
-STARTS = 10  # under load, all at once
+STARTS = 10  # all at once
 
 
 @dataclass(frozen=True)
 class Loaded:
-    """Starts while Joys stream."""
+    """Starts while Joys arrive."""
 
-    failed: bool  # in one of them a callback found no publisher
+    failed: bool  # in one of them a callback had no publisher yet
 
 
 def loaded(workspace: Workspace, script: str) -> Loaded:
-    """Start it ten times while 200 Joys a second come."""
+    """Start it ten times at once while 200 Joys arrive each second."""
     with workspace.ros_session() as ros:
         ros.peer.advertise(JOY, "Joy")
         ros.peer.listen(CMD_VEL, "Twist")

@@ -10,7 +10,7 @@ from ..task import PACKAGE
 
 @check("C11", "a recording of /joy", "4.2", look="rosbag info joy.bag")
 def recording(submission: Submission) -> Note | str | None:
-    """Take the first of the recordings that can be played to joy2twist; there may be others."""
+    """Take the first bag that can be played to joy2twist; other bags do not matter."""
     ours = submission.package(PACKAGE).folder if submission.has(PACKAGE) else None
     bags = submission.source.rglob("*.bag") if ours or submission.has("beginner_tutorials") else []
     bags = sorted(bags, key=lambda path: (path.name != "joy.bag", path))

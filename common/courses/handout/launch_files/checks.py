@@ -1,4 +1,4 @@
-"""C21 to C26: which nodes the launch files of section 5 start, and the files at work."""
+"""C21 to C26: the nodes of the launch files of section 5, and what they do when launched."""
 
 from __future__ import annotations
 
@@ -28,14 +28,14 @@ from .record import BAG_S, bag_run, stick_run
 
 BAG_HINT = '<node pkg="rosbag" type="play" name="rosbag" args="--loop $(find {})/bag/joy.bag"/>'
 VIEWER_HINT = '<node pkg="rviz" type="rviz" name="my_rviz" args="-d $(find rbx1_nav)/sim.rviz"/>'
-# Of rosbag play; as letters after one hyphen none of these words makes sense.
+# Of rosbag play. After a single hyphen, none of these words makes sense as letters.
 LONG_OPTIONS = "loop|clock|rate|quiet|delay|start|pause|immediate|queue|hz|keep-alive|topics"
-ONCE_S = 60.0  # a recording that is not repeated lasts until the others have started
-LOOP = re.compile(r"--l(oop|oo|o)?|-[a-z]*l[a-z]*")  # rosbag play's option, as it may be written
+ONCE_S = 60.0  # a bag that is not repeated lasts until the other nodes have started
+LOOP = re.compile(r"--l(oop|oo|o)?|-[a-z]*l[a-z]*")  # ways to write rosbag play's option
 
 
 def is_there(submission: Submission, path: str) -> bool:
-    """Return whether a file that a launch file names is there, for the student's programs, too."""
+    """Return whether a file exists, and the student's programs may read it."""
     return submission.may_see(path) and os.path.isfile(path)
 
 
@@ -61,7 +61,7 @@ def sends_twists(facts: PythonFacts) -> bool:
 
 
 def several_drivers(file: HandoutLaunch) -> Wrong | None:
-    """Find two programs of the student's that send velocities to the same place."""
+    """Find two of the student's programs that send velocities to the same topic."""
     topic, scripts = file.submission.task.topic(CMD_VEL), file.submission.scripts(PACKAGE)
     of_twists = {Path(path).name for path, facts in scripts.items() if sends_twists(facts)}
     nodes = [node for node in file.own if topic_of(node, topic) == CMD_VEL]
@@ -77,7 +77,7 @@ def several_drivers(file: HandoutLaunch) -> Wrong | None:
 
 @dataclass(frozen=True)
 class BagPlayer:
-    """The node of launch_bag that plays a recording."""
+    """The node of launch_bag that plays the bag."""
 
     file: HandoutLaunch
     node: LaunchNode
@@ -130,7 +130,7 @@ def lost_recording(player: BagPlayer) -> Wrong | None:
 
 
 def player_of(submission: Submission) -> BagPlayer:
-    """Return what plays the recording in launch_bag, which can be played. Raises Wrong."""
+    """Return the BagPlayer of launch_bag, whose bag can be played. Raises Wrong."""
     file = HandoutLaunch(submission, BAG)
     hint = BAG_HINT.format(file.student_package)
     node = file.must_start("rosbag play", file.of("player"), hint)
@@ -143,7 +143,7 @@ def player_of(submission: Submission) -> BagPlayer:
 
 
 def _check_items(file: HandoutLaunch) -> Note | None:
-    """Look at what both files start; return a Note about it, or None."""
+    """Check what both files must start; return a Note, or None. Raises Wrong."""
     note = check_viewer(file)
     odd = [node["name"] for node in file.nodes if " " in node["name"]]
     if odd and not note:
@@ -201,7 +201,7 @@ def stick_nodes(submission: Submission) -> Note | str | None:
 
 
 def _bag_run(submission: Submission) -> tuple[BagPlayer, Plan, LaunchRun]:
-    """Return launch_bag and what came of it, with a recording of the checker's own."""
+    """Return launch_bag, its plan, and its run with the checker's own bag."""
     player, source = player_of(submission), submission.source
     is_own, plan = player.bag.startswith(str(source)), plan_of(player.file)
     inside = os.path.relpath(player.bag, source) if is_own else ""

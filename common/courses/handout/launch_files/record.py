@@ -1,4 +1,4 @@
-"""Section 5: launch files with a recording of the checker's own, and with a stick."""
+"""Section 5: recorders that run launch files with a bag of the checker's, and with a joystick."""
 
 from __future__ import annotations
 
@@ -10,21 +10,21 @@ from tutorial_check import ODOM, Workspace
 from ..launch_runs.record import LaunchRun, Plan, RunningLaunch, drives_forwards, plug_in_for
 from ..task import NEUTRAL
 
-BAG_S = 1.2  # length of the recording that takes the place of the student's, and is played again
-FAR_M = 0.3  # The least distance by a recording.
+BAG_S = 1.2  # length of the bag that replaces the student's and is repeated
+FAR_M = 0.3  # least distance to drive
 
 
 def bag_run(
     workspace: Workspace, plan: Plan, bag: str, length_s: float, is_looped: bool
 ) -> LaunchRun:
-    """Run launch_bag. bag: within src, replaced by a recording of that length; or empty."""
+    """Run launch_bag. bag: within src, to be replaced by one of that length; or empty."""
     if bag:
         _own_bag(workspace, workspace.source / bag, length_s)
     with workspace.ros_session(renamed=False) as ros:
         launch = RunningLaunch(workspace, ros, plan)
         drives = launch.wait(lambda: launch.moved_m() > FAR_M)
         loops = is_looped
-        # A robot that drives by another topic has not shown that /joy does it.
+        # A robot that is driven by another topic does not show that /joy drives it.
         if drives and is_looped and bag and ros.peer.count(plan.joys):
             end_s = ros.peer.received(plan.joys)[0][0] + length_s + 0.5
             loops = bool(
@@ -34,7 +34,7 @@ def bag_run(
 
 
 def _own_bag(workspace: Workspace, path: Path, length_s: float) -> None:
-    """Write a recording in place of the student's: rest with LB released, then forwards."""
+    """Replace the student's bag by one with LB released at rest, then a drive forwards."""
     import rosbag  # noqa: PLC0415
     import rospy  # noqa: PLC0415
     from sensor_msgs.msg import Joy  # noqa: PLC0415

@@ -1,4 +1,4 @@
-"""The handout's launch files, read and not started."""
+"""The handout's launch files, read but not launched."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from ..task import NAME, PACKAGE
 BAG, STICK = "launch_bag.launch", "launch_joy_node.launch"
 TURTLEBOT, REAL = "joy2twist_turtlebot.launch", "launch_joy_node_realTurtlebot.launch"
 ALL = (BAG, STICK, TURTLEBOT, REAL)
-# {what a node is: a pattern of its PACKAGE/TYPE}
+# {role of a node: pattern of its PACKAGE/TYPE}
 ROLES = {
     "viewer": r"[^/]*/(rviz|view_robot)",
     "player": "rosbag/play",
@@ -46,10 +46,10 @@ UNKNOWN = re.compile(
 
 
 class HandoutLaunch(LaunchFile):
-    """One of the handout's launch files, and its nodes by what they are for."""
+    """One of the handout's launch files, and its nodes by role."""
 
     def __init__(self, submission: Submission, name: str) -> None:
-        """Read it and the others, which other checks ask for. Raises Wrong."""
+        """Read it, and the others that later checks need. Raises Wrong."""
         hint = f"write it: launch/{name} in YOUR package. ./tutorial shell without --in has one of"
         path = find_launch(submission, PACKAGE, name, f"{hint} OURS")
         folder = submission.package(PACKAGE).folder
@@ -60,7 +60,7 @@ class HandoutLaunch(LaunchFile):
         self.own = [node for node in self.nodes if node["package"] == self.student_package]
 
     def of(self, *roles: str) -> list[LaunchNode]:
-        """Return the nodes that it starts of any of these ROLES."""
+        """Return the nodes with any of these ROLES."""
         pattern = re.compile("|".join(ROLES[role] for role in roles))
         return [node for node in self.nodes if pattern.fullmatch("{package}/{type}".format(**node))]
 
@@ -71,7 +71,7 @@ class HandoutLaunch(LaunchFile):
         return nodes[0]
 
     def words_of(self, node: LaunchNode) -> list[str]:
-        """Return the arguments of a node, as a shell would part them. Raises Wrong."""
+        """Return the arguments of a node, split as a shell does. Raises Wrong."""
         try:
             return shlex.split(node["args"])
         except ValueError as error:
@@ -81,13 +81,13 @@ class HandoutLaunch(LaunchFile):
 
 
 def copy_bag(submission: Submission) -> str:
-    """Return the commands that put the suite's recording into the student's package."""
+    """Return the commands that copy the suite's bag into the student's package."""
     folder = submission.whole("bag", PACKAGE)
     return f'mkdir -p {folder}; cp "$(rospack find gamepad)/bag/joy.bag" {folder}'
 
 
 def check_launch(submission: Submission, name: str) -> HandoutLaunch:
-    """Return the launch file: it exists, parses, each $(find) leads where it may. Raises Wrong."""
+    """Return a launch file that exists and parses, with valid $(find)s. Raises Wrong."""
     try:
         file = HandoutLaunch(submission, name)
         wrong = name_with_a_gap(file)
@@ -111,7 +111,7 @@ def name_with_a_gap(file: HandoutLaunch) -> Wrong | None:
 
 
 def _printed(file: HandoutLaunch) -> str:
-    """Return what roslaunch printed as it read a file."""
+    """Return what roslaunch printed while it read a file."""
     return str(file.facts["said"] + " ".join(file.facts.get("errors", [])))
 
 
@@ -126,7 +126,7 @@ def unknown_word(file: HandoutLaunch) -> Wrong | None:
     written = rf"<{tag}\b" if tag else rf"\s{name}\s*="
     for path in (file.submission.source / file.path, *map(Path, file.facts["files"])):
         match = file.submission.is_own(path) and re.search(written, read_xml(path))
-        if match:  # else it is in a file of others
+        if match:  # else it is in somebody else's file
             where = f"{file.inside(path)}:{line_of(read_xml(path), match.end())}"
             expected = "tags and attributes that roslaunch knows"
             return Wrong(expected, f"{tag or name}: ignored by roslaunch", where, hint)
@@ -146,7 +146,7 @@ def tag_within_a_node(file: HandoutLaunch) -> Wrong | None:
 
 
 def faulty_node(file: HandoutLaunch) -> Wrong | None:
-    """Find the first node whose program does not exist, or is none."""
+    """Find the first node whose program does not exist, or is no program."""
     diagnoses = (type_with_a_folder, launch_file_as_node, not_located)
     return next(filter(None, (first_of(diagnoses, (file, node)) for node in file.nodes)), None)
 
@@ -181,14 +181,14 @@ def not_located(about: tuple[HandoutLaunch, LaunchNode]) -> Wrong | None:
 
 
 def _no_own_program(file: HandoutLaunch, node: LaunchNode) -> Wrong:
-    """Return the Wrong for a node of a program that the student's package does not have."""
+    """Return the Wrong for a node whose program is not in the student's package."""
     submission, kind, place = file.submission, node["type"], file.at_node(node)
     files = [path for path in submission.package(PACKAGE).folder.rglob("*") if path.is_file()]
     for path in (path for path in files if path.name == kind):
         hint = f"chmod +x {submission.whole(path, PACKAGE)}"
         return Wrong(f"{kind} may be run", "it is not executable", place, hint)
     if kind == NAME:
-        find_script(submission, PACKAGE, NAME)  # It raises Wrong, and names what is there.
+        find_script(submission, PACKAGE, NAME)  # raises Wrong with a similar name, if there is one
     hint = meant(kind, sorted(path.name for path in files), 0.7, 'type="{}"')
     hint = JOY_HINT if kind == "joy_node" else hint or "type is the name of the file, with .py"
     seen = f"Cannot locate node of type [{kind}]"
@@ -196,7 +196,7 @@ def _no_own_program(file: HandoutLaunch, node: LaunchNode) -> Wrong:
 
 
 def lost_file(file: HandoutLaunch) -> Wrong | None:
-    """Find a $(find joy2twist) of a file that the student does not have."""
+    """Find a $(find joy2twist) of a file that is not in the student's package."""
     folder, package = file.submission.package(PACKAGE).folder, file.student_package
     for match in re.finditer(rf"\$\(find\s+{package}\)([^\s\"'<>$]*)", file.text):
         inside, name = match[1].strip("/"), Path(match[1]).name

@@ -1,4 +1,4 @@
-"""How a launch file is run, and why it does not do what it should."""
+"""Plans for running launch files, and why a run fails."""
 
 from __future__ import annotations
 
@@ -11,21 +11,21 @@ from .handout_launch import HandoutLaunch
 from .record import LaunchRun, Plan
 
 ROBOT_HINT = '<include file="$(find rbx1_bringup)/launch/fake_turtlebot.launch"/>'
-# {} is the student's package.
+# {}: the student's package.
 OWN_HINT = '<node pkg="{}" type="joy2twist.py" name="myjoystick2twist"/>'
 ERRORS = re.compile(r"^(?!.*(?:rviz|INFO)).*(?:ERROR|died|Invalid|cannot|Unable)", re.MULTILINE)
 COLOUR = re.compile(r"\x1b\[[0-9;]*m|\x1b\][^\x07]*\x07")
 
 
 def topic_of(node: LaunchNode, topic: str) -> str:
-    """Return the name that a topic of a node has where a launch file starts it."""
+    """Return the name of a node's topic after the launch file's remaps."""
     renamed = (*node["remaps"], *re.findall(r"(\S+):=(\S+)", node["args"]))
     names = {source.strip("/"): to for source, to in renamed}
     return f"/{names.get(topic.strip('/'), topic).strip('/')}"
 
 
 def plan_of(file: HandoutLaunch, twists: str = CMD_VEL) -> Plan:
-    """Return how a launch file is run. twists: the topic on which the velocities should come."""
+    """Return the Plan of a launch file. twists: the topic for the velocities."""
     senders, sticks = file.of("joystick", "player"), file.of("joystick")
     viewers = file.of("viewer")
     devices = [node["device"] for node in sticks if node["device"].startswith("/dev/input/")]
@@ -40,7 +40,7 @@ def plan_of(file: HandoutLaunch, twists: str = CMD_VEL) -> Plan:
 
 
 def traced(submission: Submission, run: LaunchRun, expected: str) -> Wrong | None:
-    """Return the Wrong for the first traceback that was printed, or None."""
+    """Return the Wrong for the first traceback in the output, or None."""
     trace = traceback_of(submission, PACKAGE, COLOUR.sub("", run.program.output))
     if not trace:
         return None
@@ -48,7 +48,7 @@ def traced(submission: Submission, run: LaunchRun, expected: str) -> Wrong | Non
 
 
 def fault_of(file: HandoutLaunch, plan: Plan, run: LaunchRun, expected: str) -> Wrong:
-    """Return the Wrong for a launch that does not do what it should, with its first cause."""
+    """Return the Wrong for a failed run, with its first cause."""
     hints = {
         plan.joys: "does the recording, or joy_node, run? rostopic hz /joy",
         plan.twists: f"does joy2twist run, and publish on {plan.twists}? rosnode list",

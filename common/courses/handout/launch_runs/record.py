@@ -1,4 +1,4 @@
-"""A launch file of the handout at work: beside a robot, with a gamepad."""
+"""Runs of the handout's launch files, beside a robot and with a gamepad."""
 
 from __future__ import annotations
 
@@ -9,43 +9,43 @@ from typing import TYPE_CHECKING, Callable, Dict, Tuple
 
 from tutorial_check import ODOM, CannotCheck, Launch, Ran, RosSession, Workspace
 
-if TYPE_CHECKING:  # judges need no gamepad
+if TYPE_CHECKING:  # checks need no gamepad
     from tutorial_check import VirtualGamepad
 
 START_S = 20.0  # for all nodes of a launch on a busy machine
-UP_S = 6.0  # for what they are there for, once all of them are
-NEAR_M = 0.15  # The least distance by the stick.
+UP_S = 6.0  # for the effect, once all nodes are up
+NEAR_M = 0.15  # least distance to drive
 
 
 @dataclass(frozen=True)
 class Plan:
-    """A launch file to be run, and what should come of it."""
+    """How to run a launch file, and its topics and nodes."""
 
     path: str  # within src
-    joys: str  # the topics of the Joys and of the velocities
+    joys: str  # topic of the Joys; twists: of the velocities
     twists: str
-    nodes: Tuple[str, ...]  # Their names at the master.
+    nodes: Tuple[str, ...]  # names at the master
     joysticks: Tuple[str, ...] = ()  # those of joy_node
-    device: str = ""  # that one of them names
+    device: str = ""  # that one of the joysticks names
 
 
 @dataclass(frozen=True)
 class LaunchRun:
-    """A launch file that was run beside a robot."""
+    """A run of a launch file beside a robot."""
 
     program: Ran
-    has_died: bool  # a node has, as roslaunch printed
+    has_died: bool  # roslaunch reported a node as dead
     drives: bool  # the robot, as far as it should
-    counts: Dict[str, int]  # how many messages came, of Joys, velocities and odometry
+    counts: Dict[str, int]  # {topic: messages}, of Joys, velocities and odometry
     moved_m: float
     last_words: Tuple[str, ...]  # the last lines of nodes without output="screen"
-    loops: bool = False  # Joys go on after the end of the recording
+    loops: bool = False  # Joys continue after the end of the bag
     rests: bool = True  # once the stick is released
-    active: Tuple[str, ...] = field(default=())  # what the multiplexer named
+    active: Tuple[str, ...] = field(default=())  # sources that the multiplexer named
 
 
 class RunningLaunch(Launch):
-    """A launch file that runs, and what flowed."""
+    """A launch file that runs, and its messages."""
 
     def __init__(self, workspace: Workspace, ros: RosSession, plan: Plan) -> None:
         self._workspace, self.ros, self.plan = workspace, ros, plan
@@ -54,7 +54,7 @@ class RunningLaunch(Launch):
         super().__init__(ros, plan.path)
 
     def wait(self, condition: Callable[[], object]) -> bool:
-        """Return condition(), once it is true, the launch is over, or its nodes had their time."""
+        """Wait for a condition, the end of the launch, or a timeout; return the condition."""
 
         def is_up() -> bool:
             return set(self.plan.nodes) <= set(self.nodes)
@@ -65,12 +65,12 @@ class RunningLaunch(Launch):
 
     @property
     def died(self) -> Tuple[str, ...]:
-        """Lines of roslaunch on nodes that died; RViz and rqt_graph need a screen, and may."""
+        """roslaunch's lines on nodes that died; RViz and rqt_graph need a screen, and may die."""
         lines = (line for line in self.program.output.splitlines() if "has died" in line)
         return tuple(line for line in lines if "rviz" not in line and "rqt" not in line)
 
     def moved_m(self) -> float:
-        """Return how far the robot drove, along its way."""
+        """Return the length of the robot's path."""
         path = [value[1:3] for _, _, value in self.ros.peer.received(ODOM)]
         return sum(map(math.dist, path, path[1:]))
 
@@ -90,7 +90,7 @@ class RunningLaunch(Launch):
 
 
 def plug_in_for(workspace: Workspace, ros: RosSession, plan: Plan) -> VirtualGamepad:
-    """Put a joystick where the joy_node of a launch file will look for it."""
+    """Plug in a joystick where the launch file's joy_node looks for it."""
     if plan.device and not workspace.order.in_namespaces:
         name = Path(plan.path).name
         raise CannotCheck(f"the system grants no {plan.device} to try {name} with")
@@ -103,7 +103,7 @@ def plug_in_for(workspace: Workspace, ros: RosSession, plan: Plan) -> VirtualGam
 def drives_forwards(
     ros: RosSession, gamepad: VirtualGamepad, launch: RunningLaunch, *signs: str
 ) -> bool:
-    """Push the stick forwards once signs, topics, have a message; return whether it moves."""
+    """Push the stick forwards once these topics have messages; return whether the robot moves."""
     plan = launch.plan
 
     def ready() -> bool:
@@ -119,10 +119,10 @@ def drives_forwards(
         ros.wait(lambda: launch.is_over or ros.peer.count(plan.joys) > before, 1.0)
 
     launch.wait(ready)
-    # LB alone, touched and let go: a joy_node with autorepeat_rate 0 is silent while nothing moves.
+    # Press and release LB: a joy_node with autorepeat_rate 0 sends nothing until something moves.
     touch(gamepad.push, 0.0, 0.0)
     touch(gamepad.release)
-    # A new robot obeys only after a while of zero velocities; so does this check.
+    # A robot that has just started obeys only after some zero velocities.
     ros.wait(lambda: launch.is_over, 0.6)
     gamepad.push(0.0, 1.0)
     ros.wait(lambda: moves() or launch.is_over, 4.0 if ready() else 0.0)

@@ -1,4 +1,4 @@
-"""C29 to C33: the program as a class, also ended while it drives."""
+"""C29 to C33: the program as a class, and its end while it drives."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from ..task import PACKAGE
 from .class_text import DIAGNOSES, ClassProgram, program
 from .record import LAUNCH, End, Endings, alone, endings
 
-NAMES_IT = re.compile(r"not defined|NameError")  # what the lack of the import leads to
+NAMES_IT = re.compile(r"not defined|NameError")  # without the import
 ARGUMENTS_HINT = "roslaunch gives it arguments such as __name:=...; rospy.myargv() leaves those out"
 ENDS = "ended while it drives, it sends an all-zero Twist and is gone within 3 s"
 REPORTS = re.compile(r"Traceback|Error\b|Exception|not defined|exceeded|\[(?:ERROR|FATAL|WARN)\]")
@@ -66,7 +66,7 @@ def _endings(submission: Submission) -> Endings:
 
 @dataclass(frozen=True)
 class DrivingEnd:
-    """What came of ending the class in one way, beside its text."""
+    """One way to end the class, with its result and its text."""
 
     submission: Submission
     made: ClassProgram
@@ -86,7 +86,7 @@ class DrivingEnd:
         return Wrong(ENDS, f"after {self.way}: {seen}", self.where, hint, sure)
 
     def with_cause(self, wrong: Wrong) -> Wrong:
-        """Return the Wrong for a zero that did not come in time, with its cause."""
+        """Add the cause to the Wrong for a zero that did not come in time; return it."""
         called = self.made.facts.called_by("on_shutdown", 0)
         sleep, publish = (min(called.get(name, [0])) for name in ("sleep", "publish"))
         if 0 < sleep < publish:
@@ -107,7 +107,7 @@ def no_zero(ending: DrivingEnd) -> Wrong | None:
     hint = "rospy.on_shutdown(self.shutdown), and self.cmd_vel.publish(Twist()) in shutdown"
     if ending.is_registered:
         hint = "shutdown has to publish Twist(), all zero, with the publisher of the callback"
-    # One that has gone, and whose text knows no shutdown, will not send a zero another time.
+    # If it has exited and registers no shutdown, it will not send a zero next time, either.
     sure = ending.end.took_s is not None and not ending.is_registered
     return ending.with_cause(ending.wrong("no zero comes: the robot drives on", hint, sure))
 
@@ -147,7 +147,7 @@ def stops(submission: Submission) -> Note | str | None:
 
 @check("C32", "nothing follows the zero", "6.2", needs=stops, look="rostopic echo {n.cmd_vel}")
 def nothing_after(submission: Submission) -> Note | str | None:
-    """Note moving Twists after the zero; no failure, as the handout's listing sends some."""
+    """Note moving Twists after the zero; they are allowed, as the handout's listing sends some."""
     most = max(end.after_zero for end in _endings(submission).ends.values())
     if not most:
         return None

@@ -1,4 +1,4 @@
-"""The program that is a class, as its text shows it, and what is wrong with that text."""
+"""The program that is a class: its text, and diagnoses of the text."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ IS_CLASS = "a class with __init__, its callback bound to self, made under __main
 
 @dataclass(frozen=True)
 class ClassProgram:
-    """The program to start, and the class in it, or in a file that it imports."""
+    """The program to start, and the class in it or in a file that it imports."""
 
     script: str
     path: str  # of the file with the class
@@ -41,14 +41,14 @@ class ClassProgram:
 
 
 def _class_of(submission: Submission) -> tuple[str, ClassFacts] | None:
-    """Return (path, ClassFacts) of the class that deals with ROS, of several the likeliest one."""
+    """Return (path, ClassFacts) of the class that uses ROS; if there are several, the likeliest."""
     scripts, folder = submission.scripts(PACKAGE), submission.package(PACKAGE).folder
     owned = [(path, owner) for path, facts in scripts.items() for owner in facts.classes]
     bases = {base.rpartition(".")[2] for _, owner in owned for base in owner.bases}
     whole = zip(owned, with_bases([owner for _, owner in owned]))
 
     def unlikely(candidate: tuple[str, ClassFacts]) -> tuple[bool | str, ...]:
-        """Return a sort key: joy2twist.py may be a class already, and there are old copies."""
+        """Return a sort key: joy2twist.py may already be a class, and there may be old copies."""
         path, node = candidate
         return (
             node.name in bases,
@@ -114,7 +114,7 @@ def never_made(made: ClassProgram) -> Wrong | None:
 
 @dataclass(frozen=True)
 class GivenFunction:
-    """What a call of ROS is given where it takes a function."""
+    """An argument of a ROS call that takes a function."""
 
     made: ClassProgram
     call: str  # on_shutdown or Subscriber
@@ -123,7 +123,7 @@ class GivenFunction:
 
     @property
     def name(self) -> str:
-        """The last part of what it is given."""
+        """The last part of the argument."""
         return self.word.rsplit(".", 1)[-1]
 
     def wrong(self, seen: str, hint: str) -> Wrong:
@@ -158,7 +158,7 @@ def no_method(given: GivenFunction) -> Wrong | None:
 
 
 def odd_method(made: ClassProgram) -> Wrong | None:
-    """Find what ROS is given in place of a method."""
+    """Find an argument for ROS that should be a method, and is not."""
     words = [("on_shutdown", *word) for word in made.facts.given("on_shutdown", 0)]
     words += [("Subscriber", *word) for word in made.facts.given("Subscriber", 2)]
     diagnoses = (method_without_self, called_at_once, no_method)

@@ -1,4 +1,4 @@
-"""Section 6.2: the class without a joystick, and ended while it drives, in each possible way."""
+"""Section 6.2: recorders of the class without a joystick, and ended while it drives."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from tutorial_check import ODOM, CannotCheck, Heard, Program, Ran, RosSession, W
 from ..task import CMD_VEL, JOY, NEUTRAL, PACKAGE
 
 CTRL_C, KILL, LAUNCH = "Ctrl-C", "rosnode kill", "the end of a launch"
-# One node for each way, all at once: each ends in its way, and the robot stands when all have gone.
+# {way to end: a node that is ended so}: all run at once; when all have ended, the robot must stand.
 NODES = {CTRL_C: "/ended_by_ctrl_c", KILL: "/ended_by_kill", LAUNCH: "/ended_with_its_launch"}
-STOP_S, GONE_S = 2.0, 3.0  # for the zero, and for the end of the node
-STANDS_S = 1.0  # after it, though the stick is still pushed; the robot itself forgets in 0.6 s
+STOP_S, GONE_S = 2.0, 3.0  # until the zero; until the node exits
+STANDS_S = 1.0  # after that, though the stick is still pushed; the robot's own timeout is 0.6 s
 ALONE_S = 1.5  # without a joystick
 ZERO = (0.0,) * 6
 LAUNCH_FILE = """<launch>
@@ -27,7 +27,7 @@ LAUNCH_FILE = """<launch>
 
 @dataclass(frozen=True)
 class Alone:
-    """The program without a joystick, and a copy of it that lacks an import."""
+    """A run of the program without a joystick, and of a copy that lacks an import."""
 
     program: Ran
     ended: bool
@@ -37,10 +37,10 @@ class Alone:
 
 @dataclass(frozen=True)
 class End:
-    """What came of ending it in one way."""
+    """The result of ending it in one way."""
 
-    zero_after_s: Optional[float]  # None: it never came
-    in_time: bool  # within STOP_S, if it came
+    zero_after_s: Optional[float]  # None: none came
+    in_time: bool  # within STOP_S, or it exited
     took_s: Optional[float]  # None: it had to be killed
     after_zero: int  # Twists that moved the robot again
     output: str
@@ -48,16 +48,16 @@ class End:
 
 @dataclass(frozen=True)
 class Endings:
-    """The program, started once for each way, driven and ended."""
+    """A run of the program, started once for each way, driven and ended."""
 
-    failed: str = ""  # the first way in which it did not drive, and that program
+    failed: str = ""  # the first way whose program did not drive; program: that one
     program: Optional[Ran] = None
     ends: Dict[str, End] = field(default_factory=dict)  # by way
-    robot_rests: bool = True  # when all have gone
+    robot_rests: bool = True  # when all have ended
 
 
 def alone(workspace: Workspace, script: str, text: str) -> Alone:
-    """Start it without a joystick. text: of the copy; empty: there is none."""
+    """Start it without a joystick. text: of the copy; empty: no copy."""
     joy = workspace.task.topic(JOY)
     with workspace.ros_session() as ros:
         program, broken = ros.start(PACKAGE, script), None
@@ -99,7 +99,7 @@ def _start(workspace: Workspace, ros: RosSession, script: str, way: str) -> Prog
 
 
 def _twists(ros: RosSession, since: int = 0) -> dict[str, list[Heard]]:
-    """Return {way: what that node has sent}."""
+    """Return {way: the Twists of that node}."""
     received = ros.peer.received(CMD_VEL, since)
     return {way: [twist for twist in received if twist[1] == name] for way, name in NODES.items()}
 
@@ -110,7 +110,7 @@ def _robot_rests(ros: RosSession) -> bool:
 
 
 def _drive(workspace: Workspace, ros: RosSession, programs: dict[str, Program]) -> str:
-    """Drive until they all move the robot; return the first way in which one does not."""
+    """Drive until all move the robot; return the first way whose program does not, or ""."""
 
     def has_ended() -> bool:
         return any(program.ended for program in programs.values())
@@ -123,7 +123,7 @@ def _drive(workspace: Workspace, ros: RosSession, programs: dict[str, Program]) 
         return [sum(value != ZERO for _, _, value in sent) for sent in _twists(ros).values()]
 
     ros.wait_for_start(lambda: has_ended() or are_connected())
-    # The robot obeys a node that has sent it zeros before.
+    # The robot obeys only after zeros.
     ros.peer.stream(JOY, [NEUTRAL], 50.0, True)
     ros.wait(lambda: has_ended() or min(map(len, _twists(ros).values())) >= 5, 0.5)
     ros.peer.end_stream(JOY)
@@ -145,7 +145,7 @@ def _end(workspace: Workspace, ros: RosSession, programs: dict[str, Program]) ->
 
     def all_gone() -> bool:
         for way, program in programs.items():
-            # A launch takes its time, also when its nodes are gone.
+            # roslaunch takes a while to exit after its nodes.
             left = way == LAUNCH and launched and not Path(f"/proc/{launched}").exists()
             if program.ended or left:
                 took_s.setdefault(way, time.monotonic() - began_s)

@@ -1,4 +1,4 @@
-"""C1 to C4 and C12: the workspace and its underlay, the packages, their dependencies, the build."""
+"""C1 to C4 and C12: workspace and underlay, packages, dependencies, the build."""
 
 from __future__ import annotations
 
@@ -66,16 +66,16 @@ def workspace(submission: Submission) -> Note | str | None:
         raise Wrong("build and devel beside src", "they are within src", hint=hint)
     if below is None:
         return Note("never built here (no devel/setup.bash)", hint="catkin_make in the workspace")
-    if not any(devel.glob("setup.*")):  # git may leave these out
+    if not any(devel.glob("setup.*")):  # git may omit these
         return Note("its devel folder has no setup.bash; built again here", hint=AGAIN)
     lower = [folder for folder in below if os.path.realpath(folder) != str(devel.resolve())]
     return _over(submission, lower)
 
 
 def _over(submission: Submission, below: Sequence[str]) -> Note | str:
-    """Return what is said of the folders that a workspace was built over. Raises Wrong.
+    """Return a verdict on the underlays of a workspace. Raises Wrong.
 
-    One that is built over a ROS in /opt/ros is as such a ROS wants it; here it is built again.
+    A workspace over a ROS in /opt/ros is right there; here it is built again.
     """
     suite = os.path.realpath(Path(submission.order.underlay).parent)
     if suite in map(os.path.realpath, below):
@@ -85,9 +85,9 @@ def _over(submission: Submission, below: Sequence[str]) -> Note | str:
     seen = f"devel was built over {', '.join(below) or 'nothing'}"
     hint = "built in a terminal without ./tutorial shell:"
     hint += " delete build and devel, then catkin_make in it"
-    for other in below[::-1]:  # the first counts
+    for other in below[::-1]:  # the first is the most important
         is_suite = any(os.path.isdir(f"{other}/share/{name}") for name in SUITE)
-        if is_suite or Path(other).parts[-2:] == ("lower", "devel"):  # it may be hidden here
+        if is_suite or Path(other).parts[-2:] == ("lower", "devel"):  # it may be invisible here
             seen = f"devel was built over another copy of the suite, {other}; this one is {suite}"
             hint = f"{AGAIN} in the ./tutorial shell of this copy; or check with the ./tutorial"
             hint += " (and TUTORIAL_WORKSPACE) of the other"
@@ -95,13 +95,13 @@ def _over(submission: Submission, below: Sequence[str]) -> Note | str:
 
 
 def _check_names(submission: Submission) -> None:
-    """Raise Wrong for a package with the name of one that the exercises need."""
+    """Raise Wrong for a package with a name that belongs to the suite or ROS."""
     share = Path(submission.order.underlay).parent / "share"
     for package in submission.packages:
         name, folder = package.name, package.folder
         is_suite = (share / name).is_dir() and not is_stand_in(name)
         is_ros = any(name in _wanted(submission, ours) for ours in submission.course.packages)
-        # A clone of the real one is no package that catkin_create_pkg made by mistake.
+        # A clone of the real package was not made by catkin_create_pkg by mistake.
         is_clone = (folder / "msg").is_dir() or (folder / "src" / name).is_dir()
         if is_suite or (is_ros and not is_clone):
             seen = f"a package {name}: it hides {'the suite' if is_suite else 'ROS'}'s own"
@@ -111,7 +111,7 @@ def _check_names(submission: Submission) -> None:
 
 
 def _wanted(submission: Submission, name: str) -> list[str]:
-    """Return what a package of the exercises has to depend on."""
+    """Return the dependencies that a package of the exercises must have."""
     return submission.course.packages[name].split()
 
 
@@ -142,8 +142,8 @@ class LostPackage:
     """A package that is not in src."""
 
     submission: Submission
-    name: str  # by which the checks know it
-    own: str  # which it should have
+    name: str  # in the checks
+    own: str  # that it should have
     expected: str
 
 
@@ -201,18 +201,18 @@ def odd_name(package: Package) -> Wrong | None:
 
 
 def _missing(wanted: Sequence[str], package: Package, unknown: Sequence[str]) -> list[str]:
-    """Return what is wanted and not there, or only in one kind of dependency spelt rightly."""
+    """Return the missing dependencies, or one that is misspelt in another kind of dependency."""
     missing = [name for name in wanted if name not in package.depends]
     meant = (difflib.get_close_matches(name, wanted, 1, 0.8) for name in unknown)
     return missing or next(filter(None, meant), [])
 
 
 def _dependencies(submission: Submission, name: str) -> Package:
-    """Return the package, which has all its dependencies. Raises Wrong."""
+    """Return a package with all its dependencies. Raises Wrong."""
     package, wanted = _package(submission, name), _wanted(submission, name)
     must_pass([odd_name], package)
     others = sorted(package.depends - set(wanted))
-    # What is a package is not misspelt.
+    # The name of an existing package is not misspelt.
     unknown = [
         name
         for name in others
@@ -227,7 +227,7 @@ def _dependencies(submission: Submission, name: str) -> Package:
         seen = f"{near[missing[0]][0]}, which is no package"
     text, where = read_xml(package.folder / "package.xml"), f"{package.inside}/package.xml"
     place = place_of(where, text, "exec_depend>", "run_depend>", "depend>", "</package>")
-    # Format 1 knows no <depend>.
+    # Format 1 has no <depend>.
     kinds = ("build_depend", "run_depend") if package.format == 1 else ("depend",)
     hint = "add " + " and ".join(f"<{k}>{name}</{k}>" for name in missing for k in kinds)
     if "rospy" in missing and "roscpp" in others:
@@ -263,13 +263,13 @@ def joy2twist(submission: Submission) -> Note | str | None:
 
 
 def _is_known(submission: Submission, name: str) -> bool:
-    """Return whether find_package surely finds a package; if not, only a build shows it, slowly."""
+    """Return whether find_package certainly finds a package; if not, only a build can tell."""
     prefixes = submission.underlay_environment.get("CMAKE_PREFIX_PATH", "").split(":")
     if any(package.name == name for package in submission.packages):
         return True
     file = f"share/{name}/cmake/{name}Config.cmake"
     is_there = any(Path(prefix, file).is_file() for prefix in (*prefixes, "/usr"))
-    # Of a package with a library, as roscpp, Debian has it there.
+    # Debian's place for a package with a library, such as roscpp.
     return is_there or any(Path("/usr/lib").glob(f"*/cmake/{name}/{name}Config.cmake"))
 
 

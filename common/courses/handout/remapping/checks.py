@@ -19,7 +19,7 @@ EXPECTED = f"Twists on {TELEOP}, none on any other topic"
 
 @dataclass(frozen=True)
 class Remapping:
-    """joy2twist_turtlebot beside what came of it, where velocities do not flow as they should."""
+    """joy2twist_turtlebot, and a run of it in which velocities do not arrive as they should."""
 
     file: HandoutLaunch
     plan: Plan
@@ -27,7 +27,7 @@ class Remapping:
 
     @property
     def own(self) -> str:
-        """The topic of the velocities as the program has it."""
+        """The program's own topic for velocities."""
         return str(self.file.submission.task.topic(CMD_VEL))
 
     @property
@@ -39,7 +39,7 @@ class Remapping:
         return [remap for node in self.file.own for remap in node["remaps"]]
 
     def wrong(self, why: str, words: str = "<remap", hint: str = "") -> Wrong:
-        """Return the Wrong for velocities on the program's own topic. words: of its line."""
+        """Return the Wrong for velocities on the program's own topic. words: in its line."""
         where = self.file.at(words, "joy2twist.py")
         return Wrong(EXPECTED, f"Twists on {self.own}: {why}", where, hint or self.remap, sure=True)
 
@@ -130,7 +130,7 @@ def remapped(submission: Submission) -> None:
        look="rostopic echo /cmd_vel_mux/active")  # fmt: skip
 def real_robot(submission: Submission) -> None:
     file = check_launch(submission, REAL)
-    # Its node, with the remap, may stand here once more.
+    # The node may be here instead of in the included file.
     topics = [f"/{to.strip('/')}" for node in file.own for _, to in node["remaps"]]
     is_included = any(path.endswith(f"/{TURTLEBOT}") for path in file.facts["files"])
     if TELEOP not in topics and not is_included:

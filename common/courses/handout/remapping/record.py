@@ -1,4 +1,4 @@
-"""Section 6.1: the remapped program, and the launch file for the real TurtleBot, at work."""
+"""Section 6.1: recorders of the remapped program and the real TurtleBot's launch file."""
 
 from __future__ import annotations
 
@@ -16,18 +16,18 @@ TELEOP, ACTIVE = "/cmd_vel_mux/input/teleop", "/cmd_vel_mux/active"
 
 @dataclass(frozen=True)
 class Remap:
-    """joy2twist_turtlebot, which was sent Joys."""
+    """A run of joy2twist_turtlebot that was sent Joys."""
 
     run: LaunchRun
     good: bool  # velocities came on TELEOP
     bad: bool  # velocities came on the program's own topic
     publishers: Topics
     subscribers: Topics
-    others: Tuple[str, ...]  # further topics that may be meant
+    others: Tuple[str, ...]  # other topics that the student may mean
 
 
 def remap_run(workspace: Workspace, plan: Plan, own: str) -> Remap:
-    """Run it and send Joys. own: the topic of the velocities as the program has it."""
+    """Run it and send Joys. own: the program's own topic for velocities."""
     with workspace.ros_session(renamed=False) as ros:
         ros.peer.listen(own, "Twist")
         ros.peer.advertise(plan.joys, "Joy")
@@ -57,7 +57,7 @@ def remap_run(workspace: Workspace, plan: Plan, own: str) -> Remap:
 
 
 def real_run(workspace: Workspace, plan: Plan, has_base: bool) -> LaunchRun:
-    """Run the file for the real TurtleBot beside a simulated one, and push the stick."""
+    """Run the file for the real TurtleBot with a simulated one, and push the stick."""
     with workspace.ros_session(renamed=False) as ros:
         ros.peer.listen(ACTIVE, "String")
         gamepad, base = plug_in_for(workspace, ros, plan), None

@@ -1,4 +1,4 @@
-"""Section 4.4: the simulated robot, driven forwards, then turned."""
+"""Section 4.4: a recorder that drives the simulated robot forwards, then turns it."""
 
 from __future__ import annotations
 
@@ -14,21 +14,21 @@ from ..driving.record import rest
 from ..task import CMD_VEL, JOY, PACKAGE
 
 FORWARDS, LEFT = 0.5, 0.8  # positions of the stick
-FASTEST = {LINEAR: 0.7, ANGULAR: math.pi}  # [m/s, rad/s] that the robot can do
-LOOKS = 3  # at the robot's speed: a busy machine may stutter once
-SAMPLES, SAMPLES_S = 40, 4.0  # one look takes so many messages of odometry, in at most so long
+FASTEST = {LINEAR: 0.7, ANGULAR: math.pi}  # [m/s, rad/s] limits of the robot
+LOOKS = 3  # measurements of the speed, because a busy machine may stutter
+SAMPLES, SAMPLES_S = 40, 4.0  # messages of odometry for a measurement, and its timeout
 
 
 @dataclass(frozen=True)
 class Follow:
-    """The simulated robot, driven forwards, then turned."""
+    """A run with the simulated robot, driven forwards, then turned."""
 
     program: Ran
     ready: bool
     publishers: Tuple[str, ...]  # nodes that publish on /cmd_vel
     v: float = 0.0  # [m/s] of the robot
     w: float = 0.0  # [rad/s]
-    told_v: Optional[float] = None  # what the last Twist said
+    told_v: Optional[float] = None  # from the last Twist
     told_w: Optional[float] = None
 
 
@@ -40,7 +40,7 @@ def follow(workspace: Workspace, script: str) -> Follow:
         robot = SimulatedTurtleBot(ros)
         ready = ros.wait(lambda: program.ended or ros.peer.listeners(JOY), START_S)
         rest(ros, CMD_VEL)
-        if ready:  # its Publisher may be made in the callback
+        if ready:  # it may create its Publisher in the callback
             ready = ros.wait(lambda: program.ended or ros.peer.publishers(CMD_VEL), START_S)
         ready = bool(ready) and not program.ended
         publishers = tuple(sorted(set(ros.peer.state()[0].get(workspace.task.topic(CMD_VEL), []))))
@@ -53,7 +53,7 @@ def follow(workspace: Workspace, script: str) -> Follow:
 
 
 def _speeds(ros: RosSession, robot: SimulatedTurtleBot) -> tuple[float, float]:
-    """Return (speed [m/s], rate of turn [rad/s]) of the robot in a while of even driving."""
+    """Return the robot's mean (speed [m/s], rate of turn [rad/s])."""
     before = ros.peer.count(ODOM)
     ros.wait(lambda: ros.peer.count(ODOM) >= before + SAMPLES, SAMPLES_S)
     path = robot.path[before:]
@@ -62,7 +62,7 @@ def _speeds(ros: RosSession, robot: SimulatedTurtleBot) -> tuple[float, float]:
 
 
 def agree(measured: float, wanted: float, field: int) -> bool:
-    """Return whether the robot does what a Twist says, as far as it can."""
+    """Return whether the robot follows a Twist, up to its limits."""
     most = FASTEST[field]
     return wanted > 0 and abs(measured - min(wanted, most)) <= 0.1 * min(wanted, most)
 
@@ -70,7 +70,7 @@ def agree(measured: float, wanted: float, field: int) -> bool:
 def _driven(
     ros: RosSession, robot: SimulatedTurtleBot, joy: object, field: int
 ) -> tuple[tuple[float, float], float | None]:
-    """Return (the robot's speed and rate of turn, a field of the last Twist) in a drive."""
+    """Drive; return (the robot's speed and rate of turn, a field of the last Twist)."""
     before = ros.peer.count(CMD_VEL)
 
     def wanted() -> list[float]:

@@ -92,7 +92,7 @@ def graph(submission: Submission) -> str:
 
 
 def _pair(submission: Submission) -> Pair:
-    """Return the two talkers; if a second recording came to none, C6 or C7 says why."""
+    """Return the recording of two talkers; if a second recording has none, raise as C6 or C7."""
     pair = _talk(submission).pair
     if not pair:
         talker(submission)
@@ -104,7 +104,7 @@ def _pair(submission: Submission) -> Pair:
 @check("C9", "anonymous names", "3.1", needs=(talker, listener, "C10"),
        look="rosnode list, with two talkers")  # fmt: skip
 def anonymous(submission: Submission) -> Note | str:
-    """Look at two talkers as submitted, and with anonymous the other way round in a copy."""
+    """Check two talkers as submitted, and copies with the opposite value of anonymous."""
     pair, script = _pair(submission), scripts(submission)[0]
     call, where = script.facts.first("init_node"), script.at_call("init_node")
     given = call.names.get("anonymous", "False") if call else ""

@@ -1,4 +1,4 @@
-"""What is wrong with a talker that sends, one that is silent, and a listener that displays less."""
+"""Diagnoses of a talker's messages, of a silent talker, and of a listener's output."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from .record import KIND, LISTEN_S, STRINGS, TOPIC, Talk
 LISTENS = "every text sent on /chatter, displayed once"
 GOES_ON = "it goes on until Ctrl-C"
 LOOP = "while not rospy.is_shutdown(): ..., rate.sleep() within it"
-RATE_TOLERANCE = 0.2  # part of the expected rate
-FEW = 3  # messages: too few for a rate
+RATE_TOLERANCE = 0.2  # share of the expected rate
+FEW = 3  # fewer messages give no rate
 TORRENT_HZ = 150
 
 
 @dataclass(frozen=True)
 class Talked:
-    """What a talker did, beside its text."""
+    """A talker's run and its text."""
 
     seen: Talk
     script: Script
@@ -34,7 +34,7 @@ class Talked:
 
     @cached_property
     def times(self) -> list[float]:
-        """When the messages of the first talker came."""
+        """When the messages of the first talker arrived."""
         received = self.seen.received
         return [when for when, caller, _ in received if caller == received[0][1]]
 
@@ -49,7 +49,7 @@ class Talked:
 
     @property
     def hint(self) -> str:
-        """How it is made a publisher."""
+        """How to make it publish."""
         line = "rospy.Publisher('chatter', String, queue_size=10)"
         line = with_import(line, "String", self.script.facts)
         return f"{line}; and {LOOP}" if self.end else line
@@ -73,7 +73,7 @@ def few_messages(talk: Talked) -> Note | None:
 
 
 def no_sleep(talk: Talked) -> Wrong | None:
-    """Find a torrent; where we come late for some, they come at once, but no more than sent."""
+    """Find a flood of messages; delayed ones arrive in bursts, so use the mean rate as well."""
     mean_rate = (len(talk.times) - 1) / max(1e-6, talk.times[-1] - talk.times[0])
     if min(talk.rate, mean_rate) <= TORRENT_HZ:
         return None
@@ -125,7 +125,7 @@ def ended_silently(talk: Talked) -> Wrong | None:
 
 
 def silent(talk: Talked) -> Wrong:
-    """Return the Wrong for a talker of which no message came."""
+    """Return the Wrong for a talker without a message."""
     diagnoses = (crashed_silently, other_type, sent_elsewhere, ended_silently)
     hint = "is publish(...) called within the loop?"
     no_message = Wrong(talk.expected, "not one message", talk.script.where, hint)
@@ -134,20 +134,20 @@ def silent(talk: Talked) -> Wrong:
 
 @dataclass(frozen=True)
 class Listened:
-    """What a listener did, beside its text."""
+    """A listener's run and its text."""
 
     seen: Talk
     script: Script
 
     @cached_property
     def times(self) -> list[int]:
-        """How often each text was displayed, with or without colours or a separator."""
+        """How many times each text was displayed."""
         lines = self.seen.listener.output.splitlines()
         return [sum(text in line for line in lines) for text in STRINGS]
 
     @property
     def hint(self) -> str:
-        """How it is made a subscriber."""
+        """How to make it subscribe."""
         line = "rospy.Subscriber('chatter', String, callback)"
         return with_import(line, "String", self.script.facts)
 
@@ -187,7 +187,7 @@ def no_callback(listen: Listened) -> Wrong | None:
 
 
 def wants_other_type(listen: Listened) -> Wrong | None:
-    """Compare the type that it asks for; rospy says whose types differ."""
+    """Compare the type that it subscribes to; rospy warns of types that differ."""
     call = listen.script.facts.first("Subscriber")
     kind = call.words[1].rpartition(".")[2] if call and len(call.words) > 1 else "String"
     refused = any("datatype" in line and "chatter" in line for line in listen.seen.warnings)

@@ -1,4 +1,4 @@
-"""Section 3: two talkers and two listeners at work, ours among them."""
+"""Section 3: recorders of talker and listener, beside our own."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ from ..task import BEGINNER, OF_ALL
 
 LISTEN_S = 1.5  # to the talker
 TOPIC, KIND = "/chatter", "std_msgs/String"
-ANOTHER_S = 3.0  # after another topic, or type, in which a talker makes the right one, or ends
+ANOTHER_S = 3.0  # after a wrong topic or type, for a talker to create the right one, or to end
 STRINGS = [f"tutorial check {word} {number}" for word, number in zip("ABCDE", range(21, 36, 3))]
 
 
 @dataclass(frozen=True)
 class Pair:
-    """Two talkers of the student's side by side, and how one of them and the listener ended."""
+    """Two of the student's talkers side by side, and the end of the second and the listener."""
 
-    first_ended: bool  # the second one has taken its name
+    first_ended: bool  # because the second has taken its name
     both: bool  # both publish
     second: Ran
     taken_s: Tuple[Optional[float], ...]  # the second talker, the listener; None: it was killed
@@ -27,7 +27,7 @@ class Pair:
 
 @dataclass(frozen=True)
 class Talk:
-    """A talker and a listener, then a second talker beside the first."""
+    """A run of a talker and a listener, then of a second talker beside the first."""
 
     talker: Ran
     listener: Ran
@@ -40,12 +40,12 @@ class Talk:
     warnings: Tuple[str, ...]
     received: Tuple[HeardText, ...]  # messages of the student's talkers
     master_alive: bool
-    pair: Optional[Pair] = None  # where both programs go on
+    pair: Optional[Pair] = None  # if both programs continue
 
 
 @dataclass(frozen=True)
 class Second:
-    """Two talkers with something changed."""
+    """A run of two changed talkers."""
 
     first: Ran
     talks: bool
@@ -53,7 +53,7 @@ class Second:
 
 
 def talk(workspace: Workspace, talker: str, listener: str) -> Talk:
-    """Start the programs of these paths, and send STRINGS to the listener."""
+    """Start talker and listener, and send STRINGS to the listener."""
     with workspace.ros_session() as ros:
         ros.peer.listen(TOPIC, "String")
         first, listens = ros.start(BEGINNER, talker), ros.start(BEGINNER, listener)
@@ -71,7 +71,7 @@ def talk(workspace: Workspace, talker: str, listener: str) -> Talk:
             ros.wait_for_start(lambda: ros.peer.count(TOPIC) or first.ended)
         ros.peer.advertise(TOPIC, "String")
         ros.wait_for_start(lambda: ros.peer.listeners(TOPIC) > 1 or listens.ended)
-        # As RosSession.meet(), which says why.
+        # As in RosSession.meet(), which explains it.
         ros.wait(lambda: listens.ended or listens.rests(), SETTLE_S)
         talks = bool(_received(ros))
         if talks:
@@ -104,7 +104,7 @@ def _pair(
     listens: Program,
     names: set[str],
 ) -> Pair:
-    """Start a second talker of the same kind; both must go on, or the first must end."""
+    """Start a second talker; either both continue, or the first ends."""
     second = ros.start(BEGINNER, talker)
 
     def both() -> bool:
@@ -113,14 +113,14 @@ def _pair(
     ros.wait_for_start(lambda: set(ros.peer.state()[0].get(TOPIC, ())) - names or first.ended)
     ros.wait_for_start(lambda: first.ended or both())
     first_ended, both_talk = first.ended, both()
-    so_far = len(_received(ros))  # the one that is ended next must be well under way
+    so_far = len(_received(ros))  # the talker to be ended must first be well under way
     ros.wait(lambda: len(_received(ros)) > so_far + 2 or second.ended, 3.0)
     taken_s = workspace.runner.end_all([second, listens])
     return Pair(first_ended, both_talk, second.ran, tuple(taken_s))
 
 
 def second(workspace: Workspace, talker: str, text: str) -> Second:
-    """Start two talkers with this text in place of their own."""
+    """Start two talkers with this text."""
     script = workspace.sibling(BEGINNER, talker, text)
     with workspace.ros_session() as ros:
         ros.peer.listen(TOPIC, "String")

@@ -1,4 +1,4 @@
-"""C35 to C37: the seventh lesson, ours: bumper, laser and wandering in a simulated room."""
+"""C35 to C37: our lesson 7, with bumper, laser and wandering in a simulated room."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from .record import LONGEST_PUSH_S, SIDES, WANDER_S, RoomDrive
 WALL_X_M, RADIUS_M = 4.0, 0.178
 SPEEDS = (0.1, 0.3, 0.6)  # [m/s]
 LEAST_GAP_M, MOST_GAP_M = 0.3, 0.5
-LONGEST_STAND_S, STANDS_M = 20.0, 0.1  # within so few metres; a slow turn on the spot is shorter
+LONGEST_STAND_S, STANDS_M = 20.0, 0.1  # a slow turn on the spot takes less
 LEAST_WAY_M, LEAST_WIDTH_M = 3.0, 2.0
 
 
@@ -42,7 +42,7 @@ def reads_bumper(submission: Submission) -> str:
         wrong = crash(submission, BEGINNER, seen.program, expected, hint)
         raise _elsewhere(wrong, "subscribes to", BUMPER, kind, seen.subscribers, seen.types)
     for number, (side, shown) in enumerate(zip(SIDES, seen.shown)):
-        # The paths of a traceback may have the number, too.
+        # A traceback may also contain the number.
         if not re.search(record.wanted(number), re.split("bad callback|Traceback", shown)[0]):
             expected = f"the {side} bumper on the screen when it is pressed"
             hint = f"event.bumper is {number} (BumperEvent.{side.upper()}), event.state 1"
@@ -59,7 +59,7 @@ def reads_bumper(submission: Submission) -> str:
 def _elsewhere(
     wrong: Wrong, does: str, topic: str, kind: str, topics: Topics, types: dict[str, str]
 ) -> Wrong:
-    """Return the Wrong; where the program uses another topic of that type, that was seen."""
+    """Return the Wrong, with another topic of that type, if the program uses one."""
     for other in (name for name in topics if types.get(name) == kind and name != topic):
         wrong.seen = f"it {does} {other}, not {topic}"
         break
@@ -86,12 +86,12 @@ class Stop:
     """A drive towards the wall."""
 
     script: Script
-    speed: float  # [m/s] that it is to drive with
+    speed: float  # [m/s] that it should drive
     drive: RoomDrive
 
     @property
     def gap_m(self) -> float:
-        """How far from the wall it ended."""
+        """Its distance from the wall at the end."""
         return WALL_X_M - RADIUS_M - self.drive.path[-1].x
 
     @property
@@ -181,7 +181,7 @@ def wanders(submission: Submission) -> str:
 
 
 def longest_stand_s(samples: Sequence[PoseSample]) -> float:
-    """Return how long [s] the robot stayed within STANDS_M of a place, at most."""
+    """Return the longest time [s] that the robot stayed within STANDS_M of a place."""
     longest_s, since = 0.0, samples[0]
     for sample in samples:
         if math.dist((sample.x, sample.y), (since.x, since.y)) > STANDS_M:

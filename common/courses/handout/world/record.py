@@ -1,4 +1,4 @@
-"""Lesson 7: bumper.py, stop_before_wall.py and wander.py at work in a simulated room."""
+"""Lesson 7: recorders of bumper.py, stop_before_wall.py and wander.py in a simulated room."""
 
 from __future__ import annotations
 
@@ -23,15 +23,15 @@ from ..task import BEGINNER, CMD_VEL
 
 SIDES = ("left", "center", "right")  # kobuki_msgs/BumperEvent: 0, 1, 2
 ANSWER_S = 2.0  # for a line on the screen
-STAMP = re.compile(r"\[[^\]]*\]")  # what rospy.loginfo puts before a text
-# Towards the wall of the room at x = 4 m, from where 0.1 m/s takes some seconds.
+STAMP = re.compile(r"\[[^\]]*\]")  # rospy.loginfo's prefix
+# The wall is at x = 4 m; at 0.1 m/s the robot needs some seconds.
 START_X_M = 2.9
 WANDER_S, LONGEST_PUSH_S = 60.0, 1.0
 
 
 @dataclass(frozen=True)
 class Presses:
-    """bumper.py, and each bumper pressed once, up to the first that it does not show."""
+    """A run of bumper.py; each bumper is pressed once, up to the first that it does not show."""
 
     connected: bool
     program: Ran
@@ -46,8 +46,8 @@ class RoomDrive:
 
     program: Ran
     path: Tuple[PoseSample, ...]
-    bumps: Tuple[Heard, ...]  # bumper and state of each event
-    ended_s: float  # when the last pose came, on the clock of the events
+    bumps: Tuple[Heard, ...]  # (bumper, state) of each event
+    ended_s: float  # when the last pose came, on the events' clock
     last_twist: Optional[Tuple[float, ...]]
     publishers: Topics
     types: Dict[str, str]
@@ -73,7 +73,7 @@ def presses(workspace: Workspace, script: str) -> Presses:
 
 
 def _press(ros: RosSession, program: Program, number: int) -> str:
-    """Press a bumper; return what the program displays then."""
+    """Press a bumper; return what the program then displays."""
     since = len(program.output)
 
     def shown() -> str:
@@ -85,12 +85,12 @@ def _press(ros: RosSession, program: Program, number: int) -> str:
 
 
 def towards_the_wall(workspace: Workspace, script: str, speed: float) -> RoomDrive:
-    """Let it drive until it rests. speed: its parameter ~speed [m/s]."""
+    """Record a drive until it rests. speed: its parameter ~speed [m/s]."""
     return _driven(workspace, script, f"_speed:={speed}")
 
 
 def wandering(workspace: Workspace, script: str) -> RoomDrive:
-    """Let it drive for a minute, or until it pushes for too long."""
+    """Record a drive of a minute, or until it pushes for too long."""
     return _driven(workspace, script)
 
 
@@ -118,7 +118,7 @@ def _driven(workspace: Workspace, script: str, *arguments: str) -> RoomDrive:
 
 
 def longest_push_s(events: Sequence[Heard], now_s: float) -> float:
-    """Return how long [s] a bumper was pressed at a time, at most."""
+    """Return the longest time [s] that a bumper was pressed."""
     pressed: set[float] = set()
     longest_s = began_s = 0.0
     for when_s, _, (number, state) in [*events, (now_s, "", (-1, 0))]:
