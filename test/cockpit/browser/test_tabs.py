@@ -6,9 +6,10 @@ from pathlib import Path
 from tutorial_testing.claims import claim
 from tutorial_testing.cockpit.chromium import SHIFT
 from tutorial_testing.cockpit.hands import Keys
+from tutorial_testing.processes import REPOSITORY
 from tutorial_testing.waiting import wait_for
 
-RECORDING = str(Path(__file__).resolve().parents[3] / "common/gamepad/bag/joy.bag")
+RECORDING = str(REPOSITORY / "common/gamepad/bag/joy.bag")
 POSITION = "/odom/pose/pose/position/x"
 
 

@@ -16,7 +16,7 @@ from cockpit_server.ros.tabs.outlets import Outlets
 from cockpit_server.tabs.publishing import Publishing
 from node_kit.errors import ServiceError
 from tutorial_testing.claims import claim
-from tutorial_testing.session_room import Free, page
+from tutorial_testing.session_room import Free, Graphs, page
 
 pytestmark = claim(
     "A page that only looks publishes and calls nothing, nor one beside a driver; a hostile value "
@@ -72,7 +72,7 @@ def test_hostile_parameter_is_one_line_or_a_value(monkeypatch, written):
     client, sent = page()
     at_once = lambda target, daemon: SimpleNamespace(start=target)  # noqa: E731
     monkeypatch.setattr(forms.threading, "Thread", at_once)
-    source = forms.Forms(Free(), lambda act: act(), SimpleNamespace(graph=Graph()))
+    source = forms.Forms(Free(), lambda act: act(), Graphs())
     source.on_set(client, 0.0, "/x", {"value": written})
     [said] = sent
     assert said["kind"] == ("form" if arrived else "refused")
@@ -91,7 +91,7 @@ def test_hostile_parameter_is_one_line_or_a_value(monkeypatch, written):
 )
 def test_who_may_publish_what(role, driver, topic, kind, why):
     graph = Graph(services={"/x/reset": {"/x"}}, types={"/x": "std_msgs/String"})
-    (client, _), graphs, driving = page(role), SimpleNamespace(graph=graph), Free(driver)
+    (client, _), graphs, driving = page(role), Graphs(graph), Free(driver)
     source, publishing = forms.Forms(driving, None, graphs), Publishing(driving, graphs, Outlets())
     with pytest.raises(RefusedError, match=f"^{why}"):
         publishing.on_publish(client, 0.0, topic=topic, type=kind, values={}, period=None)
@@ -114,7 +114,7 @@ def test_a_service_that_never_answers_is_refused_to_its_page_alone(monkeypatch):
     graph = Graph(services={"/reset": {"/x"}})
     driving = Free()
     driving.must_rest = lambda *_: None
-    source = forms.Forms(driving, lambda act: act(), SimpleNamespace(graph=graph))
+    source = forms.Forms(driving, lambda act: act(), Graphs(graph))
     (anna, sent), (bob, _), (eve, _) = page(number=1), page(number=2), page(number=3)
     source.on_call(anna, 0.0, "/reset", {})
     with pytest.raises(RefusedError, match="called from this page and has not answered"):

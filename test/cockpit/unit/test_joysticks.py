@@ -11,7 +11,7 @@ from cockpit_server.graph import JOY, Graph
 from cockpit_server.ros import joysticks
 from cockpit_server.ros.joysticks import LONGEST_JOY, Joysticks, shown
 from tutorial_testing.claims import claim
-from tutorial_testing.session_room import DRIVE, Topics, look, page, serialised
+from tutorial_testing.session_room import DRIVE, Graphs, Topics, look, page, serialised
 
 pytestmark = claim(
     "A hand that is still drives for as long as it is held; the cockpit publishes for the driven "
@@ -25,7 +25,7 @@ def ours(monkeypatch):
     """(Joysticks of the robot ada, their Topics)."""
     monkeypatch.setattr(joysticks, "later_once", lambda action: action())
     topics = Topics()
-    return Joysticks(topics, SimpleNamespace(graph=GRAPH), "/cockpit"), topics
+    return Joysticks(topics, Graphs(GRAPH), "/cockpit"), topics
 
 
 def test_a_hand_that_is_still_trembles_and_only_the_driven_robot_has_a_publisher(ours, monkeypatch):

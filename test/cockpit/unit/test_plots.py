@@ -1,17 +1,15 @@
 """Curves: numbers in messages, their names, and when they were."""
 
 from math import inf, nan
-from types import SimpleNamespace
 
 import pytest
 import rospy
 from sensor_msgs.msg import Joy
 from std_msgs.msg import Float64, Header
 
-from cockpit_server.fields import numbers_of, parts_of, split, value_at
 from cockpit_server.graph import Graph
 from cockpit_server.ros.tabs import plots
-from tutorial_testing.session_room import Topics, look, page
+from tutorial_testing.session_room import Graphs, Topics, look, page
 
 NOW = 1000.0
 
@@ -35,7 +33,7 @@ def test_sample_has_its_stamp_or_now_where_that_is_missing_or_of_another_clock(
     monkeypatch.setattr(plots.rospy, "get_time", lambda: NOW)
     graph = Graph(publishers={"/x": {"/n"}}, types={"/x": message._type})
     topics, one = Topics(), page(fields=(f"/x/{field}",), field_list=True)
-    source = plots.Plots(topics, SimpleNamespace(graph=graph))
+    source = plots.Plots(topics, Graphs(graph))
     [[fields]] = look(source, one)
     assert f"/x/{field.partition('[')[0]}" in fields["fields"]
     assert topics.every == {"/x"}
@@ -45,32 +43,11 @@ def test_sample_has_its_stamp_or_now_where_that_is_missing_or_of_another_clock(
     assert look(source, one) == [[]]
 
 
-def test_fields_are_all_numbers_of_a_type_seldom_drawn_ones_last():
-    fields = numbers_of("nav_msgs/Odometry")
-    assert fields[0] == "pose/pose/position/x"
-    assert {"header/stamp", "pose/covariance"} < set(fields)
-    assert not {"pose/covariance[0]", "header/frame_id"} & set(fields)
-    assert numbers_of("sensor_msgs/Joy")[:2] == ("axes", "buttons")  # which may be empty
-    assert "transforms[0]/transform/rotation/w" in numbers_of("tf2_msgs/TFMessage")
-    assert numbers_of("no_such/Type") == numbers_of("std_msgs/String") == ()
-
-
-@pytest.mark.parametrize(
-    ("field", "value"),
-    [("axes[1]", 0.25), ("header/stamp", 3.0), ("header/seq", 7.0), ("axes[2]", None),
-     ("axes", [0.5, 0.25]), ("nothing", None), ("serialize", None), ("header/frame_id", None)],
-)  # fmt: skip
-def test_value_of_a_field_is_a_number_or_none(field, value):
-    joy = Joy(axes=[0.5, 0.25])
-    joy.header.stamp.secs, joy.header.seq = 3, 7
-    assert value_at(joy, parts_of(field)) == value
-
-
 def test_of_a_whole_array_pages_get_the_newest_with_a_gap_for_what_is_no_number(monkeypatch):
     monkeypatch.setattr(plots.rospy, "get_time", lambda: NOW)
     graph = Graph(publishers={"/x": {"/n"}}, types={"/x": "sensor_msgs/Joy"})
     topics, one = Topics(), page(fields=("/x/axes",), field_list=False)
-    source = plots.Plots(topics, SimpleNamespace(graph=graph))
+    source = plots.Plots(topics, Graphs(graph))
     look(source, one)
     for axes in ([1.0], [inf, 0.5], [nan] * 3000):
         topics.hear("/x", Joy(axes=axes))
@@ -78,15 +55,3 @@ def test_of_a_whole_array_pages_get_the_newest_with_a_gap_for_what_is_no_number(
     assert sent["samples"] == {"/x/axes": [[NOW, [None] * 2000]]}
     topics.hear("/x", Joy(axes=[0.0] * 250_000))  # a longer message than is read
     assert look(source, one) == [[]]
-
-
-@pytest.mark.parametrize("field", ["", "a//b", "a[-1]", "a.b", "__class__"])
-def test_malformed_field_has_no_parts(field):
-    assert parts_of(field) == []
-
-
-def test_topic_of_a_field_is_the_longest_that_fits():
-    topics = ["/a", "/a/b", "/c"]
-    assert split("/a/b/x", topics) == ("/a/b", "x")
-    assert split("/a/x", topics) == ("/a", "x")
-    assert split("/d/x", topics)[0] == ""

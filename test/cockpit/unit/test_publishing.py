@@ -8,13 +8,13 @@ import pytest
 import rospy
 
 from cockpit_server.errors import RefusedError
-from cockpit_server.graph import JOY, Graph
+from cockpit_server.graph import JOY
 from cockpit_server.ros.tabs import outlets
 from cockpit_server.ros.tabs.outlets import Outlet, Outlets
 from cockpit_server.tabs import publishing
 from cockpit_server.tabs.publishing import VELOCITY, Publishing
 from tutorial_testing.claims import claim
-from tutorial_testing.session_room import ANNA, BOB, Free, look, page
+from tutorial_testing.session_room import ANNA, BOB, Free, Graphs, look, page
 
 pytestmark = claim(
     "What a page publishes by a form ends when the page is silent, late, hidden, gone or must not; "
@@ -40,7 +40,7 @@ class Desk:
     def __init__(self, kind=VELOCITY, period=0.1):
         self.driving, self.now, self.published = Free(), 100.0, []
         kept = Outlets()
-        self.repeats = Publishing(self.driving, SimpleNamespace(graph=Graph()), kept)
+        self.repeats = Publishing(self.driving, Graphs(), kept)
         publisher = SimpleNamespace(
             publish=lambda message: self.published.append((self.now, value_of(message)))
         )

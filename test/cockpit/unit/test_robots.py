@@ -1,7 +1,6 @@
 """What pages are sent of robots."""
 
 from math import inf, nan
-from types import SimpleNamespace
 
 import pytest
 from kobuki_msgs.msg import SensorState
@@ -11,7 +10,7 @@ from cockpit_server.graph import JOY, ODOMETRY, Graph, topic_of
 from cockpit_server.tabs.motion import Motion, covered
 from cockpit_server.tabs.robots import Robots, shown
 from tutorial_testing.claims import claim
-from tutorial_testing.session_room import Topics, look, page
+from tutorial_testing.session_room import Graphs, Topics, look, page
 
 pytestmark = claim("All robots are shown, impossible places are left out")
 
@@ -55,7 +54,7 @@ class Seen(Topics):
 
     def __init__(self, graph):
         super().__init__()
-        self.graphs = SimpleNamespace(graph=graph)
+        self.graphs = Graphs(graph)
         self.robots, self.page = Robots(self, self.graphs), page(robots=True, floor=True)
         self.look()
 

@@ -1,14 +1,12 @@
 """Rates of topics, and the newest messages as text."""
 
-from types import SimpleNamespace
-
 import pytest
 from std_msgs.msg import String
 
 from cockpit_server.graph import Graph
 from cockpit_server.messages import RawMessage
 from cockpit_server.tabs import topics
-from tutorial_testing.session_room import Topics, look, page, serialised
+from tutorial_testing.session_room import Graphs, Topics, look, page, serialised
 
 
 @pytest.mark.parametrize("rate", [0.5, 3.0, 10.0, 1000.0])
@@ -28,7 +26,7 @@ def test_rate_is_right_while_messages_come_and_0_once_they_do_not(rate):
 def test_page_gets_the_newest_messages_of_its_topic_once_and_the_rates_of_those_in_sight():
     graph = Graph(publishers={"/x": {"/n"}}, types={"/x": "std_msgs/String", "/y": "no/Type"})
     feeds = Topics()
-    source = topics.Topics(feeds, SimpleNamespace(graph=graph))
+    source = topics.Topics(feeds, Graphs(graph))
     first, second = (page(topic="/x", rates=("/x", "/y", "/z")) for _ in range(2))
 
     def shown(*pages, now):

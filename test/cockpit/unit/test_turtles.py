@@ -1,13 +1,11 @@
 """The pictures of turtlesims: asked for while a page shows them, each sent once."""
 
-from types import SimpleNamespace
-
 import pytest
 
 from cockpit_server.graph import POSE, Graph
 from cockpit_server.ros.tabs import turtles
 from node_kit.rules.answer import Answer
-from tutorial_testing.session_room import look, page
+from tutorial_testing.session_room import Graphs, look, page
 
 GRAPH = Graph(publishers={"/turtle1/pose": {"/sim"}}, types={"/turtle1/pose": POSE})
 
@@ -15,7 +13,7 @@ GRAPH = Graph(publishers={"/turtle1/pose": {"/sim"}}, types={"/turtle1/pose": PO
 @pytest.fixture
 def shown(monkeypatch):
     """A function: what the page is sent while the node gives an answer, or none is asked for."""
-    source, now = turtles.Turtles(SimpleNamespace(graph=GRAPH)), [0.0]
+    source, now = turtles.Turtles(Graphs(GRAPH)), [0.0]
     monkeypatch.setattr(source._thread, "submit", lambda act, *given: act(*given))
     one = page(turtles=True)
 

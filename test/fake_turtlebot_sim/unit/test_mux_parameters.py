@@ -1,15 +1,14 @@
 """The parameters of cmd_vel_mux: a TurtleBot's own file works, every mistake is one clear line."""
 
-from pathlib import Path
-
 import pytest
 import yaml
 
 from fake_turtlebot_sim.mux.parameters import Input, parse_mux_parameters
 from tutorial_testing.claims import claim
+from tutorial_testing.processes import REPOSITORY
 
 pytestmark = claim("A TurtleBot's own mux.yaml works; a mistake is one line")
-OURS = Path(__file__).resolve().parents[3] / "fake_turtlebot_sim/config/cmd_vel_mux.yaml"
+OURS = REPOSITORY / "fake_turtlebot_sim/config/cmd_vel_mux.yaml"
 TELEOP = {"name": "teleop", "topic": "input/teleop", "timeout": 1.0, "priority": 7}
 NAVI = {"name": "navi", "topic": "input/navi", "timeout": 1.0, "priority": 5}
 

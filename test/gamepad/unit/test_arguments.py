@@ -1,7 +1,5 @@
 """The arguments that roslaunch itself does not check."""
 
-from pathlib import Path
-
 import pytest
 import rosbag
 from geometry_msgs.msg import Twist
@@ -10,8 +8,9 @@ from std_msgs.msg import String
 
 from gamepad.arguments import check
 from gamepad.ros.bags import check_recording
+from tutorial_testing.processes import REPOSITORY
 
-JOY_BAG = Path(__file__).parents[3] / "common" / "gamepad" / "bag" / "joy.bag"
+JOY_BAG = REPOSITORY / "common" / "gamepad" / "bag" / "joy.bag"
 TRUE_OR_FALSE = "must be true or false"
 
 

@@ -1,7 +1,5 @@
 """Every preset in config/ loads, and drives as it says."""
 
-from pathlib import Path
-
 import pytest
 import yaml
 
@@ -9,8 +7,9 @@ from joy_to_twist.parameters import load
 from joy_to_twist.teleoperation import Teleoperation
 from node_kit.rules.arming import ZERO
 from tutorial_testing.claims import claim
+from tutorial_testing.processes import REPOSITORY
 
-CONFIG = Path(__file__).parents[3] / "joy2twist" / "config"
+CONFIG = REPOSITORY / "joy2twist" / "config"
 PRESETS = {path.stem: yaml.safe_load(path.read_text()) for path in sorted(CONFIG.glob("*.yaml"))}
 # Of the gamepad: axes, buttons, then stick forward, stick left, dead-man and turbo.
 # Source: reference of the F710; xpad.c, hid-sony.c and hid-playstation.c of Linux 6.1.

@@ -8,7 +8,7 @@ from rospy.exceptions import TransportException
 from sensor_msgs.msg import Joy
 
 from node_kit.ros.rospy_patches import connections
-from node_kit.rules.throttle import Throttle, ThrottleEach
+from node_kit.rules.throttle import ThrottleEach
 from tutorial_testing.claims import claim
 
 WRONG_LENGTH = b"\x03\0\0\0abc"  # three bytes are no Joy
@@ -65,21 +65,3 @@ def test_a_long_message_may_take_its_time_while_its_bytes_come(read):
     for second in range(1, 8):
         assert read(bytes(1_000_000), float(second), buffer) == ([], [])
     assert read(b"", 8.0, buffer)[1] is None
-
-
-def passed(throttle, times):
-    return sum(throttle.ready(t) for t in times)
-
-
-def test_a_series_is_thinned_to_the_rate_and_a_pause_saves_up_no_more_than_the_burst():
-    throttle = Throttle(50, burst=5)
-    assert 500 <= passed(throttle, [i / 1000 for i in range(10_000)]) <= 505
-    assert passed(throttle, [1000.0] * 50) == 5
-    uneven = [i / 50 + (0.004 if i % 2 else -0.004) for i in range(500)]
-    assert passed(Throttle(50, burst=5), uneven) == 500
-    assert passed(Throttle(0, burst=5), range(100)) == 0  # no rate is never
-
-
-def test_one_text_does_not_hold_up_another():
-    throttle = ThrottleEach(0.1)
-    assert [throttle.ready(text, 0.0) for text in "aab"] == [True, False, True]

@@ -1,21 +1,19 @@
 """The programs for launch files: names_free, ends_launch."""
 
-import contextlib
 import os
 import signal
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 
 from node_kit.launch import read_launch, will_start
+from tutorial_testing.processes import REPOSITORY
 
 pytest.importorskip("rospy", reason="no ROS for this Python: ./tutorial setup")
 
-from node_kit.ros.lifecycle import start
 
-KIT = Path(__file__).resolve().parents[3] / "common" / "node_kit"
+KIT = REPOSITORY / "common" / "node_kit"
 PYTHON = "/usr/bin/python3"
 
 
@@ -76,15 +74,3 @@ def test_ends_launch_passes_signals_on_and_exits_with_the_code_of_its_node(
     if number:
         os.killpg(node.pid, number)  # as roslaunch does
     assert (node.communicate(timeout=60)[0], node.returncode) == (said, code)
-
-
-@pytest.mark.parametrize("ends", [True, False])
-def test_a_callback_whose_topic_is_closed_is_an_error_but_at_the_end(monkeypatch, ends):
-    monkeypatch.setattr(start, "is_ending", lambda: ends)
-
-    @start.as_callback
-    def publish():
-        raise start.rospy.ROSException
-
-    with contextlib.nullcontext() if ends else pytest.raises(start.rospy.ROSException):
-        publish()

@@ -1,7 +1,10 @@
-"""The line of a node that cannot start."""
+"""The line of a node that cannot start, and a callback at the end of one."""
+
+import contextlib
 
 import pytest
 
+from node_kit.ros.lifecycle import start
 from node_kit.ros.lifecycle.start import remedy
 from tutorial_testing.claims import claim
 
@@ -19,3 +22,15 @@ from tutorial_testing.claims import claim
 def test_a_parameter_that_an_earlier_launch_has_left_is_named(error, stored, line):
     words = remedy(ValueError(error), "/joy_node", stored)
     assert words.endswith(line) and bool(words) is bool(line)
+
+
+@pytest.mark.parametrize("ends", [True, False])
+def test_a_callback_whose_topic_is_closed_is_an_error_but_at_the_end(monkeypatch, ends):
+    monkeypatch.setattr(start, "is_ending", lambda: ends)
+
+    @start.as_callback
+    def publish():
+        raise start.rospy.ROSException
+
+    with contextlib.nullcontext() if ends else pytest.raises(start.rospy.ROSException):
+        publish()

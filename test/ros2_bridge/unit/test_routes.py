@@ -1,14 +1,13 @@
 """The list of topics of the bridge."""
 
-from pathlib import Path
-
 import pytest
 
 from ros2_bridge.ros.ros1_side import LIST, load
 from ros2_bridge.routes import ECHO_S, Echoes, read_routes
 from tutorial_testing.claims import claim
+from tutorial_testing.processes import REPOSITORY
 
-OURS = Path(__file__).resolve().parents[3] / "common/ros2_bridge/config/bridge.yaml"
+OURS = REPOSITORY / "common/ros2_bridge/config/bridge.yaml"
 
 
 @claim("Our list of topics keeps only the newest velocity, and counts without another")

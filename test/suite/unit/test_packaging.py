@@ -13,8 +13,8 @@ import pytest
 import yaml
 
 from tutorial_testing.claims import claim
+from tutorial_testing.processes import REPOSITORY
 
-REPOSITORY = Path(__file__).resolve().parents[3]
 PACKAGES = sorted(
     str(path.parent.relative_to(REPOSITORY))
     for pattern in ("*/package.xml", "common/*/package.xml")
@@ -169,3 +169,17 @@ def test_no_program_and_no_test_needs_more_than_python_3_8():
     tests = (REPOSITORY / "test").glob("**/*.py")
     done = subprocess.run([*vermin, *folders, *tests], capture_output=True, text=True, check=False)
     assert not done.returncode, done.stdout + done.stderr
+
+
+UNIT_TESTS = [
+    path for path in REPOSITORY.glob("test/*/unit/test_*.py") if path.parts[-3] != "suite"
+]
+
+
+@pytest.mark.parametrize("test", UNIT_TESTS, ids=lambda path: path.stem)
+def test_a_unit_test_is_named_for_its_module_or_folder_of_modules(test):
+    """Or FOLDER_MODULE, as for one of several modules that are called parameters."""
+    places = [f"{root[:-1]}{test.parts[-3]}/**/*" for root in (*ROOTS, "test/*")]
+    paths = [path for place in places for path in REPOSITORY.glob(place)]
+    names = {name for path in paths for name in (path.stem, f"{path.parent.name}_{path.stem}")}
+    assert test.stem.partition("_")[2] in names

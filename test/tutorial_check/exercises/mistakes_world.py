@@ -1,12 +1,12 @@
 """The seventh lesson: right solutions beside ours, and mistakes."""
 
-from pathlib import Path
-
 from edits import put, remove, write
 from rows import mistake, mistake_in, right
 from solution import B
 
-OURS = Path(__file__).resolve().parents[3] / "beginner_tutorials" / "scripts"
+from tutorial_testing.processes import REPOSITORY
+
+OURS = REPOSITORY / "beginner_tutorials" / "scripts"
 NAMES = ("bumper.py", "stop_before_wall.py", "wander.py")
 BUMPER, STOP, WANDER = (f"{B}/scripts/{name}" for name in NAMES)
 SOLVED = [write(f"{B}/scripts/{name}", (OURS / name).read_text()) for name in NAMES]

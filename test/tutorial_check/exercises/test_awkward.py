@@ -11,10 +11,10 @@ from solution import JOY2TWIST, TALKER
 
 from tutorial_check.report.memory import LATER
 from tutorial_testing.claims import claim
-from tutorial_testing.processes import Program, command_line, descendants, lives
+from tutorial_testing.processes import REPOSITORY, Program, command_line, descendants, lives
 from tutorial_testing.waiting import LONGEST_S, wait_for
 
-SOURCE = Path(__file__).resolve().parents[3] / "common" / "tutorial_check" / "src"
+SOURCE = REPOSITORY / "common" / "tutorial_check" / "src"
 PYTHONPATH = f"{SOURCE}:{SOURCE.parents[1] / 'node_kit' / 'src'}"
 
 

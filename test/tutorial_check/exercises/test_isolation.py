@@ -20,8 +20,8 @@ from test_hostile import processes_like
 from tutorial_check.sandbox import bubblewrap, landlock
 from tutorial_testing.claims import claim
 from tutorial_testing.isolation import old_bubblewrap
+from tutorial_testing.processes import REPOSITORY
 
-REPOSITORY = Path(__file__).resolve().parents[3]
 MODES = (
     *("root", "a user", "root, Landlock", "a user, Landlock"),
     *("root, not isolated", "a user, not isolated"),

@@ -12,12 +12,13 @@ from tutorial_check.commands.package import package
 from tutorial_check.course.definition import read_course
 from tutorial_check.errors import CannotCheck
 from tutorial_testing.claims import claim
+from tutorial_testing.processes import REPOSITORY
 
 pytestmark = claim(
     "--package writes a zip for Gradescope without solutions, its exit codes, and a workflow for "
     "GitHub at this commit"
 )
-SQUARE = Path(__file__).resolve().parents[3] / "common/courses/square"
+SQUARE = REPOSITORY / "common/courses/square"
 
 
 def test_the_zip_has_scripts_suite_and_course_and_no_solutions(tmp_path):

@@ -1,16 +1,15 @@
 """./tutorial demo as a user calls it: what it prints, its exit code, what it leaves behind."""
 
 import re
-from pathlib import Path
 
 import pytest
 
 from tutorial_testing.claims import claim
-from tutorial_testing.processes import Program, free_port
+from tutorial_testing.processes import REPOSITORY, Program, free_port
 from tutorial_testing.waiting import DEADLINE_S, lost_s, wait_for
 
 pytestmark = pytest.mark.usefixtures("master_uri")
-BAG = Path(__file__).resolve().parents[3] / "joy2twist" / "bag" / "joy.bag"
+BAG = REPOSITORY / "joy2twist" / "bag" / "joy.bag"
 LINE = re.compile(
     r"^demo: (?P<seconds>[\d.]+) s: (?P<joy>\d+) /joy, (?P<cmd_vel>\d+) /cmd_vel, "
     r"(?P<odom>\d+) /odom; driven (?P<driven>[\d.]+) m; "

@@ -1,19 +1,19 @@
 """What the demonstration refuses before it starts, and its line; test_demo.py of system runs it."""
 
 import math
-from pathlib import Path
 
 import pytest
 import rosbag
 from std_msgs.msg import String
 
 from tutorial_testing.claims import claim
+from tutorial_testing.processes import REPOSITORY
 from tutorial_tools.demo.launch import DriveReport
 from tutorial_tools.demo.program import check_bag, in_the_way, refusal
 from tutorial_tools.launch_arguments import launch_arguments
 from tutorial_tools.ros.rqt_bag import BagError
 
-JOY2TWIST = Path(__file__).resolve().parents[3] / "joy2twist"
+JOY2TWIST = REPOSITORY / "joy2twist"
 LAUNCH_FILE = str(JOY2TWIST / "launch" / "launch_bag.launch")
 NODES = ["/fake_turtlebot", "/myjoystick2twist", "/rosbag"]
 TOPICS = ("/joy", "/cmd_vel", "/odom")

@@ -1,7 +1,6 @@
 """What the doctor reads from bytes and answers; no ROS runs here."""
 
 import os
-from pathlib import Path
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
@@ -12,6 +11,7 @@ from tf2_msgs.msg import TFMessage
 from node_kit.rules.answer import Answer
 from tutorial_testing.claims import claim
 from tutorial_testing.nodes import serialised
+from tutorial_testing.processes import REPOSITORY
 from tutorial_tools.doctor.facts import Joystick, Mux, Offset, Transform
 from tutorial_tools.hidden_stand_ins import hidden_stand_ins
 from tutorial_tools.ros.doctor import collect
@@ -73,7 +73,7 @@ def test_of_each_frame_the_fastest_message_counts():
     assert transforms_in({("/n", "/tf_static"): sent}) == [Transform(*base), Transform(*wheel)]
 
 
-SUITE = Path(__file__).resolve().parents[3]
+SUITE = REPOSITORY
 
 
 def package(folder, launch=""):

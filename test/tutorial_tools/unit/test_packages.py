@@ -4,13 +4,13 @@ Debian has the package.xml of most of Noetic's packages; the metapackages are th
 """
 
 import re
-from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
 
 from tutorial_testing.claims import claim
 from tutorial_testing.noetic import META
+from tutorial_testing.processes import REPOSITORY
 from tutorial_tools.command.requirements import names_of
 from tutorial_tools.io.command.build import SHARE, lock_of
 from tutorial_tools.io.system import packages as system_packages
@@ -18,7 +18,6 @@ from tutorial_tools.io.system import packages as system_packages
 pytestmark = claim(
     "Over a ROS in /opt/ros, ros-base and the listed packages are all that the demo needs"
 )
-REPOSITORY = Path(__file__).resolve().parents[3]
 NOETICS = {*META, *" ".join(META.values()).split(), "diagnostic_updater", "tf_conversions"}
 NOETICS |= {path.parent.name for path in SHARE.glob("*/package.xml")}
 SUITE = {

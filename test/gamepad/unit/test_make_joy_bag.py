@@ -1,16 +1,16 @@
 """joy.bag is what the handout needs, and is exactly what its script writes."""
 
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
 import rosbag
 
 from tutorial_testing.claims import claim
+from tutorial_testing.processes import REPOSITORY
 
 pytestmark = claim("joy.bag is what its script writes, and what the handout needs")
-FOLDER = Path(__file__).resolve().parents[3] / "common" / "gamepad" / "bag"
+FOLDER = REPOSITORY / "common" / "gamepad" / "bag"
 LB = 4
 PERIOD_S = 0.02
 

@@ -11,7 +11,6 @@ import pytest
 from roslaunch.loader import Loader
 
 from tutorial_check.checking.launch_file import launch_file
-from tutorial_check.checking.package_files import File, Script
 from tutorial_check.checking.results import Wrong
 from tutorial_check.errors import CannotCheck, CutShort
 from tutorial_check.recording import client_node
@@ -101,7 +100,7 @@ def test_services_parameters_and_types(ros):
 
 @pytest.mark.parametrize("answers", [ServiceAnswer({}), [ServiceAnswer({})], {"first": 1}], ids=str)
 def test_what_is_no_list_of_plain_values_is_refused(ros, answers):
-    with pytest.raises(CannotCheck, match=r"test_course_kit.py:\d+: answers= takes a list"):
+    with pytest.raises(CannotCheck, match=r"test_recording.py:\d+: answers= takes a list"):
         Client(ros).seen(SimpleNamespace(ran="p"), answers=answers)
 
 
@@ -110,11 +109,11 @@ def test_what_is_no_list_of_plain_values_is_refused(ros, answers):
     ("kind", "values", "why"),
     [
         ("own/None", {}, "there is no type own/None"),
-        ("no_msgs/None", {}, r"test_course_kit.py:\d+: there is no type no_msgs/None"),
+        ("no_msgs/None", {}, r"test_recording.py:\d+: there is no type no_msgs/None"),
         ("std_srvs/SetBool", {"date": 1}, r"does not fit: No field name \[date\] \(fields: data\)"),
         ("std_srvs/SetBool", [1, 2], "Too many arguments"),
         ("std_srvs/SetBool", {"data": "text"}, "field data is not a bool"),
-        ("std_srvs/SetBool", {"data": {1}}, r"test_course_kit.py:\d+: .* not JSON"),
+        ("std_srvs/SetBool", {"data": {1}}, r"test_recording.py:\d+: .* not JSON"),
     ],
 )
 def test_it_is_said_whose_mistake_a_type_is(ros, kind, values, why):
@@ -180,18 +179,6 @@ def test_what_a_launch_file_has_started():
     assert launch.is_over and launch.died == ("n/m",) and launch.nodes == ("/a", "/b")
 
 
-def test_a_file_names_the_line_of_the_first_word_that_is_there(make_submission):
-    submission = make_submission("p", "1")
-    (submission.package("p").folder / "a.py").write_text("one\ntwo\n")
-    file = File(submission, "p", "a.py")
-    for words, where in (("two one", "a.py:2"), ("three one", "a.py:1"), ("three", "a.py")):
-        with pytest.raises(Wrong) as wrong:
-            file.must([], words, "this", 7)
-        assert (wrong.value.seen, wrong.value.where) == ("7", where)
-    with pytest.raises(Wrong, match="no such file in the package"):
-        File(submission, "p", "b.py")
-
-
 def test_a_launch_file_that_is_there_twice_is_wrong(make_submission):
     submission = make_submission("p", "1")
     for name in ("a", "b"):
@@ -200,13 +187,3 @@ def test_a_launch_file_that_is_there_twice_is_wrong(make_submission):
     with pytest.raises(Wrong) as wrong:
         launch_file(submission, "p", "a.launch")
     assert wrong.value.seen == "several: a/a.launch, b/a.launch"
-
-
-def test_a_script_names_the_lines_of_its_calls(make_submission):
-    submission = make_submission("p", "1")
-    (submission.package("p").folder / "a.py").write_text("import rospy\nwhile True:\n    f(1)\n")
-    script = Script(submission, "p", "a.py")
-    assert (script.at_call("f"), script.at_call("g")) == ("a.py:3", "a.py")
-    with pytest.raises(Wrong, match="it had to be killed") as wrong:
-        script.check_end(None, "")
-    assert wrong.value.where == "a.py:2"

@@ -1,15 +1,15 @@
 """rqt_bag of this suite: the picture of a joystick, and its line about a file that is no bag."""
 
-from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
 
 from tutorial_testing.claims import claim
+from tutorial_testing.processes import REPOSITORY
 from tutorial_tools.ros.rqt_bag import curves, main, svg
 
 pytestmark = claim("rqt_bag draws what moves, and a damaged bag is one line")
-WHOLE = (Path(__file__).resolve().parents[3] / "common/gamepad/bag/joy.bag").read_bytes()
+WHOLE = (REPOSITORY / "common/gamepad/bag/joy.bag").read_bytes()
 RECORDED = [  # time [s], axes, buttons
     (10.0, (0.0, 0.0, 1.0), (0, 0)),
     (11.0, (0.0, 0.5, 1.0), (0, 1)),

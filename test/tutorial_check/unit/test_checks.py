@@ -99,7 +99,7 @@ def test_a_cause_that_was_reported_is_not_looked_for_again():
     ("error", "why"),
     [
         (CannotCheck("the robot does not start"), "A: the robot does not start"),
-        (KeyError("joy"), "A: KeyError: 'joy' (test_model.py:"),
+        (KeyError("joy"), "A: KeyError: 'joy' (test_checks.py:"),
     ],
 )
 def test_what_cannot_be_checked_keeps_no_other_check_from_it(error, why):

@@ -2,7 +2,6 @@
 
 import runpy
 from math import inf, nan
-from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
@@ -10,8 +9,9 @@ import rospy
 from sensor_msgs.msg import LaserScan
 
 from tutorial_testing.claims import claim
+from tutorial_testing.processes import REPOSITORY
 
-SCRIPTS = Path(__file__).resolve().parents[3] / "beginner_tutorials" / "scripts"
+SCRIPTS = REPOSITORY / "beginner_tutorials" / "scripts"
 
 
 @claim("Programs of the lesson on worlds take inf and nan for nothing measured")

@@ -17,6 +17,7 @@ from fake_turtlebot_sim.io import replay_bag as replay_command
 from gamepad.ros.bags import check_recording
 from tutorial_testing.claims import claim
 from tutorial_testing.hostile import end_of
+from tutorial_testing.processes import REPOSITORY
 from tutorial_tools.ros import rqt_bag
 
 pytestmark = claim(
@@ -24,7 +25,7 @@ pytestmark = claim(
     "line"
 )
 START = Time(1_400_000_000)
-PRESET = Path(__file__).parents[3] / "joy2twist" / "config" / "f710_d.yaml"
+PRESET = REPOSITORY / "joy2twist" / "config" / "f710_d.yaml"
 
 
 def twist(v, w):
