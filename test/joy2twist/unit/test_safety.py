@@ -14,10 +14,7 @@ from node_kit.rules.arming import ZERO
 from tutorial_testing.claims import claim
 from tutorial_testing.over_time import over_time
 
-pytestmark = claim(
-    "Dead-man button, timeout, age, arming, soft ...",
-    because="every rule at its limit",
-)
+pytestmark = claim("Dead-man button, timeout ...", because="every rule at its limit")
 S = State
 FORWARD = (0.5, 0.0, 0.0, 0.0, 0.0, 0.0)
 BACKWARD = (-0.5, 0.0, 0.0, 0.0, 0.0, 0.0)
