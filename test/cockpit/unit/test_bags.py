@@ -16,7 +16,7 @@ from cockpit_server.ros.tabs import bag_files, bags
 from cockpit_server.ros.tabs.bag_files import read
 from cockpit_server.tabs import recordings
 from cockpit_server.tabs.recordings import corners
-from gamepad.ros.bags import BagError
+from gamepad.errors import BagError
 from tutorial_testing.claims import claim
 from tutorial_testing.session_room import page as new_page
 

@@ -122,7 +122,7 @@ class DriverTest(RosTest):
         script.write_text("7", encoding="utf-8")
         for line, *given in (
             ("moves.yaml: it has no list of moves", "--script", str(script)),
-            ("is there and is no FIFO", "--stream", str(script)),
+            ("exists and is no FIFO", "--stream", str(script)),
         ):
             self.check_mistake(Program(VIRTUAL, "--stream", self.device, *given), line)
         self.assertEqual(script.read_text(encoding="utf-8"), "7")

@@ -8,8 +8,8 @@ from types import SimpleNamespace
 import pytest
 
 from gamepad.driver.container import INITIAL, in_container
-from gamepad.driver.device_choice import DeviceError
 from gamepad.driver.parameters import load
+from gamepad.errors import DeviceError
 from gamepad.io.device import Finder
 from tutorial_testing.claims import claim
 
@@ -38,7 +38,7 @@ def test_a_fifo_that_another_user_could_write_is_refused(
     monkeypatch.setattr(os, "fstat", lambda _: status)
     monkeypatch.setattr(os, "getuid", lambda: 7)
     monkeypatch.setattr(os, "getgid", lambda: 7)
-    refusal = pytest.raises(DeviceError, match="could drive the robot: choose another path, or")
+    refusal = pytest.raises(DeviceError, match="drive the robot: choose another path, or")
     with refusal if is_refused else contextlib.nullcontext():
         Finder(str(path), "").open().close()
 

@@ -4,7 +4,8 @@ import errno
 
 import pytest
 
-from gamepad.driver.device_choice import DeviceError, choose_by_name, explain
+from gamepad.driver.device_choice import choose_by_name, explain
+from gamepad.errors import DeviceError
 
 JS0 = "/dev/input/js0"
 NAMES = {JS0: "Pad F710", "/dev/input/js1": "Pad F310", "/dev/input/js2": "Pad"}
@@ -18,7 +19,7 @@ def test_the_exact_name_first_then_a_unique_part():
 @pytest.mark.parametrize(
     ("names", "wanted", "line"),
     [
-        (NAMES, "ad F", "~dev_name 'ad F' fits several gamepads, write more of it: 'Pad F710'"),
+        (NAMES, "ad F", "~dev_name 'ad F' matches several gamepads, write more of it: 'Pad F710'"),
         (NAMES, "PS4", "No gamepad is named 'PS4'; there are: 'Pad F710' (/dev/input/js0), "),
     ],
 )
@@ -36,7 +37,7 @@ def test_no_gamepad_is_opened_in_place_of_another(names, wanted, line):
         (JS0, errno.ENOENT, False, True, "usbipd attach --wsl"),
         (JS0, errno.EACCES, False, False, "usermod -aG input"),
         (JS0, errno.EIO, False, False, "Cannot open /dev/input/js0: Input/output error."),
-        ("/tmp/pad", errno.ENOENT, True, True, "No joystick at /tmp/pad so far: it is waited for."),
+        ("/tmp/pad", errno.ENOENT, True, True, "No joystick at /tmp/pad yet: waiting for it."),
     ],
 )
 def test_each_case_is_told_apart_and_says_what_to_do(path, number, container, wsl, words):

@@ -6,7 +6,7 @@ import pytest
 import yaml
 
 from gamepad.remap.formulas import formula
-from gamepad.ros.joy_remap_node import load
+from gamepad.remap.mappings import load
 from tutorial_testing.claims import claim
 from tutorial_testing.processes import REPOSITORY
 

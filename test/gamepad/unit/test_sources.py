@@ -7,7 +7,7 @@ import pytest
 from gamepad.gamepads import F710_D, F710_X
 from gamepad.virtual.controls import Controls, positions
 from gamepad.virtual.keyboard import FIRST_HOLD_S, Keyboard
-from gamepad.virtual.moves import Script, load_script
+from gamepad.virtual.moves import MoveScript, load_script
 from gamepad.virtual.sources import KeySource, recording_source, script_source
 
 REST, PRESSED = positions(F710_D, Controls()), positions(F710_D, Controls(held={"A"}))
@@ -62,7 +62,7 @@ def messages(*axes, buttons=12, times=(0.0,)):
         (messages(*(0.0,) * 5, 1.01), "a message has axes beyond"),
         # The kernel's range is not quite even, so that some drivers go a little beyond 1.
         (messages(-1.001, *(1.001,) * 5), "there are fewer than two messages"),
-        (messages(*(0.0,) * 6, times=(1.0, 1.0)), "all messages have one time"),
+        (messages(*(0.0,) * 6, times=(1.0, 1.0)), "all messages have the same time"),
     ],
 )  # fmt: skip
 def test_a_recording_that_does_not_fit_is_refused(recorded, line):
@@ -113,8 +113,8 @@ def test_a_move_may_last_a_day_and_has_every_position():
     lists = {part: list(value) for part, value in given.items() if isinstance(value, tuple)}
     script = load_script({"mode": "X", "moves": [{"for": 86400, **given, **lists}]})
     controls = Controls(**{**given, "held": frozenset(["A"])})
-    assert script == Script(((86400.0, controls),), "X")
-    assert load_script({"moves": [{"for": 0.5}]}) == Script(((0.5, Controls()),), "D")
+    assert script == MoveScript(((86400.0, controls),), "X")
+    assert load_script({"moves": [{"for": 0.5}]}) == MoveScript(((0.5, Controls()),), "D")
 
 
 MOVES = [

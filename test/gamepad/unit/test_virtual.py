@@ -8,11 +8,11 @@ from evdev import ecodes
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gamepad.driver.device_choice import DeviceError
 from gamepad.driver.state import GamepadState
+from gamepad.errors import DeviceError, PadError
 from gamepad.gamepads import F710, F710_D, F710_X, mode_hint
 from gamepad.io.device import Finder
-from gamepad.io.pads import SIGN_OF_LIFE_S, PadError, StreamPad
+from gamepad.io.pads import SIGN_OF_LIFE_S, StreamPad
 from gamepad.js_event import SIGN_OF_LIFE_MS, Decoder
 from gamepad.liveness import Trembling
 from gamepad.virtual.controls import Controls, positions

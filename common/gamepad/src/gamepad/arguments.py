@@ -24,7 +24,8 @@ def recording(value: str) -> None:
         return
     if not value.startswith("/"):
         raise ValueError("must be a whole path, as $PWD is not set")
-    from gamepad.ros.bags import BagError, check_topic  # noqa: PLC0415  rosbag takes a while
+    from gamepad.errors import BagError
+    from gamepad.ros.bags import check_topic  # noqa: PLC0415  rosbag takes a while
 
     try:
         check_topic(value)

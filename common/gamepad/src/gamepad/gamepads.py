@@ -1,4 +1,4 @@
-"""The Logitech F710 as the kernel sees it, and what an axis' value means (pure).
+"""The Logitech F710 as the kernel sees it, and the meaning of an axis' value.
 
 Source of axes, buttons and USB ids: the tutorial's setup memo of the F710, and in the kernel
 drivers/hid/hid-input.c (D mode) and drivers/input/joystick/xpad.c (X mode). Codes:
@@ -22,19 +22,19 @@ class Axis(NamedTuple):
     high: int
 
     def raw(self, position: float) -> int:
-        """Return the raw value for a position in ROS' sense: from -1 to 1, left and up positive."""
+        """Return the raw value for a position in ROS: from -1 to 1, left and up positive."""
         half = (self.high - self.low) / 2
         return min(self.high, max(self.low, round(self._middle - position * half)))
 
     def js_value(self, raw: int) -> int:
         """Return the value of the event for a raw value, as drivers/input/joydev.c does."""
-        # Integers as there: a shift that rounds down, and no flat part.
+        # Integers as in the kernel: the shift rounds down, and there is no dead zone.
         half = (self.high - self.low) // 2
         return min(FULL, max(-FULL, ((raw - self._middle) * ((1 << 29) // half)) >> 14))
 
     @property
     def _middle(self) -> int:
-        # Even ranges have no middle; the raw value that the kernel takes for it is the lower one.
+        # An even range has no middle value; the kernel takes the lower one.
         return int((self.high + self.low) / 2)
 
 
@@ -53,16 +53,16 @@ class Gamepad(NamedTuple):
 
     @property
     def usb_id(self) -> str:
-        """As lsusb writes it."""
+        """The id as lsusb prints it."""
         return f"{self.vendor:04x}:{self.product:04x}"
 
     @property
     def triggers(self) -> tuple[int, ...]:
-        """The numbers of the axes that are triggers: at rest they are at +1."""
+        """The numbers of the axes that are triggers, which rest at +1."""
         return trigger_axes([axis.code for axis in self.axes])
 
     def trembled(self, raws: Sequence[int]) -> list[int]:
-        """Return the raw values of all axes, those of held sticks one step nearer to the middle."""
+        """Return the raw values of all axes, with held sticks one step nearer to the middle."""
         middles = [int(axis.raw(0.0)) for axis in self.axes]
         digital = [i for i, axis in enumerate(self.axes) if (axis.low, axis.high) == (-1, 1)]
         still = {*self.triggers, *digital}
@@ -77,13 +77,14 @@ def _axes(low: int, high: int, *codes: int) -> tuple[Axis, ...]:
 
 
 F710_D = Gamepad(
-    # So it is: usbhid puts the manufacturer before the product, which has it once more.
+    # usbhid puts the manufacturer before the product name, which begins with it again.
     name="Logitech Logitech Cordless RumblePad 2",
     vendor=0x046D,
     product=0xC219,
     axes=_axes(0, 255, ABS_X, ABS_Y, ABS_Z, ABS_RZ) + _axes(-1, 1, ABS_HAT0X, ABS_HAT0Y),
     buttons=("X", "A", "B", "Y", "LB", "RB", "LT", "RT", "BACK", "START", "LEFT", "RIGHT"),
-    button_codes=tuple(range(0x130, 0x13C)),  # BTN_GAMEPAD and the next: HID calls it a gamepad
+    # BTN_GAMEPAD and the codes after it: HID calls it a gamepad.
+    button_codes=tuple(range(0x130, 0x13C)),
 )
 F710_X = Gamepad(
     name="Logitech Gamepad F710",
@@ -102,10 +103,10 @@ F710 = {"D": F710_D, "X": F710_X}
 
 
 def trigger_axes(codes: Sequence[int]) -> tuple[int, ...]:
-    """Return the numbers of the axes that are triggers, from the codes of all axes, in their order.
+    """Return the numbers of the axes that are triggers. codes: of all axes, in their order.
 
-    Gamepads with triggers have the right stick on RX and RY and the triggers on Z and RZ; those
-    without have the right stick there.
+    A gamepad with triggers has the right stick on RX and RY and the triggers on Z and RZ; one
+    without has the right stick on Z and RZ.
     """
     if not {ABS_RX, ABS_RY}.issubset(codes):
         return ()
@@ -113,12 +114,12 @@ def trigger_axes(codes: Sequence[int]) -> tuple[int, ...]:
 
 
 def triggers_by_count(axes: int) -> tuple[int, ...]:
-    """Return the triggers of a gamepad of which only the number of axes is known."""
+    """Return the triggers of a gamepad, judged by its number of axes."""
     return F710_X.triggers if axes == len(F710_X.axes) else ()
 
 
 def mode_hint(usb_id: str) -> str | None:
-    """Return one line of help if this is an F710, else None. usb_id: as lsusb writes it."""
+    """Return one line of help for an F710, else None. usb_id: as lsusb prints it."""
     if usb_id == F710_D.usb_id:
         return (
             "This is a Logitech F710 in D mode: left stick on axes 0 and 1 if the MODE LED is off "

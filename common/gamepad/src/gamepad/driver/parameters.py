@@ -1,7 +1,7 @@
-"""The private parameters of joy_node: from a dict to a checked, frozen dataclass (pure).
+"""The private parameters of joy_node: from a dict to a checked, frozen dataclass.
 
-Names, meanings and defaults are those of ROS Noetic's package joy, but for autorepeat_rate, which
-is 0 there: a node that stops the robot on silence needs a held stick to be repeated.
+Names, meanings and defaults are those of ROS Noetic's package joy, except autorepeat_rate, which is
+0 there: a node that stops on silence needs repetitions of a held stick.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ _PATH = text("a whole path, such as /dev/input/js0", lambda value: value.startsw
 
 @dataclass(frozen=True)
 class DriverParameters:
-    """All parameters of the driver. Units: s, Hz; deadzone as a part of an axis' way."""
+    """All parameters of the driver. Units: s, Hz; deadzone: fraction of full deflection."""
 
     dev: str = parameter(
         "/dev/input/js0", _PATH, "device; also a FIFO, or a file of recorded events"

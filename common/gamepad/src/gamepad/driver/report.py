@@ -1,4 +1,4 @@
-"""What the driver reports on /diagnostics, with the keys of ROS Noetic's joy_node (pure)."""
+"""The driver's status for /diagnostics, with the keys of ROS Noetic's joy_node."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from typing import Any
 from gamepad.driver.driver import Driver
 from gamepad.driver.parameters import DriverParameters
 
-SILENT_FOR = "joystick silent for (s)"  # beyond upstream's: since the device gave its last event
+SILENT_FOR = "joystick silent for (s)"  # not in upstream: time since the last event of the device
 
 
 class DriverReport:
-    """Counts, and reports once in a period. All times in seconds, of one clock that never jumps."""
+    """Counts messages, and reports once a period. Times in seconds, of a clock that never jumps."""
 
     def __init__(self, parameters: DriverParameters, topic: str) -> None:
         """Take the full name of the topic."""
@@ -21,14 +21,14 @@ class DriverReport:
         self._is_open = False
         self.published = 0  # messages so far
         self.next = -inf  # when to report again [s]
-        self._before = (-inf, 0, 0)  # (time, events, messages) reported last
+        self._before = (-inf, 0, 0)  # (time, events, messages) at the last report
 
     def opened(self, path: str, name: str) -> None:
-        """Note that a gamepad was opened; this is reported at once."""
+        """Record that a gamepad was opened, which is reported at once."""
         self._is_open, self._path, self._name, self.next = True, path, name, -inf
 
     def lost(self) -> None:
-        """Note that the gamepad is gone; this is reported at once."""
+        """Record that the gamepad was lost, which is reported at once."""
         self._is_open, self.next = False, -inf
 
     def due(self, now: float) -> bool:
@@ -39,7 +39,7 @@ class DriverReport:
         return True
 
     def summary(self) -> tuple[bool, str]:
-        """Return (all is well, in a few words)."""
+        """Return (whether all is well, a summary)."""
         return (True, "OK") if self._is_open else (False, "Joystick not open.")
 
     def details(self, driver: Driver, subscribers: int, now: float) -> list[tuple[str, Any]]:

@@ -1,4 +1,4 @@
-"""When the state is published (pure)."""
+"""When to publish the state."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ import math
 
 
 class Schedule:
-    """Joins what happens within the coalesce interval, and repeats what stays the same.
+    """Combines changes within the coalesce interval, and repeats an unchanged state.
 
-    All times are in seconds, of one clock that never jumps. due: when to publish next.
+    Times in seconds, of a clock that never jumps. due: when to publish next.
     """
 
     def __init__(self, coalesce_interval: float, autorepeat_rate: float) -> None:
@@ -18,16 +18,16 @@ class Schedule:
         self.due = math.inf
 
     def soon(self, now: float) -> None:
-        """Publish a change that may wait for other changes, but no longer than the interval.
+        """Publish a change that may wait for other changes, for at most the interval.
 
-        The time runs from the first change, so that a stick that never rests is not kept back.
+        The time starts at the first change, so that a stick in motion is not delayed.
         """
         self.due = min(self.due, now + self._interval)
 
     def at_once(self, now: float) -> None:
-        """Publish a change that may not wait."""
+        """Publish a change at once."""
         self.due = min(self.due, now)
 
     def published(self, now: float) -> None:
-        """Note that the state was published, with everything up to now."""
+        """Record that the state was published."""
         self.due = now + self._period

@@ -1,4 +1,4 @@
-"""From events to axes and buttons, by the rules of ROS Noetic's joy_node (pure)."""
+"""From events to axes and buttons, by the rules of ROS Noetic's joy_node."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from typing import Any, Iterable, Tuple
 from gamepad.gamepads import triggers_by_count
 from gamepad.js_event import AXIS, BUTTON, FULL, INIT, JsEvent
 
-# What an event asks for.
-NOTHING = 0  # it is of an unknown type; the only one that is false
-SOON = 1  # publish together with others that come shortly after it
+# What to do after an event.
+NOTHING = 0  # its type is unknown; the only value that is false
+SOON = 1  # publish together with other events that follow shortly
 NOW = 2  # publish at once
 
-LARGEST_DEADZONE = 0.9  # a wider one is taken as this, as upstream does
+LARGEST_DEADZONE = 0.9  # the limit, as upstream has it
 
 
 Message = Tuple[Tuple[float, ...], Tuple[int, ...]]  # axes and buttons
@@ -21,11 +21,11 @@ Message = Tuple[Tuple[float, ...], Tuple[int, ...]]  # axes and buttons
 class GamepadState:
     """The axes and buttons of one gamepad since it was opened.
 
-    Signs are those of ROS: left and up are positive, where the kernel has right and down.
+    Signs are those of ROS: left and up are positive, while the kernel has right and down.
     """
 
     def __init__(self, deadzone: float, default_trig_val: bool, sticky_buttons: bool) -> None:
-        """Take what DriverParameters has under these names."""
+        """Take the values of these DriverParameters."""
         deadzone = min(deadzone, LARGEST_DEADZONE)
         self._dead = FULL * deadzone
         self._scale = -1.0 / (1.0 - deadzone) / FULL
@@ -33,11 +33,11 @@ class GamepadState:
         self._sticky = sticky_buttons
         self._axes: list[float] = []
         self._buttons: list[int] = []
-        self._published: list[int] = []  # buttons when published last
+        self._published: list[int] = []  # buttons in the last message
         self._switched: list[int] = []  # the sticky buttons
 
     def apply(self, event: JsEvent) -> int:
-        """Take in an event; return NOTHING, SOON or NOW."""
+        """Apply an event; return NOTHING, SOON or NOW."""
         kind, initial = event.type & ~INIT, event.type & INIT
         if kind == BUTTON:
             _put(self._buttons, event.number, int(event.value != 0))
@@ -86,7 +86,7 @@ class GamepadState:
 
 
 def _grow(values: list[Any], number: int) -> None:
-    """Lengthen the list up to a number; what was skipped is 0."""
+    """Extend the list up to an index, with zeros."""
     values.extend([0] * (number + 1 - len(values)))
 
 

@@ -11,7 +11,8 @@ import stat
 from pathlib import Path
 
 from gamepad.driver.container import in_container
-from gamepad.driver.device_choice import DeviceError, check_trust, choose_by_name, explain
+from gamepad.driver.device_choice import check_trust, choose_by_name, explain
+from gamepad.errors import DeviceError
 from gamepad.gamepads import trigger_axes
 from gamepad.js_event import EVENT_BYTES
 
@@ -23,20 +24,20 @@ _JSIOCGAXMAP = 0x80406A32  # ABS_* of each axis (64 u8)
 _READ_BYTES = 64 * EVENT_BYTES  # as many events as the kernel keeps for a reader
 
 
-class Device:
+class JoystickDevice:
     """An open gamepad; close() it.
 
-    path: where it was found. name: what it calls itself, "" if it cannot be asked. usb_id: as lsusb
-    writes it, or "". triggers: numbers of the axes that are triggers, None if unknown.
-    kernel_device: whether it is a joystick of the kernel, and not a FIFO or a file. content: which
-    plain file it is and when that was written last, else None.
+    path: of the device. name: reported by the device, or "". usb_id: as lsusb prints it, or "".
+    triggers: numbers of the axes that are triggers, None if unknown. kernel_device: whether it is a
+    joystick of the kernel, not a FIFO or a file. content: identity and modification time of a plain
+    file, else None.
     """
 
     def __init__(self, path: str) -> None:
-        """Open it. Raises OSError, or DeviceError if it is no joystick."""
+        """Open a device. Raises OSError, or DeviceError if it is no joystick."""
         self.path, self.name, self.usb_id = path, "", ""
         self.triggers: tuple[int, ...] | None = None
-        # Not blocking: opening a FIFO would wait for its other end.
+        # Non-blocking, as opening a FIFO would wait for its other end.
         self._fd = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
         status = os.fstat(self._fd)
         self.kernel_device = stat.S_ISCHR(status.st_mode)
@@ -75,7 +76,7 @@ class Device:
 
     @property
     def identity(self) -> tuple[str, str]:
-        """Differs between models; the same after the gamepad was plugged in again."""
+        """Differs between models; stays the same when the gamepad is plugged in again."""
         return self.name, self.usb_id
 
     def fileno(self) -> int:
@@ -83,7 +84,7 @@ class Device:
         return self._fd
 
     def read(self) -> bytes:
-        """Return the bytes that are there, maybe none. DeviceError if the gamepad is gone."""
+        """Return the available bytes, perhaps none. Raises DeviceError if the gamepad is gone."""
         try:
             data = os.read(self._fd, _READ_BYTES)
         except BlockingIOError:
@@ -95,21 +96,21 @@ class Device:
         return data
 
     def close(self) -> None:
-        """Let go of it."""
+        """Close the device."""
         os.close(self._fd)
 
 
 class Finder:
-    """Opens the gamepad that the user asked for, and after a loss that one and no other."""
+    """Opens the gamepad that the user chose, and after a loss only the same gamepad."""
 
     def __init__(self, dev: str, dev_name: str) -> None:
-        """dev: path. dev_name: name or part of a name, by which it is looked for if not empty."""
+        """Take the path, or the name or a part of it, which is used unless it is empty."""
         self._dev, self._name = dev, dev_name
         self._identity: tuple[str, str] | None = None  # the first opened gamepad
         self._content: tuple[int, ...] | None = None  # the last opened plain file
 
-    def open(self) -> Device:
-        """Open it. Raises DeviceError if it is not there."""
+    def open(self) -> JoystickDevice:
+        """Open the gamepad. Raises DeviceError if it does not exist."""
         device = self._open_by_name() if self._name else _open(self._dev)
         first, problem = self._identity, None
         if first and first != device.identity:
@@ -125,9 +126,9 @@ class Finder:
         self._identity, self._content = device.identity, device.content
         return device
 
-    def _open_by_name(self) -> Device:
-        # All are opened, and then all but one closed: a name read before opening might be that of
-        # a gamepad that has left meanwhile.
+    def _open_by_name(self) -> JoystickDevice:
+        # Open all, and close all but one: a name that is read before opening may belong to a
+        # gamepad that was unplugged in the meantime.
         devices, errors = {}, []
         for path in glob.glob("/dev/input/js*"):
             try:
@@ -148,9 +149,9 @@ class Finder:
                 device.close()
 
 
-def _open(path: str) -> Device:
+def _open(path: str) -> JoystickDevice:
     try:
-        return Device(path)
+        return JoystickDevice(path)
     except OSError as error:
         wsl = "microsoft" in os.uname().release.lower()
         raise DeviceError(explain(path, error.errno or 0, in_container(), wsl)) from None

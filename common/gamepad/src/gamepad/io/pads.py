@@ -1,4 +1,4 @@
-"""Virtual gamepads: made by the kernel, or served through a FIFO where the kernel cannot."""
+"""Virtual gamepads: created by the kernel, or served through a FIFO where that is impossible."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ import stat
 import time
 from typing import Any, Callable, ContextManager, Mapping
 
+from gamepad.errors import PadError
 from gamepad.gamepads import Gamepad
 from gamepad.js_event import AXIS, BUTTON, INIT, SIGN_OF_LIFE_MS, JsEvent, pack
 from gamepad.virtual.controls import Controls, Position, positions
@@ -18,14 +19,10 @@ from gamepad.virtual.controls import Controls, Position, positions
 UINPUT = "/dev/uinput"
 BUS_USB = 3  # linux/input.h
 EV_KEY, EV_ABS = 1, 3  # linux/input-event-codes.h
-# How often a FIFO repeats the state at opening: so its reader knows that this program lives [s].
+# Period at which a FIFO repeats the state at opening, as a sign of life for its reader [s].
 SIGN_OF_LIFE_S = 0.15
-TREMBLE_S = 0.4  # How often a held stick trembles, for the same reason.
-LOOK_S = 0.05  # how often a FIFO without a reader is looked at
-
-
-class PadError(Exception):
-    """A virtual gamepad cannot be made; the text says in one line why and what to do."""
+TREMBLE_S = 0.4  # period at which a held stick trembles, for the same reason
+LOOK_S = 0.05  # period at which a FIFO is checked for a reader
 
 
 class UinputPad(ContextManager["UinputPad"]):
@@ -34,15 +31,15 @@ class UinputPad(ContextManager["UinputPad"]):
     connected = True  # whether a program may read; the kernel does not report it
 
     def __init__(self, gamepad: Gamepad) -> None:
-        """Make it. Raises PadError."""
+        """Create the gamepad. Raises PadError."""
         try:
             import evdev  # noqa: PLC0415  a FIFO does not need it
         except ImportError:
             raise PadError("python3-evdev is missing: apt install python3-evdev") from None
         self._evdev = evdev
         self._gamepad = gamepad
-        self._position: Position | None = None  # shown last
-        self._bent = False  # whether its sticks are one step off
+        self._position: Position | None = None  # the last one
+        self._bent = False  # whether held sticks are one step off
         self._device: Any = None
         self._plug_in()
 
@@ -71,7 +68,7 @@ class UinputPad(ContextManager["UinputPad"]):
     def show(self, position: Position | None) -> None:
         """Move to (axes, buttons) as on /joy; None: unplugged.
 
-        The same position once more: held sticks tremble, as a hand does.
+        If the position is the same as before, held sticks tremble, as a hand does.
         """
         if position is None:
             if self._device:
@@ -86,7 +83,7 @@ class UinputPad(ContextManager["UinputPad"]):
         self._bent = position == self._position and not self._bent
         raws = pad.trembled(raws) if self._bent else raws
         self._position = position
-        # The kernel reports only what changes.
+        # The kernel reports only changes.
         for code, value in zip(pad.button_codes, buttons):
             self._device.write(EV_KEY, code, value)
         for axis, value in zip(pad.axes, raws):
@@ -94,31 +91,31 @@ class UinputPad(ContextManager["UinputPad"]):
         self._device.syn()
 
     def watch(self, poll: select.poll) -> float:
-        """Return the longest time to wait [s]; there is nothing to poll."""
+        """Return the longest time to wait [s]; nothing needs to be polled."""
         return TREMBLE_S
 
 
 class StreamPad(ContextManager["StreamPad"]):
-    """The events of the joystick device, served through a FIFO to one reader after the other."""
+    """The events of a joystick device, served through a FIFO to one reader at a time."""
 
     def __init__(
         self, gamepad: Gamepad, path: str, clock: Callable[[], float] = time.monotonic
     ) -> None:
-        """Make the FIFO, if it is missing. clock: gives seconds. Raises PadError."""
+        """Create the FIFO, if it does not exist. clock: returns seconds. Raises PadError."""
         self._gamepad, self._path, self._clock = gamepad, path, clock
-        self.gives_signs = True  # signs of life; the receiver of a radio gamepad gives none
+        self.gives_signs = True  # signs of life; the receiver of a radio gamepad sends none
         self._fd: int | None = None
-        self._told: dict[tuple[int, int], int] = {}  # (type, number) -> value that the reader knows
-        self._signed_at = -math.inf  # when the last sign of life was given
-        self._position: Position | None = None  # The one that was shown last.
-        self._trembled_at = -math.inf  # When it was first shown, or trembled last.
-        self._bent = False  # Whether its held sticks are one step off.
+        self._sent: dict[tuple[int, int], int] = {}  # (type, number) -> last value that was sent
+        self._signed_at = -math.inf  # when the last sign of life was sent
+        self._position: Position | None = None  # the last one
+        self._trembled_at = -math.inf  # when it was first shown, or last trembled
+        self._bent = False  # whether held sticks are one step off
         try:
             self._made = not os.path.lexists(path)
             if self._made:
                 os.mkfifo(path, 0o600)
             elif not stat.S_ISFIFO(os.stat(path).st_mode):
-                raise PadError(f"{path} is there and is no FIFO: choose another path")
+                raise PadError(f"{path} exists and is no FIFO: choose another path")
         except OSError as error:
             raise PadError(f"cannot make the FIFO {path}: {error.strerror}") from None
 
@@ -130,14 +127,14 @@ class StreamPad(ContextManager["StreamPad"]):
 
     @property
     def connected(self) -> bool:
-        """Whether a program reads."""
+        """Whether a program reads the FIFO."""
         return self._fd is not None
 
     def show(self, position: Position | None) -> None:
         """Move to (axes, buttons) as on /joy; None: unplugged. Raises PadError.
 
         If the position is the same as before, held sticks tremble: every joy_node publishes that,
-        and only ours knows the sign of life.
+        and only ours recognises the sign of life.
         """
         if position is None or (self._fd is not None and _reader_left(self._fd)):
             self._close()
@@ -148,14 +145,14 @@ class StreamPad(ContextManager["StreamPad"]):
             self._position, self._trembled_at, self._bent = position, now, False
         elif self.gives_signs and now >= self._trembled_at + TREMBLE_S:
             self._trembled_at, self._bent = now, not self._bent
-        changes = self._events(position, self._bent).items() - self._told.items()
-        self._tell(dict(sorted(changes)))
-        if self._told and now >= self._signed_at + SIGN_OF_LIFE_S and self.gives_signs:
+        changes = self._events(position, self._bent).items() - self._sent.items()
+        self._send(dict(sorted(changes)))
+        if self._sent and now >= self._signed_at + SIGN_OF_LIFE_S and self.gives_signs:
             self._signed_at = now
-            self._tell(dict(self._told), INIT, SIGN_OF_LIFE_MS)
+            self._send(dict(self._sent), INIT, SIGN_OF_LIFE_MS)
 
     def watch(self, poll: select.poll) -> float:
-        """Have poll notice a reader that leaves; return the longest time to wait [s]."""
+        """Watch for the reader to leave; return the longest time to wait [s]."""
         if self._fd is None:
             return LOOK_S
         poll.register(self._fd, 0)
@@ -170,29 +167,29 @@ class StreamPad(ContextManager["StreamPad"]):
             fcntl.flock(self._fd, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError:
             self._close()
-            self._made = False  # it belongs to the other one
+            self._made = False  # the other program has made it
             raise PadError(
                 f"another virtual_joystick serves {self._path}: end it, or choose another path"
             ) from None
-        # As the kernel does at opening: everything, untouched.
-        self._tell(self._events(positions(self._gamepad, Controls())), INIT)
+        # As the kernel does at opening: the whole state, released.
+        self._send(self._events(positions(self._gamepad, Controls())), INIT)
         self._signed_at = self._clock()
         return self.connected
 
     def _events(self, position: Position, bent: bool = False) -> dict[tuple[int, int], int]:
-        """Return the value of each (type, number) in a position; bent: held ones are one off."""
+        """Return the value of each (type, number) in a position; bent: held sticks one step off."""
         axes, buttons = position
         rests, _ = positions(self._gamepad, Controls())
         events = {(BUTTON, i): value for i, value in enumerate(buttons)}
         for i, axis in enumerate(self._gamepad.axes):
             value = axis.js_value(axis.raw(axes[i]))
             if bent and axes[i] != rests[i]:
-                # By the least that an event can show; a kernel device has coarser steps.
+                # The smallest step of an event; a kernel device has coarser steps.
                 value += (value < 0) - (value > 0)
             events[AXIS, i] = value
         return events
 
-    def _tell(
+    def _send(
         self, values: Mapping[tuple[int, int], int], flag: int = 0, time_ms: int | None = None
     ) -> None:
         assert self._fd is not None
@@ -200,18 +197,18 @@ class StreamPad(ContextManager["StreamPad"]):
             time_ms = int(self._clock() * 1000) % SIGN_OF_LIFE_MS
         events = [JsEvent(time_ms, value, kind | flag, n) for (kind, n), value in values.items()]
         try:
-            # Less than PIPE_BUF: all of it, or nothing.
+            # Less than PIPE_BUF bytes are written completely or not at all.
             os.write(self._fd, b"".join(map(pack, events)))
-            self._told.update(values)
+            self._sent.update(values)
         except BlockingIOError:
-            pass  # the reader is behind; what differs is sent next time
+            pass  # the reader is behind; the changes are sent next time
         except OSError:
             self._close()
 
     def _close(self) -> None:
         if self._fd is not None:
             os.close(self._fd)
-        self._fd, self._told = None, {}
+        self._fd, self._sent = None, {}
 
 
 def _reader_left(fd: int) -> bool:

@@ -1,4 +1,4 @@
-"""The terminal of the virtual gamepad: single keys in, help and one line of state out."""
+"""The terminal of the virtual gamepad: reads single keys, shows help and a line of state."""
 
 from __future__ import annotations
 
@@ -9,23 +9,22 @@ import tty
 
 from gamepad.virtual.controls import Controls
 
-REFRESH_S = 0.5  # how soon the state is shown again below what other programs have written
+REFRESH_S = 0.5  # period at which the state is shown again, below the output of other programs
 
 _CLEAR_LINE = "\r\x1b[K"
 _VDISABLE = b"\0"
 
 
-class Terminal:
-    """Gives keys without waiting for Enter; as a context manager it leaves the terminal as it was.
+class KeyTerminal:
+    """Reads keys from standard input without waiting for Enter, and restores the terminal at exit.
 
-    It is the standard input. Ctrl-C stays what it is. Ctrl-Z is switched off: it would stop this
-    program with a stick pushed.
+    Ctrl-C works as usual. Ctrl-Z is disabled: it would stop this program with a stick pushed.
     """
 
-    def __enter__(self) -> Terminal:
+    def __enter__(self) -> KeyTerminal:
         self._fd = sys.stdin.fileno()
-        # Opened once more, to be written without waiting: Ctrl-S, a pager or a slow line may hold
-        # the screen, and a change of the standard output would reach every program that shares it.
+        # Opened again, for non-blocking writes: Ctrl-S, a pager or a slow line may block the
+        # output, and a change of standard output would affect every program that shares it.
         self._screen = os.open(os.ttyname(self._fd), os.O_WRONLY | os.O_NONBLOCK | os.O_NOCTTY)
         self._before = termios.tcgetattr(self._fd)
         tty.setcbreak(self._fd)
@@ -44,20 +43,20 @@ class Terminal:
         return self._fd
 
     def read(self) -> str:
-        """Return the keys that were pressed; "" if the terminal is gone."""
+        """Return the pressed keys; "" if the terminal is closed."""
         try:
             return os.read(self._fd, 1024).decode(errors="replace")
         except OSError:
             return ""
 
     def show(self, controls: Controls) -> bool:
-        """Show the controls in one line; return whether the screen takes it and is not held."""
+        """Show the controls in one line; return whether the output is not blocked."""
         x, y = controls.left_stick
         words = [f"left stick {x:+.1f} {y:+.1f}", *sorted(controls.held)]
         if (x or y) and not controls.held:
             words.append("without LB: tap space, then this key at once")
         words += ["MODE LED on"] * controls.mode_led + ["unplugged"] * (not controls.plugged)
-        # Back to its beginning: a line of another program replaces it, and is not glued to it.
+        # Back to the start of the line, so that a line of another program replaces it.
         return self._write(_CLEAR_LINE + "  " + "  ".join(words) + "\r")
 
     def _write(self, text: str) -> bool:

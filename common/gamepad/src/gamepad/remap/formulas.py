@@ -1,4 +1,4 @@
-"""Formulas over a gamepad's axes and buttons, such as "max(axes[5], 0.0) * -1.0" (pure)."""
+"""Formulas over a gamepad's axes and buttons, such as "max(axes[5], 0.0) * -1.0"."""
 
 from __future__ import annotations
 
@@ -59,6 +59,6 @@ def _compiled(node: ast.AST) -> Formula:
 
 
 def _index(node: Any) -> int | None:
-    node = node.value if type(node).__name__ == "Index" else node  # Python 3.8 wraps it.
+    node = node.value if type(node).__name__ == "Index" else node  # Python 3.8 wraps it
     is_whole = isinstance(node, ast.Constant) and type(node.value) is int
     return node.value if is_whole else None

@@ -1,4 +1,4 @@
-"""Recordings: each mistake in the file is one line; whether one presses the dead-man button."""
+"""Reads recordings, and checks whether they press the dead-man button."""
 
 from __future__ import annotations
 
@@ -9,21 +9,18 @@ from typing import Iterator
 import rosbag
 import yaml
 
+from gamepad.errors import BagError
 from gamepad.gamepads import F710
 
 TOPIC, JOY = "/joy", "sensor_msgs/Joy"
-KEYS = ("enable_button", "enable_turbo_button")  # either of them drives
-
-
-class BagError(ValueError):
-    """Why a bag cannot be read, in one line for the user that begins with its path."""
+KEYS = ("enable_button", "enable_turbo_button")  # holding either of them drives
 
 
 @contextmanager
 def opened(path: str | Path) -> Iterator[rosbag.Bag]:
-    """Open a bag. Raises BagError, also for what is wrong while it is read."""
+    """Open a bag. Raises BagError, also for errors while it is read."""
     try:
-        if Path(path).is_fifo() or Path(path).is_char_device():  # nothing may ever come from them
+        if Path(path).is_fifo() or Path(path).is_char_device():  # reading may block forever
             raise BagError(f"{path}: not a plain file")
         with rosbag.Bag(str(path)) as bag:
             yield bag
@@ -39,7 +36,7 @@ def opened(path: str | Path) -> Iterator[rosbag.Bag]:
 
 
 def check_topic(path: str) -> None:
-    """Raise BagError if a bag has no joystick message on /joy; it says what to do."""
+    """Raise BagError, with what to do, if a bag has no joystick message on /joy."""
     with opened(path) as bag:
         topics = bag.get_type_and_topic_info().topics
     kinds = {topic: about.msg_type for topic, about in topics.items() if about.message_count}
@@ -55,9 +52,9 @@ def check_topic(path: str) -> None:
 
 
 def check_recording(bag: str, preset: str) -> None:
-    """Raise ValueError with one line if no Joy of the bag presses a dead-man button of the preset.
+    """Raise ValueError, one line, if no Joy in the bag presses a dead-man button of the preset.
 
-    Both are paths. A preset without a dead-man button drives by any recording.
+    bag, preset: paths. Without a dead-man button in the preset, any recording drives.
     """
     parameters = yaml.safe_load(Path(preset).read_text(encoding="utf-8"))
     numbers = [parameters[key] for key in KEYS if parameters.get(key, -1) >= 0]

@@ -12,22 +12,22 @@ import rospy
 from diagnostic_msgs.msg import DiagnosticStatus
 from sensor_msgs.msg import Joy
 
-from gamepad.driver.device_choice import DeviceError
 from gamepad.driver.driver import Driver
 from gamepad.driver.parameters import DriverParameters, load
 from gamepad.driver.report import DriverReport
 from gamepad.driver.state import Message
+from gamepad.errors import DeviceError
 from gamepad.gamepads import mode_hint
-from gamepad.io.device import Device, Finder
+from gamepad.io.device import Finder, JoystickDevice
 from node_kit.io.suspension import Suspensions
 from node_kit.ros.lifecycle.start import run
 from node_kit.ros.log import Log
 
 NODE_NAME = "joy_node"
-QUEUE_SIZE = 100  # a press and its release must both arrive
+QUEUE_SIZE = 100  # both a press and its release must arrive
 # How long the end may wait for the last message, and then for its delivery [s].
 LONGEST_END_S, DELIVERY_TIME_S = 0.3, 0.1
-LOOK_S = 0.1  # how often a missing gamepad is looked for, and whether the node is to end
+LOOK_S = 0.1  # period at which to look for a missing gamepad and for a shutdown
 
 
 class JoyNode:
@@ -42,9 +42,9 @@ class JoyNode:
         """Register topics; the node is initialised."""
         self.log = Log()
         self.suspensions = Suspensions()
-        self.suspended = 0  # how often that was taken into account
+        self.suspended = 0  # number of suspensions that were handled
         self.is_ending = threading.Event()
-        self.has_ended = threading.Event()  # the last message is out
+        self.has_ended = threading.Event()  # the last message was published
         rospy.on_shutdown(self.end)
         self.driver = Driver(parameters)
         self.finder = Finder(parameters.dev, parameters.dev_name)
@@ -56,7 +56,7 @@ class JoyNode:
         self.diagnostics.add("Joystick Driver Status", self.diagnose)
 
     def run(self) -> None:
-        """Open the gamepad, publish its state, and again if it is lost, until shut down."""
+        """Open the gamepad and publish its state, again after each loss, until shut down."""
         try:
             while not self.is_ending.is_set():
                 device = self.wait_for_gamepad()
@@ -69,13 +69,13 @@ class JoyNode:
             self.has_ended.set()
 
     def end(self) -> None:
-        """Publish released sticks, and nothing after that."""
+        """Publish released sticks, and then nothing more."""
         self.is_ending.set()
         if self.has_ended.wait(LONGEST_END_S):
             threading.Event().wait(DELIVERY_TIME_S)
 
-    def wait_for_gamepad(self) -> Device | None:
-        """Return the Device, open, or None if the node is shut down."""
+    def wait_for_gamepad(self) -> JoystickDevice | None:
+        """Return an open JoystickDevice, or None if the node is shut down."""
         reported = ""
         while not self.is_ending.is_set():
             if monotonic() >= self.driver.opens_at:
@@ -89,14 +89,14 @@ class JoyNode:
             self.is_ending.wait(LOOK_S)
         return None
 
-    def follow(self, device: Device) -> None:
+    def follow(self, device: JoystickDevice) -> None:
         """Publish the state of an open gamepad until it is lost or the node is shut down."""
         self.message.header.frame_id = device.path
         self.driver.opened(device.triggers, device.kernel_device)
         self.report.opened(device.path, device.name)
         try:
-            # Before a line is logged: joydev reports what moves until the first read as part of
-            # the state at opening, which does not count as touched.
+            # Before a line is logged: joydev reports movements until the first read as part of the
+            # state at opening, which does not count as touched.
             self.take_in(device, until=monotonic())
             self.log.info(f"Opened joystick {device.path} {device.name}")
             hint = mode_hint(device.usb_id)
@@ -109,22 +109,22 @@ class JoyNode:
         except DeviceError as error:
             self.publish(self.driver.lost(monotonic()))
             self.report.lost()
-            self.log.warn(f"{error} The sticks were released; it is looked for.")
+            self.log.warn(f"{error} The sticks were released. Looking for it.")
         if self.driver.unknown_events:
-            self.log.warn(f"{self.driver.unknown_events} events of unknown types came.")
+            self.log.warn(f"{self.driver.unknown_events} events of unknown types were ignored.")
 
-    def take_in(self, device: Device, until: float) -> None:
-        """Wait for events until a time [s], or for a moment; publish what is due. DeviceError."""
-        # Not poll(), which counts in whole milliseconds.
+    def take_in(self, device: JoystickDevice, until: float) -> None:
+        """Wait for events until a time [s], at most LOOK_S, and publish. Raises DeviceError."""
+        # Not poll(), whose timeout is in whole milliseconds.
         timeout = max(0.0, min(until - monotonic(), LOOK_S))
         readable, _, _ = select.select([device], (), (), timeout)
         if self.suspensions.number() != self.suspended:
             self.suspended = self.suspensions.number()
-            raise DeviceError("This node was suspended, and knows no more where the sticks are.")
+            raise DeviceError("This node was suspended: the sticks may have moved.")
         if readable:
             self.publish(self.driver.read(device.read(), monotonic()))
         if self.driver.is_lifeless(monotonic()):
-            raise DeviceError(f"Lost the joystick {device.path}: it gives no sign of life.")
+            raise DeviceError(f"Lost the joystick {device.path}: it sends no sign of life.")
         self.publish(self.driver.tick(monotonic()))
 
     def publish(self, messages: Iterable[Message]) -> None:
@@ -137,7 +137,7 @@ class JoyNode:
             self.report.published += 1
 
     def report_if_due(self) -> None:
-        """Publish the diagnostics once in a period."""
+        """Publish the diagnostics once a period."""
         if self.report.due(monotonic()):
             self.diagnostics.force_update()
 

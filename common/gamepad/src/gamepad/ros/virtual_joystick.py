@@ -1,7 +1,7 @@
 """A virtual Logitech F710, moved by keys, a script of moves or a recording.
 
-Made by the kernel (/dev/uinput), or with --stream served through a FIFO that joy_node opens as its
-device. Needs no ROS, but for --bag.
+The kernel creates it (/dev/uinput), or with --stream a FIFO serves it, which joy_node opens as its
+device. Only --bag needs ROS.
 """
 
 from __future__ import annotations
@@ -17,19 +17,20 @@ from typing import Sequence
 
 import yaml
 
+from gamepad.errors import PadError
 from gamepad.gamepads import F710, Gamepad
-from gamepad.io.pads import UINPUT, PadError, StreamPad, UinputPad
-from gamepad.io.terminal import REFRESH_S, Terminal
+from gamepad.io.pads import UINPUT, StreamPad, UinputPad
+from gamepad.io.terminal import REFRESH_S, KeyTerminal
 from gamepad.virtual.controls import Controls, Position, positions
 from gamepad.virtual.keyboard import HELP, Keyboard
-from gamepad.virtual.moves import Script, load_script
+from gamepad.virtual.moves import MoveScript, load_script
 from gamepad.virtual.sources import KeySource, TimedSource, recording_source, script_source
 
 NAME = "virtual_joystick"
 
 
 def parse(arguments: Sequence[str]) -> argparse.Namespace:
-    """Return the command line; roslaunch's name:=value are left out."""
+    """Return the parsed command line, without roslaunch's name:=value."""
     parser = argparse.ArgumentParser(prog=NAME, description="A virtual Logitech F710 gamepad.")
     parser.add_argument("--mode", choices=sorted(F710), help="the switch of the gamepad")
     parser.add_argument("--stream", metavar="PATH", help=f"serve a FIFO instead of {UINPUT}")
@@ -37,12 +38,12 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     what.add_argument("--script", metavar="FILE", help="follow a YAML file of timed moves")
     what.add_argument("--bag", metavar="FILE", help="follow the recorded /joy of a bag")
     parser.add_argument("--topic", default="/joy", help="topic in the bag (/joy)")
-    parser.add_argument("--loop", action="store_true", help="begin again at the end")
+    parser.add_argument("--loop", action="store_true", help="restart at the end")
     return parser.parse_args([word for word in arguments if ":=" not in word])
 
 
-def read_script(path: str) -> Script:
-    """Return the moves in a YAML file. Raises ValueError, OSError."""
+def read_script(path: str) -> MoveScript:
+    """Return the moves in a YAML file. Raises ValueError or OSError."""
     with open(path, encoding="utf-8") as file:
         try:
             return load_script(yaml.safe_load(file))
@@ -51,8 +52,9 @@ def read_script(path: str) -> Script:
 
 
 def read_bag(path: str, topic: str) -> list[tuple[float, Position]]:
-    """Return (time [s], position) of a topic of a bag. Raises ValueError, OSError."""
-    from gamepad.ros.bags import BagError, opened  # noqa: PLC0415  nothing else needs ROS
+    """Return (time [s], position) of a topic in a bag. Raises ValueError or OSError."""
+    from gamepad.errors import BagError
+    from gamepad.ros.bags import opened  # noqa: PLC0415  only this needs ROS
 
     with opened(path) as bag:
         recorded = list(bag.read_messages(topics=[topic]))
@@ -62,7 +64,7 @@ def read_bag(path: str, topic: str) -> list[tuple[float, Position]]:
 
 
 def make_source(options: argparse.Namespace) -> tuple[Gamepad, KeySource | TimedSource]:
-    """Return the gamepad and what moves it. Raises ValueError, OSError."""
+    """Return the gamepad and its source. Raises ValueError or OSError."""
     if options.script:
         script = read_script(options.script)
         gamepad = F710[options.mode or script.mode]
@@ -74,8 +76,8 @@ def make_source(options: argparse.Namespace) -> tuple[Gamepad, KeySource | Timed
     return gamepad, KeySource(gamepad, Keyboard())
 
 
-def follow_keys(pad: StreamPad | UinputPad, source: KeySource, terminal: Terminal) -> None:
-    """Move the gamepad by the keys of a terminal until one of them quits."""
+def follow_keys(pad: StreamPad | UinputPad, source: KeySource, terminal: KeyTerminal) -> None:
+    """Move the gamepad by the keys of a terminal until the user quits."""
     keyboard = source.keyboard
     while step := source.at(time.monotonic()):
         position, until = step
@@ -90,8 +92,8 @@ def follow_keys(pad: StreamPad | UinputPad, source: KeySource, terminal: Termina
             keyboard.quit = keyboard.quit or not text
 
 
-def wait(pad: StreamPad | UinputPad, terminal: Terminal | None, until: float) -> bool:
-    """Wait for a key, for a time [s], or for the gamepad's reader; return whether a key came."""
+def wait(pad: StreamPad | UinputPad, terminal: KeyTerminal | None, until: float) -> bool:
+    """Wait for a key, a time [s] or the gamepad's reader; return whether a key was pressed."""
     poll = select.poll()
     if terminal:
         poll.register(terminal, select.POLLIN)
@@ -101,7 +103,7 @@ def wait(pad: StreamPad | UinputPad, terminal: Terminal | None, until: float) ->
 
 
 def run(options: argparse.Namespace) -> None:
-    """Make the gamepad and move it."""
+    """Create the gamepad and move it."""
     gamepad, source = make_source(options)
     pad = StreamPad(gamepad, options.stream) if options.stream else UinputPad(gamepad)
     with pad:
@@ -109,13 +111,13 @@ def run(options: argparse.Namespace) -> None:
         print(f"{NAME}: {gamepad.name} ({gamepad.usb_id}), {where}", flush=True)
         if isinstance(source, KeySource) and sys.stdin.isatty():
             print(HELP, end="", flush=True)
-            with Terminal() as terminal:
+            with KeyTerminal() as terminal:
                 follow_keys(pad, source, terminal)
             return
         if isinstance(source, KeySource):
-            print(f"{NAME}: no terminal to read keys from; the gamepad stays untouched", flush=True)
+            print(f"{NAME}: no terminal to read keys from; the gamepad stays released", flush=True)
         pad.show(positions(gamepad, Controls()))
-        while not pad.connected:  # a script must not begin before a program reads
+        while not pad.connected:  # a script must not start before a program reads
             wait(pad, None, math.inf)
             pad.show(positions(gamepad, Controls()))
         while step := source.at(time.monotonic()):
@@ -127,7 +129,7 @@ def run(options: argparse.Namespace) -> None:
 def main() -> None:
     """Run until the end, Q or a signal; exit code 1 and one line if it cannot start."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-        signal.signal(number, lambda *_: sys.exit(0))  # through all __exit__, unlike a signal
+        signal.signal(number, lambda *_: sys.exit(0))  # runs all __exit__ methods, unlike a signal
     options = parse(sys.argv[1:])
     try:
         run(options)

@@ -1,4 +1,4 @@
-"""What a hand does on a Logitech F710, and what its axes and buttons then are (pure)."""
+"""Positions of all controls of a Logitech F710, and the axes and buttons that they give."""
 
 from __future__ import annotations
 
@@ -8,29 +8,29 @@ from typing import Tuple
 from gamepad.gamepads import Gamepad
 from node_kit.parameters.declaration import Allowed, is_number, parameter, switch
 
-# A stick moves the D-pad's axes, which know only -1, 0 and 1, from this deflection on.
+# From this deflection on, a stick moves the D-pad's axes, which have only -1, 0 and 1.
 DIGITAL_THRESHOLD = 0.5
 
 
 def _two_numbers(low: float) -> Allowed:
     def fits(value: object) -> bool:
-        numbers = value if isinstance(value, list) else []
-        return len(numbers) == 2 and all(is_number(one) and low <= one <= 1 for one in numbers)
+        pair = value if isinstance(value, list) else []
+        return len(pair) == 2 and all(is_number(part) and low <= part <= 1 for part in pair)
 
     return Allowed(f"two numbers from {low} to 1", fits, keep=tuple)
 
 
 def _are_names(value: object) -> bool:
-    return isinstance(value, list) and all(isinstance(one, str) for one in value)
+    return isinstance(value, list) and all(isinstance(name, str) for name in value)
 
 
 @dataclass(frozen=True)
 class Controls:
-    """One position of everything on the gamepad.
+    """One position of all controls of the gamepad.
 
     Sticks and D-pad: (x, y) from -1 to 1, left and up positive as on /joy. triggers: (LT, RT) from
     0 (released) to 1. held: names of buttons, see gamepads. mode_led: lit by pressing MODE; the
-    left stick and the D-pad are then swapped. plugged: whether the gamepad is there at all.
+    left stick and the D-pad are then swapped. plugged: whether the gamepad is connected.
     """
 
     left_stick: tuple[float, float] = parameter((0.0, 0.0), _two_numbers(-1))
@@ -48,7 +48,7 @@ Position = Tuple[Tuple[float, ...], Tuple[int, ...]]  # axes and buttons
 
 
 def positions(gamepad: Gamepad, controls: Controls) -> Position:
-    """Return (axes, buttons) as on /joy of one of gamepads.F710 in this position."""
+    """Return (axes, buttons) as on /joy. gamepad: one of gamepads.F710."""
     stick, dpad = controls.left_stick, controls.dpad
     if controls.mode_led:
         stick, dpad = dpad, stick
@@ -57,7 +57,7 @@ def positions(gamepad: Gamepad, controls: Controls) -> Position:
     if gamepad.triggers:
         left, right = [1.0 - 2.0 * pressed for pressed in controls.triggers]
         axes: tuple[float, ...] = (*stick, left, *controls.right_stick, right, x, y)
-    else:  # in D mode the triggers are buttons
+    else:  # in D mode, the triggers are buttons
         axes = (*stick, *controls.right_stick, x, y)
         pulled = [v > DIGITAL_THRESHOLD for v in controls.triggers]
         held.update(name for name, down in zip(("LT", "RT"), pulled) if down)

@@ -1,8 +1,8 @@
-"""Drives a gamepad with the keys of a terminal (pure).
+"""Drives a gamepad with the keys of a terminal.
 
-A terminal reports only that a key is pressed and, while it is held, pressed again; it repeats only
-the key pressed last. So a key counts as held until the terminal has been silent for
-longer than its repetition takes, and all keys are released together then.
+A terminal reports only presses: while a key is held, it repeats the key that was pressed last. So
+keys count as held until the terminal is silent for longer than its repetition period, and are then
+all released together.
 """
 
 from __future__ import annotations
@@ -12,9 +12,9 @@ import re
 
 from gamepad.virtual.controls import Controls
 
-# Before it repeats a key, a terminal waits: X server 0.66 s, GNOME 0.5 s, console 0.25 s.
+# Delay before the first repetition: X server 0.66 s, GNOME 0.5 s, console 0.25 s.
 FIRST_HOLD_S = 0.75
-# Repetitions come 11 (console) to 33 (GNOME) times a second; a late one is allowed.
+# Repetitions: 11 (console) to 33 (GNOME) a second; one may be late.
 REPEAT_HOLD_S = 0.2
 
 HELP = """\
@@ -27,7 +27,7 @@ HELP = """\
   Q or Ctrl-C         quit
 """
 
-# What the keys send. Directions as (x, y) with left and up positive.
+# Directions as (x, y), left and up positive.
 DIRECTIONS = {
     "w": (0, 1), "\x1b[A": (0, 1), "\x1bOA": (0, 1),
     "s": (0, -1), "\x1b[B": (0, -1), "\x1bOB": (0, -1),
@@ -36,17 +36,17 @@ DIRECTIONS = {
 }  # fmt: skip
 BUTTONS = {" ": "LB", "t": "RB"}
 QUIT = ("q", "\x03", "\x04")
-# One key: a sequence, as of F4 or Ctrl with an arrow, or a character. Sequences are those of
+# A key: a character, or a sequence such as for F4 or Ctrl with an arrow. The sequences are those of
 # ECMA-48, and of the function keys of the Linux console.
 _KEY = re.compile(r"\x1b(?:\[\[.|\[[0-?]*[ -/]*[@-~]|O.)|.", re.DOTALL)
 _STARTED_KEY = re.compile(r"\x1b(?:\[\[|\[[0-?]*[ -/]*|O)?\Z")
 
 
 class Keyboard:
-    """Keys and times in, Controls out. Times in seconds, of one clock that never jumps."""
+    """Turns keys into Controls. Times in seconds, of a clock that never jumps."""
 
     def __init__(self) -> None:
-        self._rest = ""  # the begin of a sequence that a slow line has cut
+        self._rest = ""  # the start of a sequence that a slow line has cut
         self._held: set[str] = set()  # keys of directions and buttons
         self._released_at = -math.inf
         self._deflection = 1.0
@@ -55,7 +55,7 @@ class Keyboard:
         self.quit = False
 
     def press(self, text: str, now: float) -> None:
-        """Take in what the terminal sent at a time."""
+        """Take the characters that the terminal sent at a time."""
         self._expire(now)
         text = self._rest + text
         started = _STARTED_KEY.search(text)
@@ -66,7 +66,7 @@ class Keyboard:
                 self.quit = True
             elif key in DIRECTIONS or key in BUTTONS:
                 self._hold(key, now)
-            elif key.isdecimal():  # and no superscript, a key of French keyboards
+            elif key.isdecimal():  # not a superscript, which French keyboards have
                 self._deflection = int(key) / 10 or 1.0
             elif key == "m":
                 self._mode_led = not self._mode_led
@@ -74,11 +74,11 @@ class Keyboard:
                 self._plugged = not self._plugged
 
     def release(self) -> None:
-        """Release all keys, as their terminal is held or their effect is not seen."""
+        """Release all keys, when the output is blocked and the user does not see their effect."""
         self._held = set()
 
     def at(self, now: float) -> tuple[Controls, float]:
-        """Return (Controls at a time, the time at which they change by themselves or infinity)."""
+        """Return (Controls at a time, when they change without a key, or infinity)."""
         self._expire(now)
         x, y = [sum(DIRECTIONS[key][i] for key in self._held if key in DIRECTIONS) for i in (0, 1)]
         controls = Controls(
@@ -95,8 +95,10 @@ class Keyboard:
 
     def _hold(self, key: str, now: float) -> None:
         repeated = key in self._held
-        if key in DIRECTIONS:  # the other way, or the same way by another key: only the new one
+        if (
+            key in DIRECTIONS
+        ):  # the opposite direction, or the same one by another key: keep the new key
             axis = DIRECTIONS[key].index(0)
-            self._held -= {other for other, way in DIRECTIONS.items() if way.index(0) == axis}
+            self._held -= {key for key, vector in DIRECTIONS.items() if vector.index(0) == axis}
         self._held.add(key)
         self._released_at = now + (REPEAT_HOLD_S if repeated else FIRST_HOLD_S)

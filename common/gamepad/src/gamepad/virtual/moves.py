@@ -1,4 +1,4 @@
-"""A script of timed moves of a gamepad, from YAML (pure).
+"""A script of timed moves of a gamepad, from YAML.
 
     mode: D                 # the switch of the F710: D or X
     moves:
@@ -6,7 +6,7 @@
       - {for: 2.0, held: [LB], left_stick: [0.0, 0.5]}          # half speed ahead
       - {for: 1.0, plugged: false}
 
-Besides `for` [s], a move has the names of controls.Controls; what it leaves out is released.
+Besides `for` [s], a move has the fields of controls.Controls; a control that it omits is released.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ _DURATION = Allowed(
 
 
 @dataclass(frozen=True)
-class Script:
+class MoveScript:
     """mode: of the F710. moves: pairs of a duration [s] and Controls."""
 
     moves: tuple[tuple[float, Controls], ...] = parameter(
@@ -34,18 +34,18 @@ class Script:
     mode: str = parameter("D", Allowed("D or X", lambda value: value in list(F710)))
 
 
-def load_script(document: Any) -> Script:
-    """Check what YAML gave. Raises ValueError, one line that names the move and what is allowed."""
+def load_script(document: Any) -> MoveScript:
+    """Return the moves in parsed YAML. Raises ValueError, one line with the number of the move."""
     if not isinstance(document, dict):
         raise ValueError(f"it has no list of moves, {EXAMPLE}")
-    values = checked(Script, document, where="", example=EXAMPLE)
+    values = checked(MoveScript, document, where="", example=EXAMPLE)
     moves = []
     for number, move in enumerate(values["moves"], 1):
         try:
             moves.append(_load_move(move, values["mode"]))
         except ValueError as error:
             raise ValueError(f"move {number}: {error}") from None
-    return Script(tuple(moves), values["mode"])
+    return MoveScript(tuple(moves), values["mode"])
 
 
 def _load_move(move: Any, mode: str) -> tuple[float, Controls]:

@@ -1,8 +1,8 @@
-"""What moves a virtual gamepad: keys, a script of moves, or a recording (pure).
+"""Sources that move a virtual gamepad: keys, a script of moves, or a recording.
 
-A source has at(now): (position, until) or None at the end. position: (axes, buttons) as on /joy, or
-None for an unplugged gamepad; until: when it changes by itself. Times in seconds, of one clock that
-never jumps. The first call of at() is the start.
+A source has at(now), which returns (position, until), or None at the end. position: (axes, buttons)
+as on /joy, or None for an unplugged gamepad; until: when it changes next. Times in seconds, of a
+clock that never jumps. The first call of at() is the start.
 """
 
 from __future__ import annotations
@@ -14,9 +14,9 @@ from typing import Optional, Sequence, Tuple
 from gamepad.gamepads import Gamepad
 from gamepad.virtual.controls import Controls, Position, positions
 from gamepad.virtual.keyboard import Keyboard
-from gamepad.virtual.moves import Script
+from gamepad.virtual.moves import MoveScript
 
-LARGEST_AXIS = 1.001  # the kernel's range is not quite even, so that some drivers go beyond 1
+LARGEST_AXIS = 1.001  # the kernel's range is asymmetric, so that some drivers exceed 1
 
 
 At = Tuple[Optional[Position], float]
@@ -34,7 +34,7 @@ class KeySource:
         self.controls = Controls()
 
     def at(self, now: float) -> At | None:
-        """See the top of this file."""
+        """Return (position, until), or None at the end."""
         if self.keyboard.quit:
             return None
         self.controls, until = self.keyboard.at(now)
@@ -42,17 +42,17 @@ class KeySource:
 
 
 class TimedSource:
-    """Follows what is known beforehand: a script or a recording."""
+    """Follows a script or a recording."""
 
     def __init__(self, steps: Sequence[tuple[float, Position | None]], loop: bool) -> None:
-        """Take pairs of a duration [s] and a position; loop: begin again at the end."""
+        """Take pairs of a duration [s] and a position; loop: restart at the end."""
         self._positions = [position for _, position in steps]
         self._ends = list(itertools.accumulate(duration for duration, _ in steps))
         self._loop = loop
         self._start: float | None = None
 
     def at(self, now: float) -> At | None:
-        """See the top of this file."""
+        """Return (position, until), or None at the end."""
         if self._start is None:
             self._start = now
         rounds, time_s = divmod(now - self._start, self._ends[-1])
@@ -63,7 +63,7 @@ class TimedSource:
         return self._positions[index], until
 
 
-def script_source(gamepad: Gamepad, script: Script, loop: bool) -> TimedSource:
+def script_source(gamepad: Gamepad, script: MoveScript, loop: bool) -> TimedSource:
     """Return a source from a script of moves."""
     return TimedSource([(d, _position(gamepad, controls)) for d, controls in script.moves], loop)
 
@@ -71,7 +71,7 @@ def script_source(gamepad: Gamepad, script: Script, loop: bool) -> TimedSource:
 def recording_source(
     gamepad: Gamepad, recorded: Sequence[tuple[float, Position]], loop: bool
 ) -> TimedSource:
-    """Return a source from (time [s], position), in order. ValueError if of another gamepad."""
+    """Return a source from (time [s], position), in order. Raises ValueError."""
     expected = (len(gamepad.axes), len(gamepad.buttons))
     for _, (axes, buttons) in recorded:
         if (len(axes), len(buttons)) != expected:
@@ -85,8 +85,8 @@ def recording_source(
         raise ValueError("there are fewer than two messages")
     times = [time for time, _ in recorded]
     gaps = [max(0.0, later - earlier) for earlier, later in zip(times, times[1:])]
-    # The last position is held as long as positions are held on average.
+    # The last position is held for the average duration.
     gaps.append(sum(gaps) / len(gaps))
     if not sum(gaps):
-        raise ValueError("all messages have one time")
+        raise ValueError("all messages have the same time")
     return TimedSource([(gap, position) for gap, (_, position) in zip(gaps, recorded)], loop)

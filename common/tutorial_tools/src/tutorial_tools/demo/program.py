@@ -17,7 +17,8 @@ from collections.abc import Iterable
 import rosgraph
 import rospkg
 
-from gamepad.ros.bags import BagError, opened
+from gamepad.errors import BagError
+from gamepad.ros.bags import opened
 from node_kit.ros.graph.ros_api import accepts, call, holder
 from node_kit.rules.answer import Answer
 from tutorial_tools.demo.launch import ENDING, TOPICS, DemoError, Launch

@@ -12,7 +12,8 @@ from typing import Dict, List, NoReturn, Sequence, Tuple
 
 import rosgraph
 
-from gamepad.ros.bags import BagError, opened
+from gamepad.errors import BagError
+from gamepad.ros.bags import opened
 from tutorial_tools.ros.cockpit_page import address
 
 WIDTH, ROW, LEFT = 900, 90, 130  # [pixel] of the picture, of one curve, for the names

@@ -11,7 +11,8 @@ from cockpit_server.driving.player import Message
 from cockpit_server.graph import JOY
 from cockpit_server.pages import encoded
 from cockpit_server.tabs.recordings import MOST_MESSAGES, Recording, curves
-from gamepad.ros.bags import BagError, opened
+from gamepad.errors import BagError
+from gamepad.ros.bags import opened
 
 LARGEST = 200_000_000  # bytes
 MOST_NAMES = 100  # bags shown of this folder

@@ -14,7 +14,7 @@ from cockpit_server.pages import Page, Soon, TabSource
 from cockpit_server.ros.tabs.bag_files import bag_files, read, version
 from cockpit_server.schema import number, switch, text
 from cockpit_server.tabs.recordings import Recording, Shelf
-from gamepad.ros.bags import BagError
+from gamepad.errors import BagError
 
 LOOK_S = 2.0  # how often the folder is searched for recordings, while a page shows them
 
