@@ -218,7 +218,7 @@ class DriverTest(RosTest):
     def test_another_firmware_is_not_driven(self):
         self.robot.firmware = FirmwareVersion(0, 0, 2)
         self.plugged()
-        wait_for(lambda: "firmware 2.0.0: this driver knows 1.x" in self.said(), "line")
+        wait_for(lambda: "firmware 2.0.0: this driver supports only 1.x" in self.said(), "line")
         for _ in range(20):
             self.send(AHEAD)
             time.sleep(0.02)

@@ -56,7 +56,7 @@ def test_damaged_packets_are_reported_once_and_not_the_first_one():
         (port_advice.absent("/dev/kobuki", [ARDUINO, KOBUKI]),
          ["no /dev/kobuki", "serialport:=/dev/ttyUSB1", "rosrun kobuki_node create_udev_rules"]),
         (port_advice.absent("/dev/kobuki", [ARDUINO]), ["/dev/ttyACM0 (Arduino Uno)", "cable"]),
-        (port_advice.absent("/dev/kobuki", []), ["here is none"]),
+        (port_advice.absent("/dev/kobuki", []), ["there are none"]),
         (port_advice.forbidden("/dev/kobuki", "dialout", "ada", False),
          ["no permission", "sudo usermod -aG dialout ada"]),
         (port_advice.forbidden("/dev/kobuki", "dialout", "ada", True), ["log in again"]),
@@ -86,22 +86,22 @@ ANSWERS = [HardwareVersion(4, 0, 1), FirmwareVersion(0, 2, 1), UniqueId((1, 2, 3
 def test_a_robot_is_asked_until_it_has_answered():
     identification = Identification()
     identification.begin(10.0)
-    assert identification.questions(10.0) == [Request(), GetController()]
-    assert identification.questions(10.05) == []
-    assert identification.questions(10.11) == [Request(), GetController()]
+    assert identification.requests(10.0) == [Request(), GetController()]
+    assert identification.requests(10.05) == []
+    assert identification.requests(10.11) == [Request(), GetController()]
     assert identification.take([*ANSWERS, None]) == ANSWERS
-    assert identification.questions(10.22) == [GetController()]
+    assert identification.requests(10.22) == [GetController()]
     identification.take([Controller()])
-    assert identification.questions(99.0) == []
+    assert identification.requests(99.0) == []
     identification.begin(100.0)  # it was lost, and is back
-    assert identification.questions(100.0) == [Request(), GetController()]
+    assert identification.requests(100.0) == [Request(), GetController()]
 
 
 def test_a_robot_that_does_not_answer_is_asked_less_often():
     identification = Identification()
     identification.begin(0.0)
     times = [0.02 * k for k in range(1000)]
-    assert len([now for now in times if identification.questions(now)]) <= 25
+    assert len([now for now in times if identification.requests(now)]) <= 25
 
 
 @pytest.mark.parametrize(
@@ -109,7 +109,7 @@ def test_a_robot_that_does_not_answer_is_asked_less_often():
     [
         (FirmwareVersion(0, 2, 1), True, None),
         (FirmwareVersion(3, 1, 1), True, "1.1.4 or newer is recommended"),
-        (FirmwareVersion(0, 0, 2), False, "firmware 2.0.0: this driver knows 1.x"),
+        (FirmwareVersion(0, 0, 2), False, "firmware 2.0.0: this driver supports only 1.x"),
         (FirmwareVersion(0, 9, 0), False, "update the robot's"),
     ],
 )

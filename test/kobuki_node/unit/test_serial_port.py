@@ -82,11 +82,11 @@ def test_what_is_no_port_is_one_line(tmp_path):
         SerialPort(str(tmp_path / "nothing"))
     file = tmp_path / "file"
     file.write_text("")
-    with pytest.raises(PortError, match="is no serial port that works"):
+    with pytest.raises(PortError, match="is not a working serial port"):
         SerialPort(str(file))
-    with pytest.raises(PortError, match="is no serial port that works"):
+    with pytest.raises(PortError, match="is not a working serial port"):
         SerialPort(str(tmp_path))
-    with pytest.raises(PortError, match="is no serial port that works"):
+    with pytest.raises(PortError, match="is not a working serial port"):
         SerialPort("/dev/null")
 
 

@@ -53,7 +53,7 @@ def test_a_velocity_is_sent_as_speed_and_radius(velocity, values):
 
 @pytest.mark.parametrize("velocity", [(nan, 0.0), (0.0, inf), (-inf, 1.0)])
 def test_what_is_no_velocity_is_refused(velocity):
-    with pytest.raises(ValueError, match="is no velocity"):
+    with pytest.raises(ValueError, match="is not a velocity"):
         base_control(*velocity)
 
 
@@ -183,7 +183,7 @@ def test_outputs_share_their_bits():
 @pytest.mark.parametrize(
     ("make", "arguments", "part"),
     [
-        (commands.Outputs().with_led, (1, 4), "led1: 4: there are 0 to 3"),
+        (commands.Outputs().with_led, (1, 4), "led1: 4: must be 0 to 3"),
         (commands.Outputs().with_power, (4, 1), "source 4"),
         (commands.Outputs().with_power, (0, 2), "state 2"),
         (commands.SoundSequence.of, (7,), "sound 7"),
@@ -215,7 +215,7 @@ def test_a_firmware_of_another_major_version_is_not_driven():
         FirmwareVersion(0, 0, 2),
     )
     assert [str(version) for version in (newest, old, other)] == ["1.2.0", "1.1.3", "2.0.0"]
-    assert [version.is_driven for version in (newest, old, other)] == [True, True, False]
+    assert [version.is_supported for version in (newest, old, other)] == [True, True, False]
     assert [version.is_recommended for version in (newest, old, other)] == [True, False, False]
 
 

@@ -1,4 +1,4 @@
-"""What a Kobuki and its driver send each other.
+"""The protocol between a Kobuki and its driver.
 
 The facts are those of kobuki_driver's appendix "Protocol Specification" and of its sources
 (yujinrobot/kobuki_core), where a constant names no other source.

@@ -1,4 +1,4 @@
-"""From a velocity to the command of a Kobuki's wheels, and back."""
+"""Conversion between a velocity and the command for a Kobuki's wheels."""
 
 from __future__ import annotations
 
@@ -11,19 +11,19 @@ from kobuki_protocol.feedback import int16
 WHEEL_SEPARATION_M = 0.23  # diff_drive.cpp: bias
 WHEEL_RADIUS_M = 0.035  # diff_drive.cpp
 HALF_MM = 500.0 * WHEEL_SEPARATION_M
-SMALL = 1e-4  # [m/s, rad/s] Less counts as zero (diff_drive.cpp: epsilon).
+SMALL = 1e-4  # [m/s, rad/s] less counts as zero (diff_drive.cpp: epsilon)
 REST = BaseControl(0, 0)
 Velocity = Tuple[float, float]  # v [m/s], w [rad/s]
 
 
 def base_control(v: float, w: float) -> BaseControl:
-    """Return v [m/s] and w [rad/s] as a Kobuki takes them. Raises ValueError if not finite.
+    """Return the command for v [m/s] and w [rad/s]. Raises ValueError if they are not finite.
 
-    A radius of 0 is straight ahead, one of 1 a turn on the spot, in which the sign of the speed is
-    that of w. Otherwise the speed is that of the outer wheel.
+    A radius of 0 means straight ahead; a radius of 1 means a turn on the spot, where the speed has
+    the sign of w. Otherwise the speed is that of the outer wheel.
     """
     if not (isfinite(v) and isfinite(w)):
-        raise ValueError(f"({v}, {w}) is no velocity")
+        raise ValueError(f"({v}, {w}) is not a velocity")
     if abs(w) < SMALL:
         return BaseControl(int16(1000.0 * v), 0)
     radius = 1000.0 * v / w
@@ -34,7 +34,7 @@ def base_control(v: float, w: float) -> BaseControl:
 
 
 def velocity_of(command: BaseControl) -> Velocity:
-    """Return the velocity that a Kobuki drives on a command."""
+    """Return the velocity at which a Kobuki drives after a command."""
     speed, radius = float(command.speed), float(command.radius)
     if radius == 0.0:
         return 0.001 * speed, 0.0
@@ -45,6 +45,6 @@ def velocity_of(command: BaseControl) -> Velocity:
 
 
 def control_values(v: float, w: float) -> list[int]:
-    """Return what debug/raw_control_command has: speed and radius, then [mm/s] and [mrad/s]."""
+    """Return the data of debug/raw_control_command: speed, radius, v [mm/s], w [mrad/s]."""
     command = base_control(v, w)
     return [command.speed, command.radius, int16(1000.0 * v), int16(1000.0 * w)]

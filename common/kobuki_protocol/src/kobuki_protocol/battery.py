@@ -1,4 +1,4 @@
-"""A Kobuki's battery: how full it is, and what charges it."""
+"""A Kobuki's battery: its level, and its charger."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ from enum import Enum
 
 from kobuki_protocol.feedback import Core
 
-CHARGER_STATE = 6  # the bits of core.charger for the state: 0, CHARGED or CHARGING
+CHARGER_STATE = 6  # the bits of core.charger for its state: 0, CHARGED or CHARGING
 CHARGED = 2
 CHARGING = 6
-ADAPTER = 16  # the bit for the socket in the side; without it the docking station
+ADAPTER = 16  # the bit for the socket; without it the docking station charges
 
 
 class Level(Enum):
-    """How full the battery is; the values are those of upstream's diagnostics."""
+    """The level of the battery; the values are those of upstream's diagnostics."""
 
     MAXIMUM = "Maximum"  # charged
     HEALTHY = "Healthy"
@@ -36,7 +36,7 @@ USUAL = Limits()
 
 @dataclass(frozen=True)
 class Battery:
-    """What one packet says of the battery."""
+    """The state of the battery in one packet."""
 
     voltage: float  # [V]
     charger: int = 0  # core.charger
@@ -49,24 +49,24 @@ class Battery:
 
     @property
     def is_charged(self) -> bool:
-        """Return whether the charger is in place and has no more to do."""
+        """Return whether the charger is connected and has finished."""
         return self.charger & CHARGER_STATE == CHARGED
 
     @property
     def is_charging(self) -> bool:
-        """Return whether the charger fills it."""
+        """Return whether the battery is being charged."""
         return self.charger & CHARGER_STATE == CHARGING
 
     @property
     def source(self) -> str:
-        """Return what charges it: None, Adapter or Dock, the words of upstream's diagnostics."""
+        """Return the source in upstream's diagnostics: None, Adapter or Dock."""
         if not (self.is_charged or self.is_charging):
             return "None"
         return "Adapter" if self.charger & ADAPTER else "Dock"
 
     @property
     def level(self) -> Level:
-        """Return how full it is."""
+        """Return the level by charger and voltage."""
         if self.is_charged:
             return Level.MAXIMUM
         if self.voltage > self.limits.low:
@@ -75,7 +75,7 @@ class Battery:
 
     @property
     def percent(self) -> float:
-        """Return it in percent: 100 at the capacity, 5 where it is dangerous (battery.cpp)."""
+        """Return the charge: 100 at limits.capacity, 5 at limits.dangerous (battery.cpp)."""
         limits = self.limits
         share = (self.voltage - limits.dangerous) / (limits.capacity - limits.dangerous)
         return min(100.0, max(0.0, 95.0 * share + 5.0))

@@ -1,4 +1,4 @@
-"""The messages of mobile_base/commands that a Kobuki takes as they are, as its commands."""
+"""Conversion of messages on mobile_base/commands to a Kobuki's commands."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ TOPICS: dict[str, type] = {
 
 
 class CommandEncoder:
-    """Makes commands of messages. Pins, supplies and LEDs share one command, which it keeps."""
+    """Converts messages to commands; keeps the command that pins, supplies and LEDs share."""
 
     def __init__(self) -> None:
-        """Begin as the Kobuki's driver does: all supplies on."""
+        """Start as the Kobuki's driver does: with all supplies on."""
         self.outputs = Outputs()
         self._with: dict[str, Callable[[Any], Outputs]] = {
             "led1": lambda led: self.outputs.with_led(1, led.value),

@@ -1,4 +1,4 @@
-"""What a driver sends to a Kobuki, and the packets of it in both directions."""
+"""The commands of a driver to a Kobuki, and their packets."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import ClassVar, Iterable, Sequence, Union
 from kobuki_protocol.framing import packet, part, split
 from kobuki_protocol.identity import Controller
 
-POWER_ON = 0x00F0  # All four supplies are on, as the driver starts.
+POWER_ON = 0x00F0  # all four supplies on, as the driver starts
 LED_COLOURS = (0, 2, 3, 1)  # two bits, red and green, of kobuki_msgs' BLACK, GREEN, ORANGE, RED
 MELODIES = ("on", "off", "recharge", "button", "error", "cleaning start", "cleaning end")
 MOST_GAIN = 1 << 32  # in thousandths
@@ -18,7 +18,7 @@ MOST_GAIN = 1 << 32  # in thousandths
 
 @dataclass(frozen=True)
 class BaseControl:
-    """How the wheels are to turn: see kobuki_protocol.base_control."""
+    """The motion of the wheels; see kobuki_protocol.base_control."""
 
     ID: ClassVar[int] = 1
     LAYOUT: ClassVar[Struct] = Struct("<2h")
@@ -31,13 +31,13 @@ class BaseControl:
 
     @classmethod
     def parse(cls, data: bytes) -> BaseControl:
-        """Return the part of these data; this and its like raise struct.error."""
+        """Return the part with this data; all parse() raise struct.error."""
         return cls(*cls.LAYOUT.unpack(data))
 
 
 @dataclass(frozen=True)
 class Sound:
-    """A note; the driver never sends one."""
+    """A note; the driver never sends this command."""
 
     ID: ClassVar[int] = 3
     LAYOUT: ClassVar[Struct] = Struct("<HB")
@@ -50,7 +50,7 @@ class Sound:
 
     @classmethod
     def parse(cls, data: bytes) -> Sound:
-        """Return the part of these data."""
+        """Return the part with this data."""
         return cls(*cls.LAYOUT.unpack(data))
 
 
@@ -64,9 +64,9 @@ class SoundSequence:
 
     @classmethod
     def of(cls, number: int) -> SoundSequence:
-        """Return the melody of kobuki_msgs/Sound. Raises ValueError."""
+        """Return the command for a value of kobuki_msgs/Sound. Raises ValueError."""
         if not 0 <= number < len(MELODIES):
-            raise ValueError(f"sound {number}: there are 0 to {len(MELODIES) - 1}")
+            raise ValueError(f"sound {number}: must be 0 to {len(MELODIES) - 1}")
         return cls(number)
 
     def data(self) -> bytes:
@@ -75,13 +75,13 @@ class SoundSequence:
 
     @classmethod
     def parse(cls, data: bytes) -> SoundSequence:
-        """Return the part of these data."""
+        """Return the part with this data."""
         return cls(*cls.LAYOUT.unpack(data))
 
 
 @dataclass(frozen=True)
 class Request:
-    """A question for what only comes on request."""
+    """A request for versions and the unique id."""
 
     ID: ClassVar[int] = 9
     LAYOUT: ClassVar[Struct] = Struct("<H")
@@ -96,13 +96,13 @@ class Request:
 
     @classmethod
     def parse(cls, data: bytes) -> Request:
-        """Return the part of these data."""
+        """Return the part with this data."""
         return cls(*cls.LAYOUT.unpack(data))
 
 
 @dataclass(frozen=True)
 class Outputs:
-    """Pins (bits 0 to 3), supplies (4 to 7), and the LEDs' red and green (8, 9 and 10, 11)."""
+    """Pins (bits 0 to 3), supplies (4 to 7), red and green of the LEDs (8, 9 and 10, 11)."""
 
     ID: ClassVar[int] = 12
     LAYOUT: ClassVar[Struct] = Struct("<H")
@@ -110,25 +110,25 @@ class Outputs:
 
     @property
     def leds(self) -> tuple[int, int]:
-        """Return the colours of LED 1 and 2, those of kobuki_msgs/Led."""
+        """Return the colours of LED 1 and 2, as in kobuki_msgs/Led."""
         return LED_COLOURS.index(self.bits >> 8 & 3), LED_COLOURS.index(self.bits >> 10 & 3)
 
     def with_led(self, number: int, value: int) -> Outputs:
-        """Return it with a colour of kobuki_msgs/Led for LED 1 or 2. Raises ValueError."""
+        """Return the outputs with LED 1 or 2 in a colour of kobuki_msgs/Led. Raises ValueError."""
         if not 0 <= value < len(LED_COLOURS):
-            raise ValueError(f"led{number}: {value}: there are 0 to {len(LED_COLOURS) - 1}")
+            raise ValueError(f"led{number}: {value}: must be 0 to {len(LED_COLOURS) - 1}")
         shift = 8 if number == 1 else 10
         return self._with(3 << shift, LED_COLOURS[value] << shift)
 
     def with_pins(self, values: Sequence[bool], mask: Sequence[bool]) -> Outputs:
-        """Return it with those of the four pins set that the mask names."""
+        """Return the outputs with the pins in the mask set to their values."""
         return self._with(bits_of(mask), bits_of(values))
 
     def with_power(self, source: int, state: int) -> Outputs:
-        """Return it with one of the four supplies on (1) or off (0). Raises ValueError."""
+        """Return the outputs with a supply, 0 to 3, on (1) or off (0). Raises ValueError."""
         for name, value, most in (("source", source, 3), ("state", state, 1)):
             if not 0 <= value <= most:
-                raise ValueError(f"external_power: {name} {value}: there are 0 to {most}")
+                raise ValueError(f"external_power: {name} {value}: must be 0 to {most}")
         return self._with(1 << (4 + source), state << (4 + source))
 
     def _with(self, mask: int, values: int) -> Outputs:
@@ -140,24 +140,24 @@ class Outputs:
 
     @classmethod
     def parse(cls, data: bytes) -> Outputs:
-        """Return the part of these data."""
+        """Return the part with this data."""
         return cls(*cls.LAYOUT.unpack(data))
 
 
 @dataclass(frozen=True)
 class SetController:
-    """The gains that the Kobuki is to take; firmware 1.2 and newer obeys."""
+    """The gains that the Kobuki shall use; firmware 1.2 and newer obeys."""
 
     ID: ClassVar[int] = 13
     wanted: Controller
 
     @classmethod
     def of(cls, kind: int, gains: Sequence[float]) -> SetController:
-        """Return the command of P, I and D. Raises ValueError."""
+        """Return the command for the gains P, I and D. Raises ValueError."""
         if not all(0.0 <= gain * 1000.0 < MOST_GAIN for gain in gains):
             raise ValueError("controller_info: each gain must be 0 or more, and below 4294967")
         if kind not in (0, 1):
-            raise ValueError(f"controller_info: type {kind}: there are 0 (factory) and 1 (own)")
+            raise ValueError(f"controller_info: type {kind}: must be 0 (factory) or 1 (own)")
         return cls(Controller(kind, tuple(int(gain * 1000.0) for gain in gains)))
 
     def data(self) -> bytes:
@@ -166,13 +166,13 @@ class SetController:
 
     @classmethod
     def parse(cls, data: bytes) -> SetController:
-        """Return the part of these data."""
+        """Return the part with this data."""
         return cls(Controller.parse(data))
 
 
 @dataclass(frozen=True)
 class GetController:
-    """A question for the gains; its byte has no meaning."""
+    """A request for the gains; its byte has no meaning."""
 
     ID: ClassVar[int] = 14
 
@@ -182,7 +182,7 @@ class GetController:
 
     @classmethod
     def parse(cls, data: bytes) -> GetController:
-        """Return the part of these data."""
+        """Return the part with this data."""
         if len(data) != 1:
             raise struct.error
         return cls()
@@ -200,17 +200,17 @@ KINDS: dict[int, type[Command]] = {
 
 
 def bits_of(flags: Iterable[bool]) -> int:
-    """Return a number whose lowest bit is the first flag."""
+    """Return the flags as a number, whose lowest bit is the first flag."""
     return sum(bool(is_on) << bit for bit, is_on in enumerate(flags))
 
 
 def build(*commands: Command) -> bytes:
-    """Return the packet of commands."""
-    return packet(b"".join(part(one.ID, one.data()) for one in commands))
+    """Return the packet with these commands."""
+    return packet(b"".join(part(command.ID, command.data()) for command in commands))
 
 
 def parse(payload: bytes) -> list[Command]:
-    """Return the commands of a payload; those of another id or length than known are left out."""
+    """Return the commands of a payload, without those of an unknown id or length."""
     commands: list[Command] = []
     for number, data in split(payload):
         try:

@@ -1,4 +1,4 @@
-"""The events of a Kobuki: what changed between two packets, as messages of mobile_base/events."""
+"""The events of a Kobuki: changes between two packets as messages of mobile_base/events."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from kobuki_msgs.msg import (
 from kobuki_protocol.battery import USUAL, Battery, Level, Limits
 from kobuki_protocol.feedback import Core, Feedback
 
-# Topic, message, and the field that says which sensor it was, in the order left, center, right.
+# Topic, message, and the field for the number of the sensor, in the order left, center, right.
 EVENTS = (
     ("bumper", BumperEvent, "bumper"),
     ("cliff", CliffEvent, "sensor"),
     ("wheel_drop", WheelDropEvent, "wheel"),
 )
-QUEUE = 100  # events; none of them may be lost (kobuki_ros.cpp)
+QUEUE = 100  # events, of which none may be lost (kobuki_ros.cpp)
 Message = Union[
     BumperEvent, ButtonEvent, CliffEvent, DigitalInputEvent, PowerSystemEvent, WheelDropEvent
 ]
@@ -34,14 +34,14 @@ PINS = (1, 2, 4, 8)
 
 
 def _changed(before: int, now: int, bits: tuple[int, ...]) -> Iterator[tuple[int, int]]:
-    """Yield (number in bits, 1 if it is set or 0) of each bit that changed."""
+    """Yield (index in bits, new value 0 or 1) of each bit that changed."""
     for number, bit in enumerate(bits):
         if (before ^ now) & bit:
             yield number, int(bool(now & bit))
 
 
 def events(before: Feedback, now: Feedback, limits: Limits = USUAL) -> list[Event]:
-    """Return the events between two packets; before the first one: Feedback()."""
+    """Return the events between two packets; before the first packet: Feedback()."""
     old, new = before.core, now.core
     bottom = now.cliff.left, now.cliff.center, now.cliff.right
     made: list[Event] = [

@@ -1,6 +1,7 @@
-"""What a Kobuki sends: 50 times a second its sensors, on request its versions and its gains.
+"""The sensor values that a Kobuki sends 50 times a second.
 
-Values are those of the line, so that building and parsing lose nothing; properties convert them.
+Fields hold the values on the line, so that building and parsing lose nothing; properties convert
+them to other units.
 """
 
 from __future__ import annotations
@@ -21,13 +22,13 @@ Rates = Tuple[float, float, float]  # of the robot about x, y, z [rad/s]
 
 
 def int16(value: float) -> int:
-    """Return a number without its fraction, cut to 16 bits, as the Kobuki's driver does."""
+    """Return a number without its fraction, limited to 16 bits, as the Kobuki's driver does."""
     return int(min(max(value, INT16[0]), INT16[1]))
 
 
 @dataclass(frozen=True)
 class Core(PackedPart):
-    """The basic sensors. Bits: right 1, center 2, left 4; of wheels right 1, left 2."""
+    """The basic sensors. Bits: right 1, center 2, left 4; for wheels right 1, left 2."""
 
     ID: ClassVar[int] = 1
     LAYOUT: ClassVar[Struct] = Struct("<H3B2H2b4B")
@@ -47,7 +48,7 @@ class Core(PackedPart):
 
 @dataclass(frozen=True)
 class DockInfrared(PackedPart):
-    """What the three receivers see of a docking station: the bits of kobuki_msgs/DockInfraRed."""
+    """The docking station as the three receivers see it: the bits of kobuki_msgs/DockInfraRed."""
 
     ID: ClassVar[int] = 3
     LAYOUT: ClassVar[Struct] = Struct("<3B")
@@ -58,7 +59,7 @@ class DockInfrared(PackedPart):
 
 @dataclass(frozen=True)
 class Inertia(PackedPart):
-    """The heading that the Kobuki works out from its gyro, 0 where it was switched on."""
+    """The heading that the Kobuki computes from its gyro, 0 when it is switched on."""
 
     ID: ClassVar[int] = 4
     LAYOUT: ClassVar[Struct] = Struct("<2h3x")
@@ -67,7 +68,7 @@ class Inertia(PackedPart):
 
     @classmethod
     def of(cls, heading: float, rate: float) -> Inertia:
-        """Return the part of a heading [rad] and a rate [rad/s]."""
+        """Return the part with a heading [rad] and a rate [rad/s]."""
         return cls(*(int16(round(100.0 * degrees(value))) for value in (heading, rate)))
 
     @property
@@ -83,7 +84,7 @@ class Inertia(PackedPart):
 
 @dataclass(frozen=True)
 class Cliff(PackedPart):
-    """The voltages of the cliff sensors, 0 to 4095: the farther the floor, the less."""
+    """The voltages of the cliff sensors, 0 to 4095: lower where the floor is farther away."""
 
     ID: ClassVar[int] = 5
     LAYOUT: ClassVar[Struct] = Struct("<3H")
@@ -104,7 +105,7 @@ class Current(PackedPart):
 
 @dataclass(frozen=True)
 class RawGyro:
-    """Readings of the gyro, 10 ms apart, the newest last; the sensor is turned by 90 degrees."""
+    """Readings of the gyro, 10 ms apart, the newest last; the sensor is rotated by 90 degrees."""
 
     ID: ClassVar[int] = 13
     frame: int = 0  # counts the readings, in 8 bits
@@ -112,7 +113,7 @@ class RawGyro:
 
     @classmethod
     def of(cls, frame: int, rates: Iterable[Rates]) -> RawGyro:
-        """Return the part of turn rates of the robot; the frame is cut to 8 bits."""
+        """Return the part with turn rates of the robot; the frame is taken modulo 256."""
         turned = ((y, -x, z) for x, y, z in rates)
         digits = (tuple(int16(degrees(rate) / DIGIT_DEG_PER_S) for rate in of) for of in turned)
         return cls(frame % 256, tuple(digits))  # type: ignore[arg-type]
@@ -130,7 +131,7 @@ class RawGyro:
 
     @classmethod
     def parse(cls, data: bytes) -> RawGyro:
-        """Return the part of these data."""
+        """Return the part with this data."""
         frame, length, *digits = Struct(f"<2B{len(data) // 2 - 1}h").unpack(data)
         used = digits[: length - length % 3]
         return cls(frame, tuple(zip(used[::3], used[1::3], used[2::3])))
@@ -138,7 +139,7 @@ class RawGyro:
 
 @dataclass(frozen=True)
 class Inputs:
-    """The pins of the connector for one's own devices."""
+    """The pins of the connector for additional devices."""
 
     ID: ClassVar[int] = 16
     LAYOUT: ClassVar[Struct] = Struct("<5H6x")
@@ -151,7 +152,7 @@ class Inputs:
 
     @classmethod
     def parse(cls, data: bytes) -> Inputs:
-        """Return the part of these data."""
+        """Return the part with this data."""
         digital, *analog = cls.LAYOUT.unpack(data)
         return cls(digital, tuple(analog))
 
@@ -161,7 +162,7 @@ Sensor = Union[Core, DockInfrared, Inertia, Cliff, Current, RawGyro, Inputs]
 
 @dataclass(frozen=True)
 class Feedback:
-    """All that a Kobuki reports 50 times a second."""
+    """The parts that a Kobuki sends 50 times a second."""
 
     core: Core = field(default_factory=Core)
     dock: DockInfrared = field(default_factory=DockInfrared)
@@ -178,7 +179,7 @@ class Feedback:
         ]  # fmt: skip
 
     def updated(self, parts: Iterable[object]) -> Feedback:
-        """Return it with the parts of a packet; what these lack stays as it was."""
+        """Return the feedback with the parts of a packet in place of earlier ones."""
         values: dict[str, Any] = {NAMES[type(p)]: p for p in parts if type(p) in NAMES}
         return replace(self, **values)
 

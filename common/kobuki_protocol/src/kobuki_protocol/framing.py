@@ -1,7 +1,7 @@
-"""Packets on the serial line of a Kobuki, and where they begin and end in a stream of bytes.
+"""Packets on the serial line of a Kobuki, and how to find them in a stream of bytes.
 
-A packet is a header, the length of its payload, the payload and a checksum; the payload is a row
-of parts, each with its id and length. All numbers are little-endian.
+A packet is a header, the length of its payload, the payload and a checksum; the payload is a
+sequence of parts, each with its id and length. All numbers are little-endian.
 """
 
 from __future__ import annotations
@@ -18,18 +18,18 @@ DAMAGED, INCOMPLETE = 0, -1
 
 
 def packet(payload: bytes) -> bytes:
-    """Return a payload as a packet; the exclusive or of all bytes behind the header is 0."""
+    """Return a payload as a packet; the exclusive or of all bytes after the header is 0."""
     body = bytes([len(payload)]) + payload
     return HEADER + body + bytes([reduce(xor, body)])
 
 
 def part(number: int, data: bytes) -> bytes:
-    """Return one part of a payload: its id, the length of its data, and the data."""
+    """Return a part of a payload: its id, the length of its data, and the data."""
     return bytes([number, len(data)]) + data
 
 
 def split(payload: bytes) -> Iterator[Part]:
-    """Yield the id and the data of each part of a payload that the Framer has returned."""
+    """Yield the id and the data of each part of a payload from the Framer."""
     start = 0
     while start + 1 < len(payload):
         end = start + 2 + payload[start + 1]
@@ -40,21 +40,22 @@ def split(payload: bytes) -> Iterator[Part]:
 class Framer:
     """Finds the packets in a stream of bytes, which may be damaged anywhere.
 
-    A packet is what begins with a header, has parts that fill its length, and a right checksum.
-    What begins like one and is none costs only itself: the next header is looked for inside it.
+    A packet begins with a header, its parts fill its length, and its checksum is right. If one of
+    these fails, the search for the next header continues inside the failed packet, so that damage
+    never hides an intact one.
     """
 
     def __init__(self) -> None:
-        """Begin without any byte."""
+        """Start with an empty stream."""
         self._waiting = bytearray()
-        self.damaged = 0  # headers that began no packet
-        self.skipped = 0  # bytes that belong to no packet
+        self.damaged = 0  # headers without a valid packet
+        self.skipped = 0  # bytes outside of packets
 
     def feed(self, data: bytes) -> list[bytes]:
-        """Take the next bytes; return the payloads of the packets that they complete."""
+        """Add the next bytes; return the payloads of the packets that they complete."""
         waiting, payloads = self._waiting, []
         waiting += data
-        start = done = 0  # done: where the last packet ends
+        start = done = 0  # done: the end of the last packet
         while (start := waiting.find(HEADER, start)) >= 0:
             end = _end_of_packet(waiting, start)
             if end == INCOMPLETE:
@@ -73,13 +74,13 @@ class Framer:
         return payloads
 
     def reset(self) -> None:
-        """Forget a packet that has started: what comes next is no continuation of it."""
+        """Discard an incomplete packet, which the next bytes do not continue."""
         self.skipped += len(self._waiting)
         self._waiting.clear()
 
 
 def _end_of_packet(data: bytearray, start: int) -> int:
-    """Return where the packet ends that begins at start, DAMAGED, or INCOMPLETE."""
+    """Return the end of the packet that begins at start, or DAMAGED, or INCOMPLETE."""
     if len(data) < start + PREFIX:
         return INCOMPLETE
     stop = start + PREFIX + data[start + PREFIX - 1]
@@ -92,9 +93,9 @@ def _end_of_packet(data: bytearray, start: int) -> int:
 
 
 def _end_of_parts(data: bytearray, position: int, stop: int) -> int:
-    """Return where the parts that have started end: at stop, if they are the whole payload.
+    """Return the end of the last part that has begun: stop if the parts fill the payload.
 
-    Less if they are not all here, and more if they do not fit.
+    It is less if bytes are missing, and more if the parts do not fit.
     """
     while position < stop:
         if position + 1 == stop:

@@ -1,4 +1,4 @@
-"""A Kobuki's values as the messages of mobile_base; the driver and the simulation use them."""
+"""A Kobuki's values as messages of mobile_base, for the driver and the simulation."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from kobuki_protocol.feedback import Feedback, RawGyro
 from kobuki_protocol.identity import Controller, FirmwareVersion, HardwareVersion, UniqueId
 
 GYRO_FRAME, DOCK_FRAME = "gyro_link", "dock_ir_link"  # kobuki_description
-# Of heading and turning [rad2, rad2/s2]: about x and y nothing is known (slot_callbacks.cpp).
+# Of orientation and turn rate [rad2, rad2/s2]; x and y are unknown (slot_callbacks.cpp).
 COVARIANCE = (float_info.max, 0.0, 0.0, 0.0, float_info.max, 0.0, 0.0, 0.0, 0.05)
 ALL_FEATURES = VersionInfo.SMOOTH_MOVE_START | VersionInfo.GYROSCOPE_3D_DATA
 
@@ -45,7 +45,7 @@ def sensor_state(feedback: Feedback, stamp: Any) -> SensorState:
 
 
 def dock_infrared(feedback: Feedback, stamp: Any, prefix: str = "") -> DockInfraRed:
-    """Return the message of sensors/dock_ir; prefix: of the frame."""
+    """Return the message of sensors/dock_ir; prefix: for its frame."""
     dock = feedback.dock
     data = bytes((dock.right, dock.center, dock.left))
     return DockInfraRed(Header(0, stamp, prefix + DOCK_FRAME), data)
@@ -60,7 +60,7 @@ def imu(heading: float, rate: float, stamp: Any, prefix: str = "") -> Imu:
 
 
 def raw_imu(gyro: RawGyro, stamps: Sequence[Any], prefix: str = "") -> list[Imu]:
-    """Return the messages of sensors/imu_data_raw; stamps: of the newest readings, as they come."""
+    """Return the messages of sensors/imu_data_raw; stamps: one for each reading."""
     return [_turning(rates, stamp, prefix) for rates, stamp in zip(gyro.rates, stamps)]
 
 
@@ -72,7 +72,7 @@ def _turning(rates: Sequence[float], stamp: Any, prefix: str) -> Imu:
 def version_info(
     hardware: HardwareVersion, firmware: FirmwareVersion, unique_id: UniqueId, software: str
 ) -> VersionInfo:
-    """Return the message of version_info; firmware above 1.0.0 has all features."""
+    """Return the message of version_info; firmware newer than 1.0.0 has all features."""
     has_features = (firmware.major, firmware.minor, firmware.patch) > (1, 0, 0)
     features = ALL_FEATURES if has_features else 0
     return VersionInfo(str(hardware), str(firmware), software, list(unique_id.words), features)
@@ -84,10 +84,10 @@ def controller_info(controller: Controller) -> ControllerInfo:
 
 
 def stream_text(packet: bytes) -> String:
-    """Return a packet of the robot for debug/raw_data_stream."""
+    """Return the message of debug/raw_data_stream for a packet of the robot."""
     return String(f"{{ {packet.hex(' ').upper()} }}")
 
 
 def command_text(packet: bytes) -> String:
-    """Return a packet of the driver for debug/raw_data_command."""
+    """Return the message of debug/raw_data_command for a packet of the driver."""
     return String(f"[ {' '.join(f'0x{byte:02x}' for byte in packet)} ]")

@@ -1,4 +1,4 @@
-"""From the encoders and the gyro of a Kobuki to its pose."""
+"""The pose of a Kobuki, from its encoders and its gyro."""
 
 from __future__ import annotations
 
@@ -9,15 +9,15 @@ from kobuki_protocol.base_control import WHEEL_RADIUS_M, WHEEL_SEPARATION_M
 from kobuki_protocol.feedback import Core, Inertia
 from kobuki_protocol.robot_clock import RobotClock
 
-RAD_PER_TICK = 0.002436916871363930187454  # of a wheel: 52 ticks by gears of 49.5833 to 1
+RAD_PER_TICK = 0.002436916871363930187454  # of a wheel: 52 ticks, gears of 49.5833 to 1
 WRAP = 1 << 16  # time stamp and encoders have 16 bits
-FASTEST_M_PER_S = 1.5  # of a wheel: twice a Kobuki's 0.7 m/s; more is another count, no travel
-MOST_SLACK_M = 0.02  # travel beyond that
+FASTEST_M_PER_S = 1.5  # of a wheel, twice a Kobuki's 0.7 m/s; more means a restarted count
+MOST_SLACK_M = 0.02  # tolerated in addition
 
 
 @dataclass
 class OdometryState:
-    """Where the robot is, how it moves, and how far its wheels have turned."""
+    """The pose and velocity of the robot, and the angles and rates of its wheels."""
 
     x: float = 0.0  # [m]
     y: float = 0.0
@@ -31,30 +31,30 @@ class OdometryState:
 
 
 class Odometry:
-    """Follows a Kobuki's packets.
+    """Computes the state from a Kobuki's packets.
 
-    Only differences count: a robot that was switched off and on begins with other counts, and the
-    pose stays. A cable that was out costs nothing of the pose as long as the robot kept counting.
+    Only differences count: a robot that was switched off and on starts with other counts, and the
+    pose stays. While the cable is out the robot keeps counting, so no part of the pose is lost.
     """
 
     def __init__(self, uses_gyro: bool = True) -> None:
-        """Begin at the origin; uses_gyro: take the heading from it, not from the wheels."""
+        """Start at the origin; uses_gyro: take the heading from the gyro, not from the wheels."""
         self._uses_gyro = uses_gyro
         self._clock = RobotClock()
         self._core = Core()
-        self._time_s = 0.0  # of the last packet
-        self._gyro_zero = 0.0  # the gyro's angle where the yaw is 0 [rad]
-        self.gyro_heading = 0.0  # [rad], whichever the yaw is taken from
-        self.counts = 0  # the first, and one for each restart of the robot
+        self._time_s = 0.0  # time of the last packet
+        self._gyro_zero = 0.0  # the gyro's angle at yaw 0 [rad]
+        self.gyro_heading = 0.0  # [rad], even if the yaw is that of the wheels
+        self.counts = 0  # one, and one more for each restart of the robot
         self.state = OdometryState()
 
     @property
     def late_s(self) -> float:
-        """Return by how much the last packet was late: it waited in a port, or on the way."""
+        """Return the delay [s] of the last packet, in a port or on the way."""
         return self._clock.late_s
 
     def update(self, core: Core, inertia: Inertia, now_s: float) -> OdometryState:
-        """Take a packet that came at now_s, of a clock that never jumps; return the state."""
+        """Return the state after a packet that came at now_s, of a clock that never jumps."""
         last, self._core = self._core, core
         waited_s, self._time_s = now_s - self._time_s, now_s
         left = signed(core.left_encoder - last.left_encoder) * RAD_PER_TICK
@@ -94,24 +94,24 @@ class Odometry:
         state.yaw = heading if self._uses_gyro else wrapped(state.yaw + turn)
 
     def rest(self) -> None:
-        """Take it that the robot stands: its packets have ceased."""
+        """Set all velocities to zero, when no more packets come."""
         state = self.state
         state.v = state.w = state.left_rate = state.right_rate = 0.0
 
     def reset(self) -> None:
-        """Begin again at the origin, heading and wheels included."""
+        """Return to the origin, and zero the heading and the wheel angles."""
         self._gyro_zero = wrapped(self._gyro_zero + self.gyro_heading)
         self.gyro_heading = 0.0
         self.state = OdometryState(v=self.state.v, w=self.state.w)
 
 
 def is_too_far(travel_m: float, dt: float) -> bool:
-    """Return whether a wheel cannot have travelled so far in dt [s]: it has another count."""
+    """Return whether a wheel cannot have travelled so far in dt [s]: its count was restarted."""
     return travel_m > FASTEST_M_PER_S * dt + MOST_SLACK_M
 
 
 def signed(ticks: int) -> int:
-    """Return a difference of two counters of 16 bits, the shorter way round."""
+    """Return the difference of two 16-bit counters with the smaller absolute value."""
     return (ticks + WRAP // 2) % WRAP - WRAP // 2
 
 

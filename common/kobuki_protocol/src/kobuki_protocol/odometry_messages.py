@@ -1,8 +1,8 @@
-"""The odometry, transform and wheel joints of one robot; the driver and the simulation fill them.
+"""The odometry, transform and wheel joints of one robot, for the driver and the simulation.
 
-Frames as REP-105 orders them: the pose of the base in the odometry frame, the twist in the frame
-of the base. The message objects are made once and filled again for every state: rospy copies a
-message when it publishes it, and making a new Odometry would cost more than all the rest.
+The frames are those of REP-105: the pose of the base is in the odometry frame, the twist in the
+frame of the base. The message objects are created once and filled again for every state: rospy
+copies a message when it publishes it, and a new Odometry would cost more than all the rest.
 """
 
 from __future__ import annotations
@@ -14,14 +14,14 @@ from geometry_msgs.msg import TransformStamped
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import JointState
 
-# Diagonal of the pose covariance [m2, rad2]: huge for what a robot on a plane cannot know, and
-# more for the heading without the gyro. The twist's is zero, "unknown" (odometry.cpp).
+# Diagonal of the pose covariance [m2, rad2]: huge where a robot on a plane knows nothing, larger
+# for the heading without the gyro. The twist's is zero, "unknown" (odometry.cpp).
 POSE_COVARIANCE = (0.1, 0.1, 1e10, 1e10, 1e10, 0.05)
 YAW_VARIANCE_OF_WHEELS = 0.2
 
 
 class OdometryMessages:
-    """The messages of odom, /tf and joint_states, of one state with one stamp."""
+    """The messages of odom, /tf and joint_states for one state, with one stamp."""
 
     def __init__(self, odom_frame: str, base_frame: str, joints: Sequence[str]) -> None:
         """Take the names of the frames, and of the joints of the left and the right wheel."""
@@ -33,7 +33,7 @@ class OdometryMessages:
         self.transform = TransformStamped()
         self.transform.header.frame_id = odom_frame
         self.transform.child_frame_id = base_frame
-        # One quaternion in both, so that they are equal to the last bit.
+        # Both share one quaternion, so that they are equal to the last bit.
         self.transform.transform.rotation = self.odometry.pose.pose.orientation
         self.joints = JointState(name=list(joints))
 

@@ -1,4 +1,4 @@
-"""A part of a packet whose fields are, in their order, the values of its layout."""
+"""Parts of a packet whose fields, in their order, are the values of a struct layout."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ _Part = TypeVar("_Part", bound="PackedPart")
 
 
 class PackedPart:
-    """The base of such parts, which are dataclasses."""
+    """The base class of such parts, which are dataclasses."""
 
     LAYOUT: ClassVar[Struct]
 
@@ -20,13 +20,13 @@ class PackedPart:
 
     @classmethod
     def parse(cls: type[_Part], data: bytes) -> _Part:
-        """Return the part of these data. Raises struct.error."""
+        """Return the part with this data. Raises struct.error."""
         return cls(*cls.LAYOUT.unpack(data))
 
 
 @dataclass(frozen=True)
 class Version(PackedPart):
-    """A part with a version."""
+    """A version as a part."""
 
     LAYOUT: ClassVar[Struct] = Struct("<3Bx")
     patch: int
@@ -34,5 +34,5 @@ class Version(PackedPart):
     major: int
 
     def __str__(self) -> str:
-        """Return the version as it is written."""
+        """Return the version as major.minor.patch."""
         return f"{self.major}.{self.minor}.{self.patch}"

@@ -1,30 +1,30 @@
-"""The clock of a Kobuki: 16 bits of milliseconds, which start again when it is switched on."""
+"""The clock of a Kobuki: 16 bits of milliseconds, which restart when it is switched on."""
 
 from __future__ import annotations
 
 WRAP_MS = 1 << 16
-NEXT_MS = 100  # A packet that is so much newer than the last one continues its count.
-TOLERANCE_MS = 300.0  # How much the clock may differ from ours after a gap.
+NEXT_MS = 100  # a packet newer by up to this much continues the count
+TOLERANCE_MS = 300.0  # largest difference between the clocks after a gap
 MOST_DRIFT_MS = 0.02  # between two packets: 1 ms/s
 
 
 class RobotClock:
-    """Decides whether a packet continues the count of those before it.
+    """Decides whether a packet continues the count of the earlier ones.
 
-    Packets may come late, as after a suspension of the driver, and many may be lost. A robot that
-    was switched off and on has another time than it would have by our clock.
+    Packets may come late, for example after a suspension of the driver, and many may be lost. The
+    time of a robot that was switched off and on differs from the time expected by our clock.
     """
 
     def __init__(self) -> None:
-        """Begin with the first packet."""
+        """Wait for the first packet."""
         self._stamp_ms: int | None = None
-        self._offset_ms = 0.0  # of our clock from the robot's, when nothing is late
-        self.late_s = 0.0  # by which the last packet came later than it could have
+        self._offset_ms = 0.0  # from the robot's clock to ours, without delays
+        self.late_s = 0.0  # delay of the last packet
 
     def elapsed_s(self, stamp_ms: int, now_s: float) -> float | None:
-        """Return the time since the last packet; None if this is the first one of a count.
+        """Return the time since the last packet; None if this is the first packet of a count.
 
-        stamp_ms: core.time_stamp. now_s: of a clock that never jumps.
+        stamp_ms: core.time_stamp. now_s: from a clock that never jumps.
         """
         last, self._stamp_ms, self.late_s = self._stamp_ms, stamp_ms, 0.0
         offset_ms = 1000.0 * now_s - stamp_ms

@@ -1,4 +1,4 @@
-"""Packets from a Kobuki: of all that it sends, and back."""
+"""Conversion between packets of a Kobuki and their parts."""
 
 from __future__ import annotations
 
@@ -27,11 +27,11 @@ KINDS: dict[int, type[RobotPart]] = {
 
 def build(*parts: RobotPart) -> bytes:
     """Return the packet in which a Kobuki sends these parts."""
-    return packet(b"".join(part(one.ID, one.data()) for one in parts))
+    return packet(b"".join(part(value.ID, value.data()) for value in parts))
 
 
 def parse(payload: bytes) -> list[RobotPart]:
-    """Return the parts of a payload; those of another id or length than known are left out."""
+    """Return the parts of a payload, without those of an unknown id or length."""
     parts: list[RobotPart] = []
     for number, data in split(payload):
         try:

@@ -1,1 +1,1 @@
-"""A driver of a Kobuki, the base of a TurtleBot 2, in place of kobuki_node's in C++."""
+"""A driver for a Kobuki, the base of a TurtleBot 2, which replaces kobuki_node's in C++."""

@@ -1,11 +1,11 @@
-"""Whether a launch file drives a real Kobuki or simulates one (pure)."""
+"""The choice whether a launch file drives a real Kobuki or simulates one."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import NamedTuple
 
-USUAL_PORT = "/dev/kobuki"  # what the udev rule makes; turtlebot_bringup's hook sets it, too
+USUAL_PORT = "/dev/kobuki"  # made by the udev rule; turtlebot_bringup's hook sets it, too
 VARIABLE = "TURTLEBOT_SERIAL_PORT"
 SIMULATION = "TURTLEBOT_SIMULATION"
 REAL = "serialport:=PATH drives a real Kobuki"
@@ -13,27 +13,27 @@ REAL = "serialport:=PATH drives a real Kobuki"
 
 @dataclass(frozen=True)
 class BaseOptions:
-    """What was given: arguments of the launch file, variables, and what the computer has."""
+    """The arguments of the launch file, the variables, and whether the usual port exists."""
 
     port: str = ""  # serialport:=
     simulation: str = ""  # simulation:=, true or false
-    world: str = ""  # of a simulation
+    world: str = ""  # world:=, for a simulation
     port_variable: str = ""
     simulation_variable: str = ""
-    has_usual: bool = False  # whether USUAL_PORT exists
+    has_usual: bool = False  # USUAL_PORT exists
 
 
 class Choice(NamedTuple):
-    """The port of a real robot, or "" for a simulation; and the line that says which and why."""
+    """The port of a real robot, or "" for a simulation, and a line with the reason."""
 
     port: str
     line: str
 
 
 def choose(given: BaseOptions) -> Choice:
-    """Return the Choice: by arguments, then by variables. Raises ValueError, one line.
+    """Return the Choice, by the arguments, then by the variables. Raises ValueError, one line.
 
-    A port that is named is never replaced by a simulation.
+    A simulation never replaces a port that was named.
     """
     if given.simulation not in ("true", "false", ""):
         raise ValueError(f"simulation:={given.simulation}: must be true or false")
@@ -44,7 +44,7 @@ def _by_arguments(given: BaseOptions) -> Choice | None:
     if given.simulation == "true":
         return Choice("", f"a simulated Kobuki, by simulation:=true; without it, {REAL}")
     if given.world and given.port:
-        line = f"a world is simulated, and serialport:={given.port} is of a real robot"
+        line = f"world:= is for a simulation, and serialport:={given.port} for a real robot"
         raise ValueError(f"{line}: give one of them")
     if given.world:
         return Choice("", f"a simulated Kobuki, as a world is simulated; without one, {REAL}")

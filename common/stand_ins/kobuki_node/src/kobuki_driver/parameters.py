@@ -18,25 +18,29 @@ _VOLTAGE = number(5.0, 25.0, "V")
 
 @dataclass(frozen=True)
 class KobukiParameters:
-    """What can be set, with the defaults; README.md has them as a table."""
+    """The parameters with their defaults; README.md has them as a table."""
 
-    device_port: str = parameter("/dev/kobuki", _PATH, "the serial port; waited for if missing")
+    device_port: str = parameter("/dev/kobuki", _PATH, "the serial port; the driver waits for it")
     cmd_vel_timeout: float = parameter(
         0.6, number(0.02, 60.0, "s"), "after which a command expires and the robot stops"
     )
     publish_tf: bool = parameter(
         True, switch, "false leaves the transform to another node, such as a filter"
     )
-    use_imu_heading: bool = parameter(True, switch, "the heading is the gyro's, not the wheels'")
+    use_imu_heading: bool = parameter(
+        True, switch, "true takes the heading from the gyro, false from the wheels"
+    )
     odom_frame: str = parameter("odom", _NAME)
     base_frame: str = parameter("base_footprint", _NAME)
     wheel_left_joint_name: str = parameter("wheel_left_joint", _NAME)
     wheel_right_joint_name: str = parameter("wheel_right_joint", _NAME)
     battery_capacity: float = parameter(16.5, _VOLTAGE, "100 %")
     battery_low: float = parameter(14.0, _VOLTAGE, "below it the battery is low")
-    battery_dangerous: float = parameter(13.2, _VOLTAGE, "5 %, below it critical")
+    battery_dangerous: float = parameter(13.2, _VOLTAGE, "5 %; below it the battery is critical")
     acceleration_limiter: bool = parameter(
-        False, switch, "velocities grow by at most 0.5 m/s2 and 3.5 rad/s2, and fall by 1.2 times"
+        False,
+        switch,
+        "velocities rise by at most 0.5 m/s2 and 3.5 rad/s2, and fall by 1.2 times that",
     )
 
     @property
@@ -48,13 +52,13 @@ class KobukiParameters:
 def parse_parameters(given: Mapping[str, Any]) -> KobukiParameters:
     """Return the checked parameters, with defaults filled in. Raises ValueError, one line."""
     parameters = KobukiParameters(**checked(KobukiParameters, given))
-    for one, other in (
+    for left, right in (
         ("odom_frame", "base_frame"),
         ("wheel_left_joint_name", "wheel_right_joint_name"),
     ):
-        value = getattr(parameters, one)
-        if value == getattr(parameters, other):
-            raise ValueError(f"~{other}: {value!r}: must differ from ~{one}")
+        value = getattr(parameters, left)
+        if value == getattr(parameters, right):
+            raise ValueError(f"~{right}: {value!r}: must differ from ~{left}")
     for less, more in (
         ("battery_dangerous", "battery_low"),
         ("battery_low", "battery_capacity"),

@@ -49,7 +49,7 @@ def _robot(sample: Sample) -> Iterator[Finding]:
         todo = "check the cable, and try it without a USB hub"
         yield wrong(ABOUT, f"{seen} of 50, {sample.damaged} damaged", todo)
     firmware = sample.firmware
-    if firmware and not firmware.is_driven:
+    if firmware and not firmware.is_supported:
         yield wrong(ABOUT, f"{sample.path}: firmware {firmware} is not driven", "update it")
     battery = sample.battery
     if battery and battery.level is Level.DANGEROUS:

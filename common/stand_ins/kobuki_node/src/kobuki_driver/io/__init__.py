@@ -1,1 +1,1 @@
-"""The serial port, and what this computer knows of its ports."""
+"""The serial port, and this computer's information about its ports."""

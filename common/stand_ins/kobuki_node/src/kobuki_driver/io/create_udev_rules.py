@@ -1,4 +1,4 @@
-"""Installs the udev rule of a Kobuki's USB cable; run by root, or through sudo."""
+"""Install the udev rule for a Kobuki's USB cable, as root or through sudo."""
 
 from __future__ import annotations
 
@@ -40,10 +40,10 @@ def main() -> int:
 
 
 def _as_root() -> int:
-    """Run it again through sudo, which would forget where the library is."""
+    """Run this again through sudo, with PYTHONPATH, which sudo drops."""
     sudo = shutil.which("sudo")
     if not sudo:
-        print("create_udev_rules: root alone may do this: run it as root", file=sys.stderr)
+        print("create_udev_rules: only root may do this: run it as root", file=sys.stderr)
         return 1
     path = "PYTHONPATH=" + os.environ.get("PYTHONPATH", "")
     os.execv(sudo, [sudo, "env", path, sys.executable, *sys.argv])
@@ -58,10 +58,10 @@ def _apply() -> None:
 
 
 def _membership() -> str:
-    """Return a line on the user who wants to drive the robot."""
+    """Return a line about the user's membership in the group of the port."""
     user = os.environ.get("SUDO_USER") or pwd.getpwuid(os.getuid()).pw_name
     if user == "root":
-        return f"users of the robot belong to the group {GROUP}: usermod -aG {GROUP} NAME"
+        return f"users of the robot need the group {GROUP}: usermod -aG {GROUP} NAME"
     try:
         is_member = user in grp.getgrnam(GROUP).gr_mem
     except KeyError:

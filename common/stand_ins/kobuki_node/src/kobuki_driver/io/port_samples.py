@@ -1,4 +1,4 @@
-"""Looks at the ports that may lead to a Kobuki, for the doctor."""
+"""Samples from the ports that may lead to a Kobuki, for the doctor."""
 
 from __future__ import annotations
 
@@ -19,17 +19,18 @@ CONVERTERS = "/dev/ttyUSB"
 
 
 def samples() -> list[Sample]:
-    """Return a Sample of each port that a variable names or that a Kobuki has."""
+    """Return a Sample of each port that the variable names or that has a Kobuki's converter."""
     named = os.environ.get(VARIABLE, USUAL_PORT)
     paths = [named] if named != USUAL_PORT or os.path.exists(USUAL_PORT) else []
     paths += [port.path for port in ports() if port.is_kobuki]
-    once = {os.path.realpath(path): path for path in reversed(paths)}  # of one port the named path
-    return [sample(path) for path in once.values()]
+    # A port with several paths counts once; the named path comes first.
+    by_device = {os.path.realpath(path): path for path in reversed(paths)}
+    return [sample(path) for path in by_device.values()]
 
 
 def sample(path: str) -> Sample:
-    """Return what a port shows within a second; a robot is asked for its version."""
-    is_usb = os.path.realpath(path).startswith(CONVERTERS)  # and no pseudo terminal
+    """Return the Sample of a second at a port; ask a robot for its version."""
+    is_usb = os.path.realpath(path).startswith(CONVERTERS)  # not a pseudo terminal
     has_rule = not is_usb or Path(FOLDER, NAME).exists()
     sampler = Sampler()
     try:

@@ -1,4 +1,4 @@
-"""What this computer knows of its serial ports, and who may and does use them."""
+"""The serial ports of this computer, their permissions, and the programs that use them."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from serial.tools import list_ports
 from kobuki_driver.link.port_advice import Port
 
 VENDOR, PRODUCT = 0x0403, 0x6001  # the converter of FTDI (kobuki_ftdi's 57-kobuki.rules)
-SERIAL = "kobuki"  # how the converter's number begins
-LINES = "/dev/tty"  # and not /dev/pts: a simulation may hold its own end
+SERIAL = "kobuki"  # the beginning of the converter's serial number
+LINES = "/dev/tty"  # not /dev/pts, where a simulation may have its own end open
 
 
 def ports() -> list[Port]:
-    """Return the USB ports with a serial line."""
+    """Return the serial ports on USB."""
     return [
         Port(
             port.device,
@@ -31,7 +31,7 @@ def ports() -> list[Port]:
 
 
 def holder(path: str) -> str:
-    """Return another program that has the port open, as "name (pid 1)", or "" if none is seen."""
+    """Return another program that has the port open, as "name (pid 1)", or ""."""
     device = os.path.realpath(path)
     if not device.startswith(LINES):
         return ""
@@ -41,15 +41,15 @@ def holder(path: str) -> str:
         try:
             if device in (os.readlink(fd) for fd in (folder / "fd").iterdir()):
                 return f"{(folder / 'comm').read_text().strip()} (pid {folder.name})"
-        except OSError:  # it has ended, or belongs to another user
+        except OSError:  # the process has exited, or belongs to another user
             continue
     return ""
 
 
 def access(path: str) -> tuple[str, str, bool]:
-    """Return the group that may use a device ("" if none may), this user, and if it is a member.
+    """Return the group that may use a device ("" for none), this user, and whether it is a member.
 
-    A member that has no permission began its session before it became one.
+    A member without permission joined the group after the session began.
     """
     about = os.stat(path)
     user = pwd.getpwuid(os.getuid()).pw_name
@@ -60,7 +60,7 @@ def access(path: str) -> tuple[str, str, bool]:
 
 
 def latency_timer_ms(path: str) -> int | None:
-    """Return how long FTDI's converter waits for more bytes [ms]; None if it is another one."""
+    """Return the latency timer [ms] of FTDI's converter; None for another converter."""
     name = Path(os.path.realpath(path)).name
     try:
         return int(Path(f"/sys/bus/usb-serial/devices/{name}/latency_timer").read_text())

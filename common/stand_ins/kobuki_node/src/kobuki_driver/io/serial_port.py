@@ -1,4 +1,4 @@
-"""The serial port to the robot; whatever is wrong with it becomes one line."""
+"""The serial port to the robot; each error is one line."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from kobuki_driver.link import port_advice
 
 BAUD = 115200
 READ_S = 0.04  # two of the robot's periods
-WRITE_S = 0.05  # A port that takes nothing for so long has old commands in it: they are dropped.
+WRITE_S = 0.05  # after which the commands that a port has not sent are old, and are dropped
 
 
 class SerialPort:
-    """An open port, which no other driver has."""
+    """An open port, locked against other drivers."""
 
     def __init__(self, path: str) -> None:
         """Open and lock the port. Raises PortError."""
@@ -35,15 +35,15 @@ class SerialPort:
             raise PortError(_why(path, error)) from None
 
     def read(self) -> bytes:
-        """Return what has come; wait for it READ_S at most. Raises PortError."""
+        """Return the bytes that have come, after at most READ_S. Raises PortError."""
         try:
             first = self._serial.read(1)
             return first and first + self._serial.read(self._serial.in_waiting)
-        except (OSError, TypeError) as error:  # pyserial reads a port that was closed
+        except (OSError, TypeError) as error:  # TypeError: pyserial, of a port that was closed
             raise PortError(self._gone(error)) from None
 
     def write(self, data: bytes) -> None:
-        """Send bytes; of a port that does not take them all, none is left. Raises PortError."""
+        """Send bytes; if the port does not accept all, drop the rest. Raises PortError."""
         try:
             self._serial.write(data)
         except serial.SerialTimeoutException:
@@ -52,7 +52,7 @@ class SerialPort:
             raise PortError(self._gone(error)) from None
 
     def close(self) -> None:
-        """Close the port, and unlock it."""
+        """Close and unlock the port."""
         try:
             self._serial.close()
         except OSError:

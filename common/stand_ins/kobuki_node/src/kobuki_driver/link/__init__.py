@@ -1,1 +1,1 @@
-"""What is to be said of the line to the robot (pure)."""
+"""The rules of the serial link to the robot."""

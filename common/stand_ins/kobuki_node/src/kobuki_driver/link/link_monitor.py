@@ -1,34 +1,34 @@
-"""Watches the line to the robot: whether it is online, and what is to be reported, each once."""
+"""Monitors the link to the robot: whether it is online, and the events to report."""
 
 from __future__ import annotations
 
 from enum import Enum
 
 OFFLINE_S = 0.1  # without a packet (kobuki.cpp: timeout)
-PATIENCE_S = 1.0  # after the port was opened, before it is called silent
-MANY_DAMAGED = 5  # packets; the first one that is seen is mostly cut off
+PATIENCE_S = 1.0  # after opening the port, before it counts as silent
+MANY_DAMAGED = 5  # packets; the first packet is usually incomplete
 
 
 class LinkEvent(Enum):
-    """What has just become true of the line."""
+    """A change of the link that is reported."""
 
     ONLINE = "packets come"
-    LOST = "packets have ceased"
+    LOST = "packets no longer come"
     SILENT = "nothing comes"
-    FOREIGN = "something else comes"
+    FOREIGN = "bytes come, but no packets"
     DAMAGED = "many packets are damaged"
 
 
 class LinkMonitor:
-    """Judges the line of one open port. Times are in seconds of one clock that never jumps."""
+    """Monitors one open port. Times are in seconds of a clock that never jumps."""
 
     def __init__(self, now_s: float) -> None:
-        """Begin as the port is opened."""
+        """Start when the port is opened."""
         self.opened_s = now_s
         self.is_online = False
         self.count = 0  # bytes
         self.damaged = 0  # packets
-        self._packet_s: float | None = None  # when the last one came
+        self._packet_s: float | None = None  # time of the last packet
         self._reported: set[LinkEvent] = set()
 
     @property
@@ -37,7 +37,7 @@ class LinkMonitor:
         return self._packet_s is not None
 
     def take(self, count: int, packets: int, damaged: int, now_s: float) -> list[LinkEvent]:
-        """Take what one read has brought: bytes and packets; damaged: since the port was opened."""
+        """Return the events of a read with `count` bytes; damaged: since the port was opened."""
         self.count += count
         self.damaged = damaged
         if packets:

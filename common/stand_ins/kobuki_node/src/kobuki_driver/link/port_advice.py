@@ -1,4 +1,4 @@
-"""One line for each way in which a serial port cannot be used: what is wrong, and what to do."""
+"""A line for each problem of a serial port: what is wrong, and what to do."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ class Port:
     """A serial port of this computer."""
 
     path: str
-    is_kobuki: bool = False  # by the number that its converter has
+    is_kobuki: bool = False  # by the serial number of its converter
     description: str = ""
 
 
 def absent(path: str, ports: Sequence[Port]) -> str:
-    """Return the line on a port that does not exist; ports: those that do."""
+    """Return the line for a missing port; ports: those that exist."""
     start = f"there is no {path}; {WAITING}. "
     kobukis = [port.path for port in ports if port.is_kobuki]
     if kobukis:
@@ -29,7 +29,7 @@ def absent(path: str, ports: Sequence[Port]) -> str:
         )
     todo = "Plug in the robot's USB cable, or give another port with serialport:="
     others = ", ".join(_named(port) for port in ports)
-    return f"{start}{todo}; here are: {others}" if others else f"{start}{todo}; here is none"
+    return f"{start}{todo}; there are: {others}" if others else f"{start}{todo}; there are none"
 
 
 def _named(port: Port) -> str:
@@ -37,9 +37,9 @@ def _named(port: Port) -> str:
 
 
 def forbidden(path: str, group: str, user: str, is_member: bool) -> str:
-    """Return the line on a port without permission.
+    """Return the line for a port without permission.
 
-    group: that may use it, or "" if none may. is_member: user is in it, but not in this session.
+    group: may use the port; "" for none. is_member: user belongs to it, but not in this session.
     """
     start = f"no permission for {path}; {WAITING}. "
     if not group:
@@ -50,33 +50,33 @@ def forbidden(path: str, group: str, user: str, is_member: bool) -> str:
 
 
 def taken(path: str, holder: str) -> str:
-    """Return the line on a port that another program has; holder: "name (pid 1)", or ""."""
+    """Return the line for a port that another program has; holder: "name (pid 1)", or ""."""
     who = holder or "another program"
     return f"{who} has {path} open; {WAITING}. End it: two drivers would command one robot"
 
 
 def unusable(path: str, reason: str) -> str:
-    """Return the line on a path that is no serial port, or fails."""
-    return f"{path} is no serial port that works ({reason}); {WAITING}. Give one with serialport:="
+    """Return the line for a path that is not a serial port, or fails."""
+    return f"{path} is not a working serial port ({reason}); {WAITING}. Give one with serialport:="
 
 
 def silent(path: str) -> str:
-    """Return the line on a port from which nothing comes."""
+    """Return the line for a port from which nothing comes."""
     return f"nothing comes from {path}: is the Kobuki switched on? {WAITING.capitalize()}"
 
 
 def foreign(path: str, count: int, ports: Sequence[Port]) -> str:
-    """Return the line on a port from which no packet of a Kobuki comes, but count bytes."""
+    """Return the line for a port from which count bytes came, but no packet of a Kobuki."""
     kobukis = [port.path for port in ports if port.is_kobuki and port.path != path]
     todo = f"a Kobuki is at {kobukis[0]}" if kobukis else "is another device plugged in there?"
     return (
-        f"{count} bytes came from {path}, and no packet of a Kobuki: {todo} "
+        f"{count} bytes came from {path}, but no packet of a Kobuki: {todo} "
         f"{WAITING.capitalize()}; another port: serialport:="
     )
 
 
 def lost(path: str) -> str:
-    """Return the line on a robot whose packets have ceased."""
+    """Return the line for a robot whose packets no longer come."""
     return (
         f"the Kobuki at {path} sends nothing any more: switched off, or a loose cable? "
         f"Or this computer is busy. {WAITING.capitalize()}; then it obeys the next command"
@@ -84,7 +84,7 @@ def lost(path: str) -> str:
 
 
 def unplugged(path: str) -> str:
-    """Return the line on a port that has just gone."""
+    """Return the line for a port that has just disappeared."""
     return (
         f"{path} is gone: was the cable unplugged? {WAITING.capitalize()}; then the robot obeys "
         "the next command"
@@ -92,7 +92,7 @@ def unplugged(path: str) -> str:
 
 
 def damaged(path: str, count: int) -> str:
-    """Return the line on packets that are damaged."""
+    """Return the line for damaged packets."""
     return (
         f"{count} packets from {path} were damaged; the others are used. Check the cable, try it "
         "without a USB hub; ./tutorial doctor shows the latency timer"
@@ -100,8 +100,8 @@ def damaged(path: str, count: int) -> str:
 
 
 def online(path: str) -> str:
-    """Return the line on a robot whose packets come."""
+    """Return the line for a robot whose packets have begun to come."""
     return (
         f"the Kobuki at {path} is online. Just switched on? Leave it still for 3 s and send "
-        "nothing: its gyro starts, and the heading is off if it moves"
+        "nothing: its gyro starts, and the heading is wrong if it moves"
     )

@@ -1,4 +1,4 @@
-"""What a look at the port of a Kobuki has shown, for the doctor (pure)."""
+"""A sample of the bytes at a port of a Kobuki, for the doctor."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from kobuki_protocol.robot_packets import parse
 
 @dataclass(frozen=True)
 class Sample:
-    """A port; complaint: why it could not be looked at, or ""."""
+    """The state of a port; complaint: why it cannot be read, or ""."""
 
     path: str
     complaint: str = ""
     has_rule: bool = True
-    latency_ms: int | None = None  # of FTDI's converter; None: another one
+    latency_ms: int | None = None  # of FTDI's converter; None: another converter
     count: int = 0  # bytes
     packets: int = 0
     damaged: int = 0
@@ -27,10 +27,10 @@ class Sample:
 
 
 class Sampler:
-    """Sums up the bytes of a port."""
+    """Collects the values of a Sample from the bytes of a port."""
 
     def __init__(self) -> None:
-        """Begin without a byte."""
+        """Start without any bytes."""
         self._framer = Framer()
         self.count = self.packets = 0
         self.firmware: FirmwareVersion | None = None
@@ -38,11 +38,11 @@ class Sampler:
 
     @property
     def damaged(self) -> int:
-        """Return how many packets were damaged; the first one is cut off."""
+        """Return the number of damaged packets, without the first one, which is incomplete."""
         return max(0, self._framer.damaged - 1)
 
     def take(self, data: bytes) -> None:
-        """Take bytes."""
+        """Add bytes."""
         self.count += len(data)
         for payload in self._framer.feed(data):
             for part in parse(payload):

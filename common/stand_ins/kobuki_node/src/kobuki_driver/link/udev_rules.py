@@ -1,10 +1,10 @@
-"""The udev rule of a Kobuki's USB cable (pure)."""
+"""The udev rule for a Kobuki's USB cable."""
 
-NAME = "57-kobuki.rules"  # as kobuki_ftdi calls it, so that one replaces the other
+NAME = "57-kobuki.rules"  # kobuki_ftdi's name, so that one file replaces the other
 FOLDER = "/etc/udev/rules.d"
 GROUP = "dialout"
-# FTDI's converter waits for more bytes before it hands some over: 16 ms by default, which delays
-# each packet of the robot, and 1 ms at least.
+# How long FTDI's converter waits for more bytes: 16 ms by default, which delays each packet of the
+# robot, and 1 ms at least.
 LATENCY_MS = 1
 RULES = f"""\
 # The USB cable of a Kobuki, the base of a TurtleBot 2: /dev/kobuki, for the group {GROUP}.

@@ -1,1 +1,1 @@
-"""What the driver knows of the robot and makes of commands (pure)."""
+"""The rules of the robot: velocities, identification, diagnostics."""

@@ -1,4 +1,4 @@
-"""What /diagnostics says of a Kobuki: kobuki_node's tasks, in its words (diagnostics.cpp)."""
+"""The entries of /diagnostics for a Kobuki, with the words of kobuki_node (diagnostics.cpp)."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from kobuki_protocol.battery import Battery, Level
 from kobuki_protocol.feedback import Cliff, Feedback
 
 OK, WARN, ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
-CAPACITY_AH = 2.2  # of the small battery; nothing says which one is in use
+CAPACITY_AH = 2.2  # of the small battery; the Kobuki does not report which it has
 CHARGER_A = 3.14  # of the charger, about
-STALLED = 6  # [10 mA] of a motor: more may be a stall
+STALLED = 6  # [10 mA] of a motor; more may mean a stall
 YES_NO = ("NO", "YES")
 
 

@@ -1,4 +1,4 @@
-"""What a Kobuki is asked when it comes online: its versions, its number, its gains."""
+"""The requests to a Kobuki that comes online: for its versions, its unique id, its gains."""
 
 from __future__ import annotations
 
@@ -6,28 +6,28 @@ from typing import Iterable
 
 from kobuki_protocol.commands import Command, GetController, Request
 from kobuki_protocol.identity import (
-    DRIVEN_MAJOR,
     RECOMMENDED,
+    SUPPORTED_MAJOR,
     Controller,
     FirmwareVersion,
     HardwareVersion,
     UniqueId,
 )
 
-ASK_S = 0.1  # between two questions, while it may still answer
-PATIENCE_S = 2.0  # After so long without an answer it is taken for one of the usual firmware.
-ASK_LATER_S = 5.0  # between two questions, then
+ASK_S = 0.1  # between two requests, within PATIENCE_S
+PATIENCE_S = 2.0  # without an answer for this long, the firmware counts as supported
+ASK_LATER_S = 5.0  # between two requests after that
 
 
 class Identification:
-    """Asks until the robot has answered, and judges its firmware."""
+    """Repeats the requests until the robot has answered, and checks its firmware."""
 
     def __init__(self) -> None:
-        """Begin without a robot."""
+        """Start without a robot."""
         self.begin(0.0)
 
     def begin(self, now_s: float) -> None:
-        """Forget the robot: the next one may be another."""
+        """Forget all answers: this may be another robot."""
         self._began_s, self._asked_s = now_s, now_s - ASK_LATER_S
         self.hardware: HardwareVersion | None = None
         self.firmware: FirmwareVersion | None = None
@@ -35,7 +35,7 @@ class Identification:
         self.controller: Controller | None = None
 
     def take(self, parts: Iterable[object]) -> list[object]:
-        """Take the parts of a packet; return those that are answers."""
+        """Return those parts of a packet that are answers, and remember them."""
         answers: list[object] = []
         for part in parts:
             if isinstance(part, HardwareVersion):
@@ -51,41 +51,41 @@ class Identification:
             answers.append(part)
         return answers
 
-    def questions(self, now_s: float) -> list[Command]:
-        """Return what to ask now."""
+    def requests(self, now_s: float) -> list[Command]:
+        """Return the requests that are due now."""
         every_s = ASK_S if now_s - self._began_s < PATIENCE_S else ASK_LATER_S
         if now_s - self._asked_s < every_s:
             return []
         versions = None in (self.hardware, self.firmware, self.unique_id)
-        asked: list[Command] = [Request()] if versions else []
+        requests: list[Command] = [Request()] if versions else []
         if self.controller is None:
-            asked.append(GetController())
-        if asked:
+            requests.append(GetController())
+        if requests:
             self._asked_s = now_s
-        return asked
+        return requests
 
     def may_drive(self, now_s: float) -> bool:
-        """Return whether the robot is known to obey our commands, or does not say."""
+        """Return whether the firmware is supported, or has not answered within PATIENCE_S."""
         if self.firmware is None:
             return now_s - self._began_s >= PATIENCE_S
-        return self.firmware.is_driven
+        return self.firmware.is_supported
 
     def objection(self) -> str:
-        """Return one line on the firmware, if there is something to be said."""
+        """Return a line about firmware that is not recommended, or ""."""
         if self.firmware is None or self.firmware.is_recommended:
             return ""
-        if not self.firmware.is_driven:
+        if not self.firmware.is_supported:
             what = (
                 "update the robot's"
-                if self.firmware.major < DRIVEN_MAJOR
+                if self.firmware.major < SUPPORTED_MAJOR
                 else "look for a newer driver"
             )
             return (
-                f"firmware {self.firmware}: this driver knows {DRIVEN_MAJOR}.x and does not drive "
-                f"the robot; {what} (https://kobuki.readthedocs.io/en/devel/firmware.html)"
+                f"firmware {self.firmware}: this driver supports only {SUPPORTED_MAJOR}.x, and does "
+                f"not drive the robot; {what} (https://kobuki.readthedocs.io/en/devel/firmware.html)"
             )
         newer = ".".join(map(str, RECOMMENDED))
         return (
-            f"firmware {self.firmware} is driven; {newer} or newer is recommended "
+            f"firmware {self.firmware} is supported; {newer} or newer is recommended "
             "(https://kobuki.readthedocs.io/en/devel/firmware.html)"
         )

@@ -1,4 +1,4 @@
-"""What the driver publishes: kobuki_node's topics, in the namespace of the node."""
+"""The topics that the driver publishes, those of kobuki_node, in the node's namespace."""
 
 from __future__ import annotations
 
@@ -51,19 +51,19 @@ READING = rospy.Duration.from_sec(READING_PERIOD_S)
 
 
 class BaseTopics:
-    """The publishers; all but events and what is latched is made only for subscribers."""
+    """The publishers. Messages other than events and latched ones are made only for subscribers."""
 
     def __init__(self, parameters: KobukiParameters, prefix: str) -> None:
-        """Take the prefix of the frames."""
+        """Create the publishers; prefix: for the frames."""
         self._prefix = prefix
         self._prompt = {name: PromptPublisher(f"~{name}", kind) for name, kind in PROMPT.items()}
         self._tf = PromptPublisher("/tf", TFMessage) if parameters.publish_tf else None
-        self._rare = {
+        self._queued = {
             f"events/{name}": rospy.Publisher(f"~events/{name}", kind, queue_size=QUEUE)
             for name, kind in EVENTS.items()
         }
         for name, kind in LATCHED.items():
-            self._rare[name] = rospy.Publisher(f"~{name}", kind, queue_size=QUEUE, latch=True)
+            self._queued[name] = rospy.Publisher(f"~{name}", kind, queue_size=QUEUE, latch=True)
         self._odometry = OdometryMessages(
             prefix + parameters.odom_frame,
             prefix + parameters.base_frame,
@@ -75,7 +75,7 @@ class BaseTopics:
         self._transforms = TFMessage([self._odometry.transform])
 
     def odometry(self, state: OdometryState, stamp: rospy.Time) -> None:
-        """Publish pose, transform and wheels."""
+        """Publish pose, transform and wheel joints."""
         self._odometry.write(state, stamp)
         if self._tf:
             self._tf.publish(self._transforms)
@@ -83,7 +83,7 @@ class BaseTopics:
         self._prompt["joint_states"].publish(self._odometry.joints)
 
     def sensors(self, feedback: Feedback, heading: float, stamp: rospy.Time) -> None:
-        """Publish what a packet says; heading: of the gyro [rad]."""
+        """Publish the sensor values of a packet; heading: the gyro's [rad]."""
         prefix = self._prefix
         if self._is_wanted("sensors/core"):
             self._send("sensors/core", messages.sensor_state(feedback, stamp))
@@ -99,17 +99,17 @@ class BaseTopics:
                 self._send("sensors/imu_data_raw", imu)
 
     def stream(self, payload: bytes) -> None:
-        """Publish a packet that came."""
+        """Publish a received packet."""
         if self._is_wanted("debug/raw_data_stream"):
             self._send("debug/raw_data_stream", messages.stream_text(packet(payload)))
 
     def sent(self, data: bytes) -> None:
-        """Publish a packet that was sent."""
+        """Publish a sent packet."""
         if self._is_wanted("debug/raw_data_command"):
             self._send("debug/raw_data_command", messages.command_text(data))
 
     def control(self, velocity: Velocity) -> None:
-        """Publish what the wheels were commanded."""
+        """Publish the velocity that was commanded."""
         if self._is_wanted("debug/raw_control_command"):
             values = Int16MultiArray(data=control_values(*velocity))
             self._send("debug/raw_control_command", values)
@@ -117,11 +117,11 @@ class BaseTopics:
     def events(self, made: list[Event]) -> None:
         """Publish events."""
         for name, event in made:
-            self._rare[f"events/{name}"].publish(event)
+            self._queued[f"events/{name}"].publish(event)
 
-    def rare(self, name: str, message: Any) -> None:
-        """Publish a message of one of the topics that are latched."""
-        self._rare[name].publish(message)
+    def latch(self, name: str, message: Any) -> None:
+        """Publish a message on a latched topic."""
+        self._queued[name].publish(message)
 
     def _is_wanted(self, name: str) -> bool:
         return self._prompt[name].listeners > 0
@@ -131,16 +131,16 @@ class BaseTopics:
 
 
 class DiagnosticTopic:
-    """Publishes entries on /diagnostics, once a second if it is called so."""
+    """Publishes entries on /diagnostics."""
 
     def __init__(self) -> None:
-        """Begin without entries."""
+        """Start without entries."""
         self._updater = diagnostic_updater.Updater()
         self._updater.setHardwareID("Kobuki")
         self._entries: dict[str, Entry] = {}
 
     def publish(self, entries: list[Entry]) -> None:
-        """Publish entries, which are always of the same names."""
+        """Publish entries, whose names are the same in each call."""
         for entry in entries:
             if entry.name not in self._entries:
                 self._updater.add(entry.name, lambda status, of=entry.name: self._fill(status, of))

@@ -1,4 +1,4 @@
-"""The program that launch files start as mobile_base: the driver, or the simulation."""
+"""The program that launch files start as mobile_base: the driver or the simulation."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ NODE_NAME = "mobile_base"
 
 
 def main() -> int:
-    """Choose by the command line, and run; return the exit code."""
+    """Choose the driver or the simulation, and run it; return the exit code."""
     reader = argparse.ArgumentParser(allow_abbrev=False)
     reader.add_argument("--port", default="", help="serialport:= of the launch file")
     reader.add_argument("--simulation", default="", help="simulation:= of the launch file")
@@ -66,7 +66,7 @@ def _simulate() -> int:
 
 
 def _forget(names: Iterable[str]) -> None:
-    """Delete the parameters of the other one: to a node they would be mistakes."""
+    """Delete the other program's parameters, which the node would report as unknown."""
     for name in names:
         call(rosgraph.get_master_uri(), "deleteParam", _own(name))
 

@@ -1,4 +1,4 @@
-"""The robot at an open port: packets in, messages and commands out."""
+"""The link to the robot: turns packets into messages, and sends commands."""
 
 from __future__ import annotations
 
@@ -26,18 +26,18 @@ from kobuki_protocol.framing import Framer
 from kobuki_protocol.identity import Controller, FirmwareVersion
 from kobuki_protocol.odometry import Odometry
 
-SOFTWARE = "1.0.0"  # of this driver, for version_info
-MOST_WAITING = 100  # commands, while the port is shut
-LAST_ZEROS = 3  # at the end: one may be damaged
+SOFTWARE = "1.0.0"  # version of this driver, in version_info
+MOST_WAITING = 100  # commands, while the port is closed
+LAST_ZEROS = 3  # at the end, as a packet may be damaged
 
 
 class KobukiLink:
-    """Serves the robot. The main thread reads and writes; callbacks only change what is wanted."""
+    """Serves the robot. The main thread reads and writes; callbacks only set what to write."""
 
     def __init__(
         self, parameters: KobukiParameters, topics: BaseTopics, report: Callable[..., None]
     ) -> None:
-        """Begin without a port; report(line, is_bad) shows a line."""
+        """Start without a port; report(line, is_bad) logs a line."""
         self._parameters, self._topics, self._report = parameters, topics, report
         self._lock = threading.Lock()
         self.control = VelocityControl(parameters.cmd_vel_timeout, parameters.acceleration_limiter)
@@ -46,30 +46,30 @@ class KobukiLink:
         self._identification = Identification()
         self._waiting: deque[commands.Command] = deque(maxlen=MOST_WAITING)
         self._port: SerialPort | None = None
-        self._topics.rare("events/robot_state", RobotStateEvent(RobotStateEvent.OFFLINE))
+        self._topics.latch("events/robot_state", RobotStateEvent(RobotStateEvent.OFFLINE))
 
     @property
     def is_online(self) -> bool:
-        """Return whether packets come."""
+        """Return whether packets come from the robot."""
         return self.control.is_online
 
     def open(self, port: SerialPort, now_s: float) -> None:
-        """Take a port that was just opened."""
+        """Use a port that was just opened."""
         self._port, self._framer, self._monitor = port, Framer(), LinkMonitor(now_s)
 
     def close(self) -> None:
-        """Take it that the port is closed."""
+        """Record that the port was closed."""
         self._port = None
         self._switch(is_online=False)
 
     def take(self, data: bytes, now_s: float, stamp: rospy.Time) -> bool:
-        """Take what was read, which may be nothing; return whether to command the robot."""
+        """Process the bytes of a read, if any; return whether to command the robot."""
         payloads = self._framer.feed(data)
         packets = [(payload, robot_packets.parse(payload)) for payload in payloads]
         cores = sum(any(isinstance(part, Core) for part in parts) for _, parts in packets)
         damaged = self._framer.damaged
         for event in self._monitor.take(len(data), cores, damaged, now_s):
-            self._tell(event, now_s)
+            self._on_link_event(event, now_s)
         for payload, parts in packets:
             self._take_packet(parts, now_s, stamp)
             self._topics.stream(payload)
@@ -78,7 +78,7 @@ class KobukiLink:
         return cores > 0 or (self._monitor.was_online and not (data or self._monitor.is_online))
 
     def _stamp(self, now: rospy.Time) -> rospy.Time:
-        """Return when the robot made the packet, which may have waited in the port."""
+        """Return the time at which the robot made the packet, without its delay in the port."""
         late_ns = round(1e9 * self._odometry.late_s)
         return rospy.Time(0, max(0, now.to_nsec() - late_ns))
 
@@ -96,15 +96,15 @@ class KobukiLink:
     def _introduce(self, answer: object) -> None:
         known = self._identification
         if isinstance(answer, Controller):
-            self._topics.rare("controller_info", messages.controller_info(answer))
+            self._topics.latch("controller_info", messages.controller_info(answer))
         elif known.hardware and known.firmware and known.unique_id:
             about = known.hardware, known.firmware, known.unique_id
-            self._topics.rare("version_info", messages.version_info(*about, software=SOFTWARE))
+            self._topics.latch("version_info", messages.version_info(*about, software=SOFTWARE))
         if isinstance(answer, FirmwareVersion) and known.objection():
             self._report(known.objection(), is_bad=True)
 
     def command_robot(self, now_s: float) -> None:
-        """Send a base control, and what waits."""
+        """Send a base control, waiting commands and requests."""
         with self._lock:
             if self.control.expires(now_s):
                 timeout_s = self._parameters.cmd_vel_timeout
@@ -119,7 +119,7 @@ class KobukiLink:
             self._waiting.clear()
         self._write(base_control(*velocity))
         self._topics.control(velocity)
-        for command in (*waiting, *self._identification.questions(now_s)):
+        for command in (*waiting, *self._identification.requests(now_s)):
             self._write(command)
 
     def _write(self, command: commands.Command) -> None:
@@ -129,15 +129,15 @@ class KobukiLink:
             self._topics.sent(data)
 
     def rest(self) -> None:
-        """Stop the robot, as the driver ends."""
+        """Stop the robot when the driver exits."""
         self.stop()
         try:
             for _ in range(LAST_ZEROS if self._monitor.was_online else 0):
                 self._write(base_control(*ZERO))
         except PortError:
-            pass  # it has gone first
+            pass  # the port has failed already
 
-    def _tell(self, event: LinkEvent, now_s: float) -> None:
+    def _on_link_event(self, event: LinkEvent, now_s: float) -> None:
         path, monitor = self._parameters.device_port, self._monitor
         if event is LinkEvent.ONLINE:
             self._identification.begin(now_s)
@@ -162,25 +162,25 @@ class KobukiLink:
             if not is_online:
                 self._odometry.rest()
         state = RobotStateEvent.ONLINE if is_online else RobotStateEvent.OFFLINE
-        self._topics.rare("events/robot_state", RobotStateEvent(state))
+        self._topics.latch("events/robot_state", RobotStateEvent(state))
 
     def command(self, velocity: Velocity, now_s: float) -> VelocityResult:
-        """Take a velocity from a callback, as the next ones."""
+        """Set a velocity; for callbacks, like the methods below."""
         with self._lock:
             return self.control.command(velocity, now_s)
 
     def stop(self) -> None:
-        """Stand until the next velocity."""
+        """Stop until the next velocity."""
         with self._lock:
             self.control.stop()
 
     def switch_motors(self, is_on: bool) -> None:
-        """Obey velocities, or none."""
+        """Switch the motors on or off; while they are off, velocities are ignored."""
         with self._lock:
             self.control.switch_motors(is_on)
 
     def reset_odometry(self) -> None:
-        """Begin again at the origin."""
+        """Return the odometry to the origin."""
         with self._lock:
             self._odometry.reset()
 

@@ -1,4 +1,4 @@
-"""The node: a serial port on one side, ROS on the other."""
+"""The node kobuki_node: the driver's topics and its serial port."""
 
 from __future__ import annotations
 
@@ -27,14 +27,14 @@ from node_kit.ros.rospy_patches.fresh_only import FreshOnly
 from node_kit.rules.throttle import ThrottleEach
 
 NODE_NAME = "kobuki_node"
-LOOK_AGAIN_S = 1.0  # for a port that could not be opened
+LOOK_AGAIN_S = 1.0  # between two attempts to open the port
 DIAGNOSTICS_S = 1.0
 LONGEST_END_S = 0.3  # for the last zero
-SAME_LINE_HZ = 0.1  # how often one line is repeated
+SAME_LINE_HZ = 0.1  # at which a line is repeated, at most
 
 
 class KobukiNode:
-    """Drives a Kobuki at a serial port; waits for the port and the robot, whatever becomes of them.
+    """Drives a Kobuki at a serial port; waits for the port and the robot whenever one is missing.
 
     Subscribers: ~commands/velocity (geometry_msgs/Twist), ~commands/reset_odometry
         (std_msgs/Empty), ~commands/motor_power, led1, led2, digital_output, external_power, sound,
@@ -48,7 +48,7 @@ class KobukiNode:
     """
 
     def __init__(self, parameters: KobukiParameters) -> None:
-        """Take the parameters; the port is opened by spin()."""
+        """Subscribe; spin() opens the port."""
         self._parameters = parameters
         self._log = Log()
         self._throttle = ThrottleEach(SAME_LINE_HZ)
@@ -74,7 +74,7 @@ class KobukiNode:
 
     def spin(self) -> None:
         """Serve the robot until shut down."""
-        trouble = ""  # the last one, which is reported once
+        trouble = ""  # the last error, which is reported once
         while not self._ending.is_set():
             try:
                 port = SerialPort(self._parameters.device_port)
@@ -128,7 +128,7 @@ class KobukiNode:
     def _notice_suspension(self) -> None:
         if self._fresh.notice():
             self._line.stop()
-            self._report("the driver was suspended; what was sent meanwhile is not obeyed")
+            self._report("the driver was suspended; commands sent meanwhile are ignored")
 
     def _on_velocity(self, twist: Any) -> None:
         velocity = twist.linear.x, twist.angular.z
@@ -159,14 +159,14 @@ class KobukiNode:
             self._log.error(f"commands: {error}; ignored")
 
     def _end(self) -> None:
-        """Let the last command be zero."""
+        """Stop the robot, and wait until the last zero was sent."""
         self._line.stop()
         self._ending.set()
         self._has_ended.wait(LONGEST_END_S)
 
 
 def frame_prefix() -> str:
-    """Return the tf_prefix of the namespace with a slash, as ROS 1 has it, or ""."""
+    """Return the tf_prefix of the namespace with a slash, as in ROS 1, or ""."""
     name = rospy.search_param("tf_prefix")
     return f"{rospy.get_param(name)}/".lstrip("/") if name else ""
 
