@@ -49,7 +49,7 @@ def printed(output):
     (judge.talker, TALKER, {"master_alive": False}, "has ended it"),
     (judge.talker, TALKER + "while True: pass", TORRENT, "thousands of messages"),
     (judge.listener, LISTENER, {"listener": printed(STRINGS[0])}, "1 of 5 displayed"),
-    (judge.graph, "", {}, "no such way in the graph"),
+    (judge.graph, "", {}, "no such connection in the graph"),
     # C9 and C10 look again, and talker and listener do not come as far as they did before.
     (judge.anonymous, TALKER, {}, "not one message"),
     (judge.ctrl_c, TALKER, ENDED, "it ended, exit code"),

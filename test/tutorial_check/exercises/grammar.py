@@ -227,7 +227,7 @@ MISTAKES = [
         "linear.x"),
     wrong("order: published, then set", f"{TWICE}\n{SET}", "one message late", KEPT),
     wrong("order: one of them is set too late", f"my.{X}\n{TWICE}\nmy.{Z}",
-        "angular.z follows the Joy before", KEPT),
+        "angular.z follows the previous Joy", KEPT),
     wrong("order: the axes swapped", values("data.axes[0]", "data.axes[1]"), "swapped"),
 ]  # fmt: skip
 WATCHDOG = (

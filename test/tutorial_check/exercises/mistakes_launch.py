@@ -154,7 +154,7 @@ ROWS = [
         "\u2014clock, which it does not", "two plain hyphens: --clock"),
     bag22("bag without a path", "$(find joy2twist)/bag/joy.bag", "joy.bag", "whole path"),
     bag22("a quote that is not closed", '"-d $(find', '"-d \'$(find', "launch_bag.launch:2",
-        "second quote"),
+        "closing quote"),
     mistake("a recording that cannot be played", [write(JOY_BAG, "none")], "C22",
         "joy2twist/bag/joy.bag", "copy it again"),
     mistake("a folder in place of the recording",

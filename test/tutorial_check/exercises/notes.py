@@ -43,7 +43,7 @@ NOTES = [
         C16=("are curves of their axes",), C18=()),
     noted("the publisher made late, by a function above", "4.3",
         [put(JOY2TWIST, PUB, "pub = made()"), put(JOY2TWIST, "def listener", f"{LATE}&")],
-        C18=("joy2twist.py:24", "finds no pub")),
+        C18=("joy2twist.py:24", "there is no pub")),
     noted("two Twists for a Joy", "4.3", [put(JOY2TWIST, "pub.publish(msg)",
         "&\n    pub.publish(msg)")], C16=("joy2twist.py:14", "2 Twists for each Joy",
         "one is enough")),

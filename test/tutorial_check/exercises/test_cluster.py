@@ -38,7 +38,7 @@ RACE = "Twist for String"  # whichever of its two programs comes first decides w
 ROWS = [row for row in OF_HANDOUT if row.exercise == EXERCISE and row.what != RACE]
 SUBMISSIONS, LONGEST_S = 8, 1800.0
 GONE = (
-    f"check: no verdict: the scheduler at {ADDRESS} is gone; call again, and it goes on from here"
+    f"check: no verdict: the scheduler at {ADDRESS} has ended; run the command again to continue"
 )
 
 

@@ -90,8 +90,8 @@ def test_another_error_is_not_called_python_2(line):
         ("def f():\n    pub = 1\n    global pub\n", 3, "`global pub` is the first line"),
         ("def f():\n    print(pub)\n    global pub\n", 3, "`global pub` is the first line"),
         ("def f(pub):\n    global pub\n", 2, "needs no `global pub`"),
-        ("def f():\n    x = 1\nreturn x\n", 3, "return stands outside"),
-        ("while True:\n    pass\nbreak\n", 3, "break stands outside"),
+        ("def f():\n    x = 1\nreturn x\n", 3, "return is outside"),
+        ("while True:\n    pass\nbreak\n", 3, "break is outside"),
         ("x y", 1, "cannot read"),
     ],
 )

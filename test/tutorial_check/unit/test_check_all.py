@@ -186,14 +186,14 @@ def test_a_folder_called_variants_is_a_submission_unless_it_is_named(group, caps
     group.add("ada", "variants")
     (group.folder / "variants/ada.yaml").write_text("no task")
     assert [row[:2] for row in group.check_all()[1]] == [["ada", "ok"], ["variants", "ok"]]
-    assert "variants: a submission; if it has the tasks" in capsys.readouterr().out
+    assert "variants: a submission; if it has students' tasks" in capsys.readouterr().out
     code, rows = group.check_all(variant=str(group.folder / "variants"))
     assert (code, [row[0] for row in rows]) == (2, ["ada"]) and "a map of values" in rows[0][-1]
 
 
 @pytest.mark.parametrize(
     ("blocked", "out", "why"),
-    [("check/table.html/", None, "Is a directory"), ("file", "file", "--out names another")],
+    [("check/table.html/", None, "Is a directory"), ("file", "file", "with --out")],
 )
 def test_results_that_cannot_be_written_are_found_before_the_work(group, blocked, out, why):
     group.add("ada")

@@ -133,6 +133,6 @@ def test_a_retry_on_a_busy_machine_or_without_a_line(about, busy, overloaded, lo
     one, called = run([check], busy, overloaded, A=come_to)
     assert one.result("A").status == status
     assert (len(called), one._submission.forgotten) == (looks, looks - 1)
-    assert ("the machine has too much else to do" in one.trouble("1")) == (status == UNREACHED)
+    assert ("the machine is too busy" in one.trouble("1")) == (status == UNREACHED)
     checks = checks_of(read_course())
     assert {"C5", "C13", "C21", "C29"} <= {each.id for each in checks if each.timeless}

@@ -91,7 +91,7 @@ def test_what_changed_since_the_last_run():
     worse = Student("eve", None, [wrong("a")], before=[well])
     another = Student("zoe", None, [wrong("a", "C17")], before=[wrong("a")])
     assert changes(again)["stuck"] == ["C16 axes"]
-    assert (changes(fixed)["now done"], changes(worse)["no more done"]) == (["5"], ["5"])
+    assert (changes(fixed)["now done"], changes(worse)["no longer done"]) == (["5"], ["5"])
     assert not any(changes(another).values())
     page = table_html([again, fixed, worse, another], ["5"], TITLES, ABOUT)
     since = page[page.index("Since the last run") : page.index("Legend")]

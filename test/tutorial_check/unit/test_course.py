@@ -65,7 +65,7 @@ def test_a_course_and_its_checks_in_its_order(course):
 @pytest.mark.parametrize(
     ("text", "why"),
     [
-        ("", "a map of title, document, sheet, exercises, variants, packages is"),
+        ("", "must be a map of title, document, sheet, exercises, variants, packages"),
         ("title: [", "no YAML"),
         ("title: T\n", "exercises: "),
         ("points: 3\n", "points is not known; known are title, document, sheet, exercises"),

@@ -14,7 +14,7 @@ from .joys import COUNT, ROUNDED
 from .probe_diagnoses import SILENCES
 
 MOST_STRAY_ZEROS = 2  # in a row of Joys
-IN_CALLBACK = "publish in the callback alone, once for every Joy; end with rospy.spin()"
+IN_CALLBACK = "publish only in the callback, once for every Joy; end with rospy.spin()"
 
 
 def callback_sleeps(node: Joy2TwistNode) -> Wrong | None:
@@ -28,7 +28,7 @@ def callback_sleeps(node: Joy2TwistNode) -> Wrong | None:
 
 def displayed_by_another_file(node: Joy2TwistNode) -> Note | None:
     script = node.first_version
-    return Note(f"displayed by {script}, no more by {node.script}") if script else None
+    return Note(f"displayed by {script}, no longer by {node.script}") if script else None
 
 
 def some_displayed(node: Joy2TwistNode) -> Note | None:
@@ -51,7 +51,7 @@ DISPLAYED = (crashed, displayed_by_another_file, some_displayed, callback_sleeps
 def rounded_too_far(node: Joy2TwistNode) -> Wrong | None:
     if node.values_displayed(10 * ROUNDED) != AXES:
         return None
-    seen = "the six values have less than two decimals"
+    seen = "the six values have fewer than two decimals"
     return Wrong("", seen, node.script, "%.2f for each value")
 
 
@@ -64,7 +64,7 @@ def some_values_left_out(node: Joy2TwistNode) -> Wrong | None:
 
 def logs_at_debug(node: Joy2TwistNode) -> Note | None:
     is_debug = {"logdebug", "Publisher"} <= {*node.source.calls}
-    return Note("it logs at the level debug, which is not shown") if is_debug else None
+    return Note("it logs at level debug, which is not displayed") if is_debug else None
 
 
 def nothing_displayed(node: Joy2TwistNode) -> Wrong:
@@ -103,7 +103,7 @@ def zeros_between_answers(node: Joy2TwistNode) -> Wrong | None:
 def twists_without_joys(node: Joy2TwistNode) -> Wrong | None:
     if not node.run.numbered.repeats:
         return None
-    seen = "Twists come by a clock of its own: without a joystick the robot drives on"
+    seen = "Twists come from a clock of its own: without a joystick the robot drives on"
     return Wrong("", seen, node.loop, IN_CALLBACK)
 
 
@@ -175,7 +175,7 @@ def latched(node: Joy2TwistNode) -> Note | None:
     calls = node.source.calls.get("Publisher", [])
     if not any(call.names.get("latch") == "True" for call in calls):
         return None
-    seen = "latch=True: a subscriber that comes late gets a velocity of long ago"
+    seen = "latch=True: a late subscriber gets an old velocity"
     return Note(seen, hint="leave latch out")
 
 

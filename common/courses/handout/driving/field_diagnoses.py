@@ -87,7 +87,7 @@ def two_axes_in_one(field: TwistField) -> Wrong | None:
 
 def one_message_late(field: TwistField) -> Wrong | None:
     hint = "first put the values into the message, then publish it"
-    seen = "follows the Joy before: each Twist is one message late"
+    seen = "follows the previous Joy: each Twist is one message late"
     return _odd(field, seen, hint) if field.is_late else None
 
 
@@ -153,7 +153,7 @@ def steps(field: TwistField) -> Wrong | None:
 
 def no_constant_factor(field: TwistField) -> Wrong | None:
     is_right = field.is_curve and not field.wanted
-    return None if is_right else _odd(field, f"is no constant times {_axis(field)}")
+    return None if is_right else _odd(field, f"is not a constant times {_axis(field)}")
 
 
 # For a field that is no positive constant times its axis, or has another factor than the task's.

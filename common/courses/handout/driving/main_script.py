@@ -34,5 +34,5 @@ def check_manifest(submission: Submission, script: str) -> None:
     if call and not is_known and not submission.recording(known_package, name).is_known:
         expected = "roslib.load_manifest names a package that exists"
         named = submission.task.name_of(PACKAGE)
-        hint = f"load_manifest('{named}'); or leave the line out: catkin needs it no more"
+        hint = f"load_manifest('{named}'); or delete the line: catkin no longer needs it"
         raise Wrong(expected, f"ResourceNotFound: {name}", f"{script}:{call.line}", hint)

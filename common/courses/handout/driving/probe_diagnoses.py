@@ -28,7 +28,7 @@ def silent_at_the_same_joy(silence: Silence) -> Wrong | None:
 
 def silent_at_a_button(silence: Silence) -> Wrong | None:
     button = other_button(silence.task, silence.joy)
-    hint = "silence stops no robot: to stop it publish Twist(), all zero, before return"
+    hint = "silence does not stop the robot: to stop it publish Twist(), all zero, before return"
     seen = f"no Twist for a Joy with {button} pressed: the robot drives on"
     return Wrong("", seen, hint=hint) if button else None
 
@@ -38,7 +38,7 @@ def silent_on_release(silence: Silence) -> Wrong | None:
         return None
     names, lb = silence.task.names, silence.task.answers.lb
     seen = f"no Twist for a Joy with {names.lb} released ({names.button} = 0): the robot drives on"
-    hint = f"silence stops no robot: with {lb} released publish Twist(), all zero"
+    hint = f"silence does not stop the robot: with {lb} released publish Twist(), all zero"
     return Wrong("", seen, hint=hint)
 
 

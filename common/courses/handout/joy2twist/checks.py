@@ -60,6 +60,6 @@ def under_load(submission: Submission) -> Note | None:
     first, second = (call.line if call else 0 for call in made)
     if not 0 < first < second and not submission.recording(loaded, script).failed:
         return None
-    seen = "the subscriber comes before the publisher: a Joy that comes at once finds no pub"
+    seen = "the subscriber comes before the publisher: for a Joy that comes at once there is no pub"
     where, hint = f"{script}:{first or 1}", "first the Publisher, then the Subscriber"
     return Note(f"{seen} (the handout has it so)", where, hint)

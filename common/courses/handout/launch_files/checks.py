@@ -99,7 +99,7 @@ class BagPlayer:
 def short_hyphens(player: BagPlayer) -> Wrong | None:
     odd = (word for word in player.words if re.fullmatch(rf"[-–—]({LONG_OPTIONS})", word))
     for word in odd:
-        seen, hint = f"{word}, which it does not", f"two plain hyphens: --{word[1:]}"
+        seen, hint = f"{word}, which it does not know", f"two plain hyphens: --{word[1:]}"
         return Wrong("options that rosbag play knows", seen, player.file.at(word), hint)
     return None
 
@@ -224,7 +224,7 @@ def bag_drives(submission: Submission) -> None:
 def bag_loops(submission: Submission) -> None:
     player, _, run = _bag_run(submission)
     if not run.loops and not player.node["respawn"]:
-        expected = "/joy flows on after the end of the recording"
+        expected = "/joy continues after the end of the recording"
         hint = "rosbag play --loop: in args= of that node"
         raise Wrong(expected, "it falls silent", player.where, hint)
 

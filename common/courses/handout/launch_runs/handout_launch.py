@@ -75,8 +75,8 @@ class HandoutLaunch(LaunchFile):
         try:
             return shlex.split(node["args"])
         except ValueError as error:
-            expected, seen = "a second quote for each one in args", f"{node['args']} ({error})"
-            hint = "leave the ' out: a path without spaces needs none"
+            expected, seen = "a closing quote for each quote in args", f"{node['args']} ({error})"
+            hint = "delete the ': a path without spaces needs none"
             raise Wrong(expected, seen, self.at_node(node), hint) from None
 
 
@@ -141,7 +141,7 @@ def tag_within_a_node(file: HandoutLaunch) -> Wrong | None:
         return None
     where = f"{file.where}:{line_of(file.text, start.start())}"
     hint = "the <node> of this line goes on to its </node>: close it first, with /> or </node>"
-    expected = "no tag in a <node> but remap, param, rosparam and env"
+    expected = "only remap, param, rosparam and env in a <node>"
     return Wrong(expected, f"<{tag[1]}> in it: ignored by roslaunch", where, hint)
 
 
@@ -186,7 +186,7 @@ def _no_own_program(file: HandoutLaunch, node: LaunchNode) -> Wrong:
     files = [path for path in submission.package(PACKAGE).folder.rglob("*") if path.is_file()]
     for path in (path for path in files if path.name == kind):
         hint = f"chmod +x {submission.whole(path, PACKAGE)}"
-        return Wrong(f"{kind} may be run", "it is not executable", place, hint)
+        return Wrong(f"an executable {kind}", "it is not executable", place, hint)
     if kind == NAME:
         find_script(submission, PACKAGE, NAME)  # raises Wrong with a similar name, if there is one
     hint = meant(kind, sorted(path.name for path in files), 0.7, 'type="{}"')
@@ -207,7 +207,7 @@ def lost_file(file: HandoutLaunch) -> Wrong | None:
         )
         there = sorted(path.relative_to(folder) for path in folder.rglob(name))
         hint = f"it is elsewhere: $(find {package})/{there[0]}" if there else hint
-        hint += "; roslaunch would take another workspace's file and not say so"
+        hint += "; roslaunch would take another workspace's file without a warning"
         expected = f"$(find {file.submission.task.names.package}){match[1]} in your package"
         where = f"{file.where}:{line_of(file.text, match.start())}"
         return Wrong(expected, f"no {match[1]} in it", where, hint)

@@ -120,7 +120,7 @@ def late_zero(ending: DrivingEnd) -> Wrong | None:
 
 
 def still_running(ending: DrivingEnd) -> Wrong | None:
-    hint = "does shutdown come to an end? one second of rest is enough"
+    hint = "does shutdown end? one second of rest is enough"
     is_gone = ending.end.took_s is not None
     return None if is_gone else ending.wrong("it still runs 3 s later", hint)
 
@@ -134,9 +134,9 @@ def stops(submission: Submission) -> Note | str | None:
         must_pass((no_zero, late_zero, still_running), ending)
     if not seen.robot_rests:
         expected = "the robot stands within a second of the end of the node"
-        hint = "what the program has started ends with it; who publishes? rostopic info "
+        hint = "does another node publish, which the program has started? rostopic info "
         hint += submission.task.answers.cmd_vel
-        rides = "the node is gone, and the robot still drives"
+        rides = "the node has ended, and the robot still drives"
         raise Wrong(expected, rides, cases[0].where, hint)
     return ", ".join(
         f"{way}: zero after {1000 * (end.zero_after_s or 0.0):.0f} ms,"
@@ -169,9 +169,9 @@ def errors_are_seen(submission: Submission) -> Note | str | None:
     if seen.ended and not REPORTS.search(output):
         words = f"nobody publishes on {submission.task.names.joy}, and it ends; it printed: "
         words += last_lines(output) or "nothing"
-        hint = "a Subscriber waits by itself, for as long as it takes;"
-        hint += " what an except catches, it should show"
-        expected = "without a joystick it waits for one, or says what it misses"
+        hint = "a Subscriber waits by itself for the first message;"
+        hint += " an except should display what it catches"
+        expected = "without a joystick it waits for one, or reports what is missing"
         raise Wrong(expected, words, where, hint)
     if not NAMES_IT.search(seen.broken.output) if seen.broken and seen.broken_ended else excepts:
         words = "except: hides every mistake, a misspelt name as well as Ctrl-C"

@@ -20,7 +20,7 @@ from tutorial_check import (
 
 from ..task import NAME, PACKAGE
 
-IS_CLASS = "a class with __init__, its callback bound to self, made under __main__"
+IS_CLASS = "a class with __init__, its callback bound to self, created under __main__"
 
 
 @dataclass(frozen=True)
@@ -109,7 +109,7 @@ def never_made(made: ClassProgram) -> Wrong | None:
         return None
     bare = (line for line, text in made.facts.bare_names if text == node.name)
     hint = f"{node.name}() with (), under if __name__ == '__main__':"
-    return Wrong(IS_CLASS, f"{node.name} is never made", made.at(next(bare, node.line)), hint)
+    return Wrong(IS_CLASS, f"{node.name} is never created", made.at(next(bare, node.line)), hint)
 
 
 @dataclass(frozen=True)
@@ -135,7 +135,7 @@ def method_without_self(given: GivenFunction) -> Wrong | None:
     word = given.word
     if given.call != "Subscriber" or word not in given.made.node.methods:
         return None
-    return given.wrong(f"{word} alone: within a class that is no name", f"self.{word}")
+    return given.wrong(f"{word} alone: in a class this name is not known", f"self.{word}")
 
 
 def called_at_once(given: GivenFunction) -> Wrong | None:
@@ -176,7 +176,7 @@ def early_shutdown(made: ClassProgram) -> Note | None:
     early, publisher = map(made.facts.first, ("on_shutdown", "Publisher"))
     if not early or not publisher or early.line >= publisher.line:
         return None
-    seen = "on_shutdown comes before the publisher: a Ctrl-C in between finds none"
+    seen = "on_shutdown comes before the publisher: a Ctrl-C in between has none"
     seen += " to stop the robot with (the handout has it so)"
     return Note(seen, made.at(early.line), "first the Publisher, then rospy.on_shutdown")
 

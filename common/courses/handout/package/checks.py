@@ -59,7 +59,7 @@ def workspace(submission: Submission) -> Note | str | None:
         return Note(f"its devel folder was made elsewhere ({made_for}); built again here")
     if setup.is_file() and not (made_for and below is not None and setup.stat().st_size):
         gone = setup.name if made_for and below is not None else "_setup_util.py or setup.sh"
-        seen = f"it is not whole: {gone} is missing or empty"
+        seen = f"it is incomplete: {gone} is missing or empty"
         raise Wrong("a devel folder as catkin_make makes it", seen, "devel", AGAIN)
     if not made_for and any((layout.source / name).is_dir() for name in ("build", "devel")):
         hint = "catkin_make is called in the workspace: cd .., and remove src/build and src/devel"
@@ -105,9 +105,9 @@ def _check_names(submission: Submission) -> None:
         is_clone = (folder / "msg").is_dir() or (folder / "src" / name).is_dir()
         if is_suite or (is_ros and not is_clone):
             seen = f"a package {name}: it hides {'the suite' if is_suite else 'ROS'}'s own"
-            hint = "remove it from src. If catkin_create_pkg made it: its first word is the name"
-            hint += " of the new package, those after it what that depends on"
-            raise Wrong("packages of names of their own", seen, f"src/{package.inside}", hint)
+            hint = "remove it from src. catkin_create_pkg's first argument is the name"
+            hint += " of the new package, the others are what it depends on"
+            raise Wrong("packages with names of their own", seen, f"src/{package.inside}", hint)
 
 
 def _wanted(submission: Submission, name: str) -> list[str]:
@@ -132,7 +132,7 @@ def _package(submission: Submission, name: str) -> Package:
         raise first_of(diagnoses, lost) or no_package(lost)
     for outer in (p for p in submission.packages if p.folder in named[0].folder.parents):
         seen = f"it is within another package, {outer.inside}"
-        hint = "move it up: packages stand side by side in src"
+        hint = "move it up: packages are side by side in src"
         raise Wrong(expected, seen, named[0].inside, hint)
     return named[0]
 
@@ -160,7 +160,7 @@ def link_to_nowhere(lost: LostPackage) -> Wrong | None:
     if not link.is_symlink() or link.exists():
         return None
     seen = f"{inside} is a link to {os.readlink(link)}, and leads nowhere here"
-    return Wrong(lost.expected, seen, inside, "put the folder itself into src, no link")
+    return Wrong(lost.expected, seen, inside, "put the folder itself into src, not a link")
 
 
 def _plain(name: str) -> str:
@@ -193,7 +193,7 @@ def no_package(lost: LostPackage) -> Wrong:
 def odd_name(package: Package) -> Wrong | None:
     for odd in sorted(package.depends):
         if not re.fullmatch(r"[a-z][a-z0-9_+-]*", odd, re.IGNORECASE):
-            hint = "between the dependencies stand spaces only, no commas:"
+            hint = "separate dependencies by spaces, not by commas:"
             hint += " fix package.xml and CMakeLists.txt"
             where = f"{package.inside}/package.xml"
             return Wrong("names of packages", f"a dependency on {odd!r}", where, hint)

@@ -62,8 +62,8 @@ def param_in_place_of_remap(case: Remapping) -> Wrong | None:
 def remap_outside(case: Remapping) -> Wrong | None:
     if not case.seen.bad or case.remaps or "<remap" not in case.file.text:
         return None
-    hint = "a <remap> holds for the node around it, and for those below it: put it between"
-    why = "the <remap> stands outside of the node, and not before it"
+    hint = "a <remap> applies to the node around it, and to those below it: put it between"
+    why = "the <remap> is outside of the node, and not before it"
     return case.wrong(why, hint=f"{hint} <node ...> and </node>")
 
 
@@ -95,7 +95,7 @@ def no_velocity(case: Remapping) -> Wrong | None:
 def not_remapped(case: Remapping) -> Wrong:
     if not case.remaps:
         return case.wrong("nothing is remapped")
-    return case.wrong(f"the remap from {case.remaps[0][0]} fits no topic of the program")
+    return case.wrong(f"the remap from {case.remaps[0][0]} matches no topic of the program")
 
 
 def remapped_by_itself(case: Remapping) -> Wrong | None:
@@ -103,7 +103,7 @@ def remapped_by_itself(case: Remapping) -> Wrong | None:
     if is_named or re.search(r"<(ros)?param\b", case.file.text):
         return None
     program, hint = case.file.own[0]["type"], f'type="joy2twist.py", and in it {case.remap}'
-    expected = "the program as it was, whose topic the launch file renames"
+    expected = "the unchanged program, whose topic the launch file remaps"
     seen, where = f"{program} publishes on {TELEOP} by itself", case.file.at(program)
     return Wrong(expected, seen, where, hint)
 
@@ -151,4 +151,4 @@ def real_robot(submission: Submission) -> None:
     if not any("teleop" in name for name in run.active):
         seen = ", ".join(run.active) or "nothing"
         hint = f'<remap from="{submission.task.topic(CMD_VEL)}" to="{TELEOP}"/>'
-        raise Wrong("cmd_vel_mux/active says teleop", seen, file.where, hint)
+        raise Wrong("cmd_vel_mux/active shows teleop", seen, file.where, hint)

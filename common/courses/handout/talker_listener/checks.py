@@ -86,7 +86,7 @@ def listener(submission: Submission) -> Note | None:
 def graph(submission: Submission) -> str:
     seen = _talk(submission)
     if not seen.publishers.get(TOPIC) or not seen.subscribers.get(TOPIC):
-        complaint, hint = "no such way in the graph", "one name for the topic, in both"
+        complaint, hint = "no such connection in the graph", "one name for the topic, in both"
         raise Wrong("talker -> /chatter -> listener", complaint, hint=hint)
     return f"{seen.publishers[TOPIC][0]} -> /chatter -> {seen.subscribers[TOPIC][0]}"
 
@@ -111,7 +111,7 @@ def anonymous(submission: Submission) -> Note | str:
     if given == "True" and pair.first_ended:
         raise Wrong("two talkers side by side", "the second one ended the first", where)
     if given == "False" and pair.both and not pair.first_ended:
-        raise Wrong("the second talker of one name ends the first", "both go on", where)
+        raise Wrong("a second talker of the same name ends the first", "both continue", where)
     if not pair.both and not pair.first_ended:
         raise Wrong(NO_SECOND, "neither", script.where)
     is_plain = given in ("True", "False")
@@ -122,9 +122,9 @@ def anonymous(submission: Submission) -> Note | str:
     if not other.talks:
         raise script.crash(other.first, "the talker runs with anonymous the other way round")
     if other.first_ended == (given == "False"):
-        then = "the second ends the first" if given == "True" else "both live"
+        then = "the second ends the first" if given == "True" else "both continue"
         hint = "is anonymous given to rospy.init_node?"
-        raise Wrong(f"with anonymous={given == 'False'} {then}", "it was not so", where, hint)
+        raise Wrong(f"with anonymous={given == 'False'} {then}", "this did not happen", where, hint)
     return "as submitted, and the other way round"
 
 

@@ -12,7 +12,7 @@ from ..task import other_topic
 from .record import KIND, LISTEN_S, STRINGS, TOPIC, Talk
 
 LISTENS = "every text sent on /chatter, displayed once"
-GOES_ON = "it goes on until Ctrl-C"
+GOES_ON = "it runs until Ctrl-C"
 LOOP = "while not rospy.is_shutdown(): ..., rate.sleep() within it"
 RATE_TOLERANCE = 0.2  # share of the expected rate
 FEW = 3  # fewer messages give no rate

@@ -164,7 +164,7 @@ def wanders(submission: Submission) -> str:
         raise crash(submission, BEGINNER, drive.program, expected, hint)
     push_s = record.longest_push_s(drive.bumps, drive.ended_s)
     if push_s > LONGEST_PUSH_S:
-        hint = "with BumperEvent.PRESSED go back: linear.x < 0; what is beside it no scan shows"
+        hint = "with BumperEvent.PRESSED go back: linear.x < 0; no scan shows what is beside it"
         seen = f"it pushed for {push_s:.1f} s at ({drive.path[-1].x:.1f}, {drive.path[-1].y:.1f})"
         raise Wrong(expected, seen, script, hint)
     path = [(sample.x, sample.y) for sample in drive.path]

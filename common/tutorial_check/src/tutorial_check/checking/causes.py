@@ -94,9 +94,9 @@ def traced(error: str, line: int, facts: PythonFacts) -> tuple[int, str]:
         return line, ""
     name, known = undefined[1], facts.names
     if name in facts.inner_names and line in facts.loose:
-        return line, f"this line stands outside of {facts.loose[line]}: indent it as those within"
+        return line, f"this line is outside of {facts.loose[line]}: indent it like the lines in it"
     if f"self.{name}" in facts.attributes:
-        return line, f"within a class it is self.{name}"
+        return line, f"in a class, write self.{name}"
     for near in difflib.get_close_matches(name, known, 3, 0.6):
         if name not in known and name not in HOMES and near[0].lower() == name[0].lower():
             return line, f"{near} in line {known[near]}, {name} here: one name for one thing"

@@ -222,7 +222,7 @@ class CheckRunner:
         except Wrong as wrong:
             if wrong.sure or not self._submission.overloaded():
                 raise
-            why = f"the machine has too much else to do for a verdict ({wrong.seen})"
+            why = f"the machine is too busy for a verdict ({wrong.seen})"
             raise CannotCheck(f"{check.id}: {why}") from None
 
     def _is_worth_a_retry(self, check: Check, wrong: Wrong) -> bool:

@@ -42,7 +42,7 @@ def cause_of(
         return file or f"{script}:{line}", hides
     is_import = re.match("ImportError|ModuleNotFoundError", trace.error)
     if is_import and submission.needs_build() and submission.recording(BUILT).code != 0:
-        fails = "catkin_make, which may have to make it, fails: run it, it says why"
+        fails = "catkin_make, which may have to generate it, fails: run it to see why"
         hint = "; ".join(filter(None, (hint, fails)))
     return f"{script}:{line}" if line else "", hint
 
@@ -59,8 +59,8 @@ def crash(
     if program.code is not None and program.code < 0:
         return Wrong(expected, f"the program was ended by signal {-program.code}", "", hint)
     if program.spins:
-        seen = f"{program.name} works all the time and gets nowhere"
-        hint = "a loop without end? In the callback, and before rospy.init_node, there is none"
+        seen = f"{program.name} uses the CPU without making progress"
+        hint = "an endless loop? There must be none in the callback, or before rospy.init_node"
         return Wrong(expected, seen, hint=hint, sure=True)
     seen = "it runs" if program.code is None else f"it ended, exit code {program.code}"
     said = last_lines(program.output)
@@ -81,10 +81,10 @@ def silent_end(facts: PythonFacts) -> tuple[int, str]:
             return node.line, hint
     if facts.sunken_main:
         line, function = facts.sunken_main
-        hint = f"line {line} stands within {function}(): move it, and what is below it, to the left"
+        hint = f"line {line} is inside {function}(): move it, and the lines below it, to the left"
         return line, f"{hint} margin"
     if "spin" not in facts.calls:
-        return 0, "rospy.spin() is missing: without it the program comes to its end"
+        return 0, "rospy.spin() is missing: without it the program ends"
     if not facts.has_main:
         return 0, "listener() is never called: if __name__ == '__main__': listener()"
     return 0, "is listener() called, in the last line, and with ()?"
@@ -98,5 +98,5 @@ def misspelt_init(node: ClassFacts) -> str:
 
 
 def never_made(node: ClassFacts) -> str:
-    hint = f"it is never made: {node.name}() under if __name__ == '__main__':"
+    hint = f"it is never created: {node.name}() under if __name__ == '__main__':"
     return "" if node.instantiated else hint

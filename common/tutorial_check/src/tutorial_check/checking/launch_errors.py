@@ -22,7 +22,7 @@ from tutorial_check.submission.launch_xml import (
 
 CURLY = re.compile("[“”‘’]")
 VALUE = re.compile(r"=\s*(\"[^\"]*\"|'[^']*')")
-QUOTES = 'each value stands between two quotes: name="value"'
+QUOTES = 'each value needs two quotes: name="value"'
 # Packages that a launch file of the exercises may name.
 PACKAGES = (
     "rbx1_nav rbx1_bringup turtlebot_rviz_launchers turtlebot_bringup fake_turtlebot_sim joy2twist"
@@ -56,11 +56,11 @@ def _not_well_formed(text: str, line: int, index: int) -> tuple[int, str]:
     ends = -len(COMMENT_END) + 1  # with the first hyphen of its end, as in "--->"
     inner = ((start, text.find("--", start + 4, end + ends)) for start, end in comments(text))
     if line in {line_of(text, index) for _, index in inner if index >= 0}:
-        return line, "within <!-- --> there may be no --: delete it, or the whole line"
+        return line, "a comment must not contain --: delete it, or the whole line"
     if text.startswith("<!--", index):
         return line, "each <!-- needs its -->"
     if text[index : index + 1] == "\xa0":
-        return line, "a gap that came from the PDF is no space: delete it, and type one instead"
+        return line, "a gap from the PDF is not a space: delete it, and type a space"
     # A value without its closing quote extends to the next tag, so look at the tag before it first.
     for start in (text.rfind("<", 0, index), text.rfind("<", 0, index + 1)):
         tag = re.split("[<>]", text[start + 1 :])[0] if start >= 0 else ""
@@ -86,7 +86,7 @@ def _not_closed(text: str) -> tuple[int | None, str]:
         return None, "it begins with <launch> and ends with </launch>"
     tag, opened = stack[-1]
     if closing and closing not in dict(stack):
-        return line, f"</{closing}> closes nothing: open is the <{tag}> of line {opened}"
+        return line, f"</{closing}> closes nothing: the open tag is the <{tag}> of line {opened}"
     return opened, f"the <{tag}> of line {opened} is never closed: /> at its end, or </{tag}> below"
 
 
@@ -174,7 +174,7 @@ def unknown_arg(file: Unread) -> Wrong | None:
     path = Path(unused[2])
     text = read_xml(path) if file.may_see(path) and path.is_file() else ""
     known = re.findall(r"<arg\b[^<>]*\bname\s*=\s*[\"']([^\"']+)[\"']", text)
-    hint = meant(unused[1], known, 0.6) or f"leave it out; it has {', '.join(known) or 'none'}"
+    hint = meant(unused[1], known, 0.6) or f"remove it; the file has {', '.join(known) or 'none'}"
     return file.wrong(f"{path.name} has no arg {unused[1]}", hint)
 
 

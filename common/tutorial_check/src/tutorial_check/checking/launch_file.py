@@ -71,7 +71,7 @@ class LaunchFile(File):
 
     def missing(self, node: LaunchNode) -> Wrong:
         """Return the Wrong for a node whose program or package does not exist."""
-        hint = "look at pkg= and type=: rosrun PACKAGE and Tab twice lists its programs"
+        hint = "look at pkg= and type=: rosrun PACKAGE, then Tab twice, lists its programs"
         hint = package_hint(node["package"]) if node["found"] is None else hint
         seen = f"Cannot locate node of type [{node['type']}] in package [{node['package']}]"
         return Wrong("nodes that exist", seen, self.at_node(node), hint)

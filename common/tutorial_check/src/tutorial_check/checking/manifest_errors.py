@@ -17,7 +17,7 @@ def unreadable(package: Package) -> Wrong:
     """Return the Wrong for a package.xml that is no XML, or that catkin refuses."""
     where = f"{package.inside}/package.xml"
     if package.error == TOO_LARGE:
-        hint = "take the one of a new package of catkin_create_pkg, which has some sixty lines"
+        hint = "copy the one that catkin_create_pkg makes: it has about sixty lines"
     elif package.malformed:
         line = re.search(r"line (\d+)", package.error)
         where += f":{line[1]}" if line else ""

@@ -88,6 +88,6 @@ class Script(File):
         if not self.facts.unusual_node_name:
             return None
         line, name = self.facts.unusual_node_name
-        seen = f"the node is called {name!r}, of which ROS warns: not a legal ROS base name"
+        seen = f"the node is called {name!r}, which ROS warns about: not a legal ROS base name"
         right = re.sub(r"\W", "_", re.sub(r"\.py$", "", name))
         return Note(seen, self.at_line(line), f"letters, digits and _ only: {right!r}")

@@ -46,7 +46,7 @@ def _must_have_its_name(submission: Submission, package: str, name: str, files: 
     for similar in [*near, *difflib.get_close_matches(name, words, 1, 0.75)]:
         other = others[similar]
         paths = (submission.whole(path, package) for path in (other, other.with_name(name)))
-        hint = f"mv {' '.join(paths)}: capitals, underscores and the ending count"
+        hint = f"mv {' '.join(paths)}: capitals, underscores and the extension matter"
         where = str(other.relative_to(submission.package(package).folder))
         raise Wrong(f"a program {name}", f"a file {similar}", where, hint)
 

@@ -92,7 +92,7 @@ CUT_SHORT = {
         "a node ends itself (rospy.signal_shutdown), never the master"),
     MULTIPLIES: ("a program that is one process, or a few", "it starts itself again and again: {}",
         "where does it call os.fork, or start programs?"),
-    NO_TYPE: ("messages and services as they are asked for", "{}",
+    NO_TYPE: ("messages and services that fit the task", "{}",
         "rosmsg show, or rossrv show, after catkin_make; CMakeLists.txt lists its file"),
     CANNOT_START: ("a program that can be started", "{}",
         "look at the first line of the file: #!/usr/bin/env python3"),
@@ -102,7 +102,7 @@ CUT_SHORT = {
 def wrong_of(end: CutShort | FileTooLarge, where: str = "") -> Wrong:
     """Return the Wrong for what ended a recording, or for a file that is too large."""
     if isinstance(end, FileTooLarge):
-        expected, hint = "a file of a few kB", "nobody writes so much by hand: what made it?"
+        expected, hint = "a file of a few kB", "nobody writes that much by hand: what generated it?"
         return Wrong(expected, f"{end} is {TOO_LARGE}", str(end), hint, sure=True)
     kind = end.kind if end.kind in CUT_SHORT else CANNOT_START
     expected, seen, hint = CUT_SHORT[kind]

@@ -57,25 +57,25 @@ def byte_order_mark(file: ScriptFile) -> Wrong | None:
 def web_page(file: ScriptFile) -> Wrong | None:
     if not re.match(rb"\s*<(!doctype|html)", file.data, re.IGNORECASE):
         return None
-    hint = "the download gave the page and not the file: take the address of the raw file"
+    hint = "the download is the page, not the file: use the address of the raw file"
     return Wrong("a Python program", "a web page", file.where, hint)
 
 
 def windows_line_ends(file: ScriptFile) -> Wrong | None:
     if not file.first.endswith(b"\r"):  # harmless further down
         return None
-    seen = "the file has Windows line ends (python3\\r: No such file)"
+    seen = "the file has Windows line endings (python3\\r: No such file)"
     hint, look = f"sed -i 's/\\r$//' {file.whole}", f"head -1 {file.whole} | cat -A"
-    return Wrong("Unix line ends", seen, file.at_line(1), hint, look=look)
+    return Wrong("Unix line endings", seen, file.at_line(1), hint, look=look)
 
 
 def other_coding(file: ScriptFile) -> Wrong | None:
     line, seen = (file.is_python and unreadable(file.data)) or (0, "")
     if not line:
         return None
-    hint = "save the file as UTF-8 and name no other coding; or name the right one in line 2:"
+    hint = "save the file as UTF-8 and declare no encoding, or declare the right one in line 2:"
     hint, look = f"{hint} # coding: latin-1", f"python3 -m py_compile {file.whole}"
-    expected = "a file in UTF-8, or in the coding that its first lines name"
+    expected = "a file in UTF-8, or in the encoding that its first lines declare"
     return Wrong(expected, seen, file.at_line(line), hint, look=look)
 
 
@@ -92,7 +92,7 @@ def no_python(file: ScriptFile) -> Wrong | None:
 def no_interpreter(file: ScriptFile) -> Wrong | None:
     if file.first.startswith(b"#!"):
         return None
-    further = "; #! stands further down" if b"\n#!" in file.data else ""
+    further = "; #! is further down" if b"\n#!" in file.data else ""
     seen = f"the first line is {file.first_line!r}{further}"
     hint = "without #! in the very first line the shell tries to run the Python lines itself"
     hint, look = f"{hint} (import: command not found)", f"head -3 {file.whole}"
@@ -121,7 +121,7 @@ def not_executable(file: ScriptFile) -> Wrong | None:
         return None
     seen = f"{file.name} is not executable (rosrun: Couldn't find executable)"
     hint, look = f"chmod +x {file.whole}", f"ls -l {file.whole}"
-    return Wrong("a program that may be run", seen, file.where, hint, look=look)
+    return Wrong("an executable program", seen, file.where, hint, look=look)
 
 
 def odd_main(file: ScriptFile) -> Wrong | None:

@@ -117,7 +117,7 @@ class Cluster:
                 _connect(self._address)
                 if self._client.status == "running":
                     raise
-            why = f"the scheduler at {self._address} is gone; call again, and it goes on from here"
+            why = f"the scheduler at {self._address} has ended; run the command again to continue"
             raise SchedulerGone(why) from error
 
     def close(self) -> None:

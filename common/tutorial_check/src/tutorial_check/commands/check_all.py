@@ -68,11 +68,11 @@ def check_all(options: argparse.Namespace) -> int:
     out = Path(options.out or Path(options.all) / "check")
     students = find_students(options.all, out, options.variant or "")
     if not options.variant and Path(options.all, "variants").is_dir():
-        print("variants: a submission; if it has the tasks of students: --variant FOLDER/variants")
+        print("variants: a submission; if it has students' tasks: --variant FOLDER/variants")
     with contextlib.suppress(OSError):
         out.mkdir(parents=True, exist_ok=True)
     if not (os.path.isdir(out) and os.access(out, os.W_OK | os.X_OK)):
-        raise CannotCheck(f"{out}: no folder that may be written to; --out names another one")
+        raise CannotCheck(f"{out}: not a writable folder; choose another one with --out")
     for student in students:  # of an earlier check
         for ending in (".txt", ".json"):
             with contextlib.suppress(OSError):

@@ -137,21 +137,21 @@ def _sets() -> dict[str, Parser]:
 
 def _add_of_one(add: _Add) -> None:
     """Add the options of a single command, or of those for one workspace."""
-    what = "your catkin workspace, a folder of packages, or a zip; in a shell of it not needed"
+    what = "your catkin workspace, a folder of packages, or a zip; not needed in a shell of it"
     given = os.environ.get(WORKSPACE) or None
     about = {"dest": "workspace", "type": path, "default": given}
     add("workspace", "--in", **about, metavar="WORKSPACE", help=what)
     add("watch", "--watch", action="store_true", help="check again whenever a file is saved")
-    what = "show ours, of exercises that are done"
+    what = "show our solutions of exercises that are done"
     add("solution", "--solution", action="store_true", help=what)
     for name, (what, _) in FORMATS.items():
         add("files", f"--{name}", type=path, metavar="FILE", help=f"write {what}")
     what = "for the professor: every workspace, or zip, in a folder"
     add("all", "--all", type=path, metavar="FOLDER", help=what)
-    add("all", "--again", action="store_true", help="also what is the same as last time")
+    add("all", "--again", action="store_true", help="also what has not changed since last time")
     what = "check on the workers of a Dask scheduler, as tcp://HOST:8786"
     add("all", "--cluster", type=path, metavar="ADDRESS", help=what)
-    what = "write what a service takes: gradescope, or github:OWNER/NAME (to --out)"
+    what = "write the file for a service: gradescope, or github:OWNER/NAME (to --out)"
     add("package", "--package", type=path, metavar="SERVICE", help=what)
     what = "check the solutions of the course, right ones and wrong ones"
     add("self-test", "--self-test", action="store_true", help=what)
@@ -161,21 +161,21 @@ def _add_of_one(add: _Add) -> None:
 
 def _add_shared(add: _Add) -> None:
     """Add the options that several commands share."""
-    add("exercises", "exercises", nargs="*", metavar="EXERCISE", help="without one all")
+    add("exercises", "exercises", nargs="*", metavar="EXERCISE", help="all, if none is given")
     what = "in place of the handout: wiki, or a folder with course.yaml and your own checks"
     add("course", "--course", type=path, default=str(HANDOUT), metavar="FOLDER", help=what)
-    what = "setup.bash of what the exercises need"
+    what = "setup.bash of the underlay"
     given = os.environ.get(UNDERLAY)
     add("course", "--underlay", type=path, default=given, metavar="SETUP", help=what)
-    what = "0: say what is wrong, never how to fix it; 1: when the same is wrong again; 2: always"
+    what = "show how to fix it 0: never; 1: when the same mistake is made again; 2: always"
     add("hints", "--hints", type=int, choices=(0, 1, 2), help=f"{what} (1; with --all 2)")
     what = "the same as --hints 0"
     add("hints", "--no-hints", action="store_const", const=NEVER, dest="hints", help=what)
-    what = "YAML of what differs from the course, as --show-variant prints; or folder of NAME.yaml"
+    what = "YAML of the values that differ, as --show-variant prints; or a folder of NAME.yaml"
     add("variant", "--variant", type=path, metavar="FILE", help=what)
-    what = "draw each student's task from a seed and name"
+    what = "draw each student's task from a seed and the name"
     add("seed", "--variants", metavar="SEED", help=what)
-    what = "write what the programs did, by which it was judged, to FOLDER/NAME.json"
+    what = "write what the programs did, as it was judged, to FOLDER/NAME.json"
     add("keep", "--keep", type=path, metavar="FOLDER", help=what)
     what = "where the table and the reports go (FOLDER/check), or the package"
     add("out", "--out", type=path, metavar="FOLDER", help=what)

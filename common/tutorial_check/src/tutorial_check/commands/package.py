@@ -65,7 +65,7 @@ def _commit() -> str:
     try:
         done = subprocess.run(command, capture_output=True, text=True, check=False)
     except OSError as error:
-        raise CannotCheck(f"git: {error.strerror}; it says which commit is meant") from None
+        raise CannotCheck(f"git: {error.strerror}; it is needed to find the commit") from None
     if done.returncode:
         raise CannotCheck(f"{SUITE} is no clone of a repository: {done.stderr.strip()}")
     return done.stdout.strip()

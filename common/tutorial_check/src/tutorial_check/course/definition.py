@@ -159,7 +159,7 @@ def _known(kind: type, given: object) -> dict[str, Any]:
     known = {known.name: str(known.type).partition("[")[0] for known in fields(kind)}
     known.pop("folder", None)  # it is where the file is
     if not isinstance(given, dict):
-        raise ValueError(f"a map of {', '.join(known)} is wanted, and not {given!r}")
+        raise ValueError(f"must be a map of {', '.join(known)}, not {given!r}")
     for name, value in given.items():
         if name not in known:
             raise ValueError(f"{name} is not known; known are {', '.join(known)}")

@@ -86,7 +86,7 @@ def must_be_whole(recorded: type) -> None:
             parts = [hint]
             for part in parts:
                 if (get_origin(part) or part) in (list, tuple, dict) and not get_args(part):
-                    how = "its type has to say what is in it, as Tuple[float, ...]"
+                    how = "its type must name its content, such as Tuple[float, ...]"
                     raise CannotCheck(f"{kind.__name__}.{name}: {how}")
                 parts += get_args(part)
             kinds += [

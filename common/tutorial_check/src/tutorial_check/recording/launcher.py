@@ -72,7 +72,7 @@ def sourced(bare: Order) -> Order:
     if bare.environment:
         return bare
     if not os.path.isfile(bare.underlay):
-        why = "no such file, or may not be read; ./tutorial setup builds it"
+        why = "no such file, or not readable; ./tutorial setup builds it"
         raise CannotCheck(f"{bare.underlay}: {why}")
     underlay = os.path.abspath(bare.underlay)
     return replace(bare, underlay=underlay, environment=_environment(underlay))

@@ -111,7 +111,7 @@ class Worker:
         if no_more.is_set():
             raise Ended("it was ended")
         if time.monotonic() > self._end_s:
-            why = "the machine has too much else to do"
+            why = "the machine is too busy"
             raise Ended(f"the check took longer than {LONGEST_S:.0f} s: {why}")
         if select.select([self._line], [], [], 0.2)[0]:
             data = self._line.recv(1 << 20)

@@ -163,7 +163,7 @@ def _below(students: Sequence[Student]) -> Iterator[str]:
     )
     yield _section("The most frequent causes", ("students", "check", *WORDS), frequent)
     changed = ((student, [*map(", ".join, changes(student).values())]) for student in students)
-    head = ("student", "now done", "no more done", "stuck at the same check")
+    head = ("student", "now done", "no longer done", "stuck at the same check")
     rows = ((_link(student), *map(escape, cells)) for student, cells in changed if any(cells))
     yield _section("Since the last run", head, rows)
     remarked = (student for student in students if student.remark)
@@ -208,6 +208,6 @@ def changes(student: Student) -> dict[str, list[str]]:
     firsts = (both for new, old in pairs for both in zip(new.wrong[:1], old.wrong[:1]))
     return {
         "now done": [new.id for new, old in pairs if new.passed and not old.passed],
-        "no more done": [new.id for new, old in pairs if old.passed and not new.passed],
+        "no longer done": [new.id for new, old in pairs if old.passed and not new.passed],
         "stuck": [f"{first.id} {first.title}" for first, was in firsts if first.id == was.id],
     }

@@ -57,13 +57,13 @@ def unpack(archive: Path, folder: Path) -> None:
             members = opened.infolist()
             size = sum(member.file_size for member in members)
             if size > MOST_BYTES or len(members) > MOST_FILES:
-                raise CannotCheck(f"{archive}: unpacked it is larger than {MOST_BYTES >> 20} MB")
+                raise CannotCheck(f"{archive}: larger than {MOST_BYTES >> 20} MB when unpacked")
             for member in members:
                 # Older versions of PowerShell write backslashes, against the standard.
                 member.filename = member.filename.replace("\\", "/")
                 path, mode = Path(member.filename), member.external_attr >> 16
                 if path.is_absolute() or ".." in path.parts:
-                    raise CannotCheck(f"{archive}: has a path outside of itself: {member.filename}")
+                    raise CannotCheck(f"{archive}: a path in it leads outside: {member.filename}")
                 target = folder if stat.S_ISLNK(mode) else Path(opened.extract(member, folder))
                 if target.is_file():
                     # A zip from Windows has no permissions, so chmod +x cannot be checked.

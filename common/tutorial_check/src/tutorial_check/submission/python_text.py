@@ -27,7 +27,7 @@ def unreadable(data: bytes) -> tuple[int, str] | None:
         return data.count(b"\n", 0, start) + 1, what
     except LookupError:
         end = declared.end() if declared else 0
-        return data.count(b"\n", 0, end) + 1, f"a coding that is none, {coding}"
+        return data.count(b"\n", 0, end) + 1, f"an unknown encoding, {coding}"
     return None
 
 

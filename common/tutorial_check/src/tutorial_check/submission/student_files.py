@@ -66,4 +66,4 @@ def _folder_of(base: Path, path: Path) -> Iterator[Tuple[int, str]]:
             os.close(folder)
     except OSError as error:
         why = error.strerror or error
-        raise CannotCheck(f"{path} is not as it was: a program changed it: {why}") from None
+        raise CannotCheck(f"a program changed {path}: {why}") from None
