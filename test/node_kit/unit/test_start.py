@@ -2,6 +2,8 @@
 
 import contextlib
 
+import contextlib
+
 import pytest
 
 from node_kit.ros.lifecycle import start

@@ -27,8 +27,9 @@ LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 def find_world(name: str) -> Path:
     """Return the path of a world, given as a path or by its name in this package."""
-    if "/" in name or name.endswith((".yaml", ".yml")):
-        return Path(os.path.expanduser(name))  # leaves the name of an unknown user as it is
+    if "/" in name or "." in name:
+        # roslaunch starts nodes in another folder than the user's
+        return Path(os.environ.get("PWD", ""), os.path.expanduser(name))
     worlds = shipped_worlds()
     if name not in worlds:
         names = ", ".join(sorted(worlds))

@@ -9,12 +9,12 @@ from typing import Any
 
 import rospkg
 
-from gamepad.arguments import check
+from launch_kit.arguments import written_out
+from launch_kit.ros.launch_tree import checked
 from node_kit.ros.graph.ros_api import way_out
 from node_kit.rules.answer import Answer
 from tutorial_tools.doctor.facts import some
 from tutorial_tools.io.command.subcommands import fail, parser_of
-from tutorial_tools.launch_arguments import launch_arguments
 from tutorial_tools.ros.doctor.network import addresses, call, is_called_back, is_here
 
 DEFAULT_PORT = 11311
@@ -82,10 +82,10 @@ def main() -> None:
     options = parser_of("join").parse_args()
     file = f"{rospkg.RosPack().get_path('joy2twist')}/launch/student.launch"
     try:
-        values = launch_arguments(file, [f"name:={options.name}", *options.arguments])
-        if values["name"] != options.name:
-            raise ValueError(f"name:={values['name']}: the name is {options.name} already")
-        check("bag", values["bag"])
+        arguments = [f"name:={options.name}", *written_out(options.arguments)]
+        name = checked(file, arguments).values()["name"]
+        if name != options.name:
+            raise ValueError(f"name:={name}: the name is {options.name} already")
         uri, own = check_host(options.host)
         check_master(uri, own)
         check_robot(uri, options.name)
@@ -96,5 +96,4 @@ def main() -> None:
     environment = {name: value for name, value in os.environ.items() if name != "ROS_HOSTNAME"}
     environment.update(ROS_MASTER_URI=uri, ROS_IP=own)
     print(f"join: ROS_MASTER_URI={uri} ROS_IP={own}", flush=True)
-    launch = ["roslaunch", "joy2twist", "student.launch", f"name:={options.name}"]
-    os.execvpe(launch[0], [*launch, *options.arguments, f"bag:={values['bag']}"], environment)
+    os.execvpe("roslaunch", ["roslaunch", "joy2twist", "student.launch", *arguments], environment)

@@ -17,79 +17,37 @@ from collections.abc import Iterable
 import rosgraph
 import rospkg
 
-from gamepad.errors import BagError
-from gamepad.ros.bags import opened
-from node_kit.ros.graph.ros_api import accepts, call, holder
+from launch_kit.arguments import written_out
+from launch_kit.names import next_uri, own_master, refusal
+from launch_kit.ros.launch_tree import checked
+from launch_kit.ros.running_nodes import held_names
+from node_kit.ros.graph.ros_api import accepts, call
 from node_kit.rules.answer import Answer
-from tutorial_tools.demo.launch import ENDING, TOPICS, DemoError, Launch
 from tutorial_tools.io.command.subcommands import fail, parser_of
-from tutorial_tools.launch_arguments import launch_arguments
 from tutorial_tools.ros.cockpit_page import address
+from tutorial_tools.ros.demo.running_launch import ENDING, TOPICS, DemoError, Launch
 
-# What launch_bag.launch starts. Not by loading that file here: it looks itself for what runs.
-NODES = ("/fake_turtlebot", "/myjoystick2twist", "/robot_state_publisher", "/rosbag")
-RVIZ_NODE = "/my_rviz"
 PAGE_TIMEOUT_S = 5.0  # tornado and rospy load on a slow and busy machine, too
 WITHOUT_SCREEN = "there is no screen (DISPLAY is not set), so RViz is left out; to see it drive, "
 IN_TERMINAL = "in another terminal: ./tutorial run rostopic echo /odom/pose/pose/position"
 
 
-def check_bag(path: str) -> None:
-    """Raise BagError unless the file is a bag that can be played and holds joystick messages."""
-    with opened(path) as bag:
-        count = bag.get_message_count("/joy")
-    if not count:
-        raise BagError(f"{path}: holds no message on /joy")
-
-
 def check_master(nodes: Iterable[str]) -> None:
-    """Raise DemoError if another program answers at the master's port, or nodes are in the way.
-
-    Those that have died are no hindrance, although the master still knows them.
-    """
+    """Raise DemoError if another program answers at the master's port, or nodes are in the way."""
     uri = rosgraph.get_master_uri()
     try:
         host, port = rosgraph.network.parse_http_host_and_port(uri)
     except ValueError as error:
         raise DemoError(f"ROS_MASTER_URI={uri}: not of the form http://HOST:PORT") from error
-    answer, state = call(uri, "getSystemState")
-    if answer is Answer.WELL:
-        names = [name for name in in_the_way(state, nodes, TOPICS) if holder(uri, name)]
-        if names:
-            raise DemoError(refusal(uri, names))
-    elif accepts(uri):  # else roslaunch starts a master, or says that the host is not this one
+    held = held_names(nodes, TOPICS)
+    if held:
+        raise DemoError(refusal(uri, held))
+    has_master = call(uri, "getPid")[0] is Answer.WELL
+    if not has_master and accepts(uri):  # else roslaunch starts one, or refuses another host
         raise DemoError(
             f"port {port} of {host} is taken by a program that is not a ROS master; "
-            f"end it, or choose another port: export ROS_MASTER_URI={next_uri(port)}"
+            f"end it, or choose another port: export ROS_MASTER_URI={next_uri(uri)}"
         )
-
-
-def in_the_way(
-    state: list[list[tuple[str, list[str]]]], nodes: Iterable[str], topics: Iterable[str]
-) -> list[str]:
-    """Return the registered nodes with a name of a launch, or that publish on its topics (pure).
-
-    The launch would end the former; with the latter two would drive one robot.
-    state: as the master's getSystemState() gives it.
-    """
-    registered = {name for part in state for _, names in part for name in names}
-    senders = {name for topic, names in state[0] if topic in topics for name in names}
-    return sorted((registered & set(nodes)) | senders)
-
-
-def refusal(uri: str, names: list[str]) -> str:
-    """Return the line for the user: what runs on a master, and what to do."""
-    *most, last = names
-    listed = f"{', '.join(most)} and {last}" if most else last
-    runs, them = ("run", "them") if most else ("runs", "it")
-    own = next_uri(rosgraph.network.parse_http_host_and_port(uri)[1])
-    todo = f"end {them}, or take a master of your own: export ROS_MASTER_URI={own}"
-    return f"{listed} {runs} already on {uri}; {todo}"
-
-
-def next_uri(taken: int) -> str:
-    """Return a ROS_MASTER_URI of this machine beside a port that is taken."""
-    return f"http://localhost:{taken % 65535 + 1}"
 
 
 def claim_master() -> socket.socket:
@@ -102,7 +60,8 @@ def claim_master() -> socket.socket:
     try:
         claim.bind(f"\0ros1_tutorial demo {uri}"[:100])
     except OSError as error:
-        raise DemoError(refusal(uri, ["another demo"])) from error
+        line = f"another demo runs already on {uri}: end it first, or {own_master(uri)}"
+        raise DemoError(line) from error
     return claim
 
 
@@ -130,12 +89,12 @@ def main() -> None:
     launch, interrupted, began_s = None, False, time.monotonic()
     try:
         launch_file = f"{rospkg.RosPack().get_path('joy2twist')}/launch/launch_bag.launch"
-        values = launch_arguments(launch_file, options.arguments)
-        check_bag(values["bag"])
+        arguments = written_out(options.arguments)
+        tree = checked(launch_file, arguments)
+        values, nodes = tree.values(), [node.name for node in tree.nodes]
         with_rviz = values["rviz"].lower() in ("true", "1")
-        nodes = [*NODES, RVIZ_NODE] if with_rviz else NODES
         check_master(nodes)
-        command = ["roslaunch", launch_file, *options.arguments, f"bag:={values['bag']}"]
+        command = ["roslaunch", launch_file, *arguments]
         with claim_master(), Launch(command, nodes) as launch:
             launch.wait_for_odometry()
             print(f"demo: first /odom after {time.monotonic() - began_s:.1f} s", flush=True)
@@ -145,7 +104,7 @@ def main() -> None:
             launch.watch(math.inf if options.duration_s is None else options.duration_s)
     except ValueError as error:
         fail(f"demo: {error}")
-    except (BagError, DemoError) as error:
+    except DemoError as error:
         sys.exit(f"demo: {error}")
     except KeyboardInterrupt:
         interrupted = True

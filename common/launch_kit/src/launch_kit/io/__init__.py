@@ -1,0 +1,1 @@
+"""What concerns the process of roslaunch: its command line, its end."""

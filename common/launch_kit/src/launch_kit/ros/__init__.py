@@ -1,0 +1,1 @@
+"""What reads launch files as roslaunch does, and asks the master which nodes run."""

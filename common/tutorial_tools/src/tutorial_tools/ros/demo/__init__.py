@@ -1,0 +1,1 @@
+"""Starts the demonstration and counts what it sends."""
