@@ -2,8 +2,6 @@
 
 import contextlib
 
-import contextlib
-
 import pytest
 
 from node_kit.ros.lifecycle import start
