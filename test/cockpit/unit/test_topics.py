@@ -4,7 +4,7 @@ import pytest
 from std_msgs.msg import String
 
 from cockpit_server.graph import Graph
-from cockpit_server.messages import RawMessage
+from cockpit_server.messages import ReceivedMessage
 from cockpit_server.tabs import topics
 from tutorial_testing.session_room import Graphs, Topics, look, page, serialised
 
@@ -14,7 +14,7 @@ def test_rate_is_right_while_messages_come_and_0_once_they_do_not(rate):
     topic, measured_at = topics.MeasuredTopic(), 0.0
     for n in range(int(8 * rate) + 2):
         now = 50 + n / rate
-        topic.add(RawMessage("/x", bytes(100), "/n", now))
+        topic.add(ReceivedMessage("/x", bytes(100), "/n", now))
         if now - measured_at > topics.PERIOD_S:
             measured_at = now
             topic.measure("", now)

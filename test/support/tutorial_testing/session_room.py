@@ -6,7 +6,7 @@ from types import SimpleNamespace
 from cockpit_server.driving.driver_session import DriverSession, PageInput
 from cockpit_server.driving.who_drives import Driving
 from cockpit_server.graph import Graph
-from cockpit_server.messages import RawMessage
+from cockpit_server.messages import ReceivedMessage
 from cockpit_server.pages import Page
 from tutorial_testing.nodes import serialised
 
@@ -115,4 +115,4 @@ class Topics:
     def hear(self, topic, message, now=0.1):
         """Let a message of ROS, or bytes, arrive at a time [s], from the node /other."""
         data = message if isinstance(message, bytes) else serialised(message)
-        self.handlers[topic](RawMessage(topic, data, "/other", now))
+        self.handlers[topic](ReceivedMessage(topic, data, "/other", now))

@@ -2,7 +2,7 @@
 
 
 class CockpitError(Exception):
-    """What a person at a page can do something about; the text says it in one line."""
+    """An error for the person at a page; its text is one line."""
 
 
 class RefusedError(CockpitError):

@@ -25,9 +25,9 @@ def slots_of(kind: Any) -> Iterator[tuple[str, str]]:
 
 @lru_cache(maxsize=2000)
 def numbers_of(type_name: str) -> tuple[str, ...]:
-    """Return the names of all numbers in messages of a type, those that are rarely drawn last.
+    """Return the names of all numbers in messages of a type; rarely drawn ones come last.
 
-    An array is one name, as its length is unknown; of an array of messages, those of the first.
+    An array is one name, as its length is unknown; an array of messages has those of its first.
     """
     names: list[str] = []
     kind = message_class(type_name)

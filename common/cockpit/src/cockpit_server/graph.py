@@ -48,7 +48,7 @@ class Graph:
         return self._robots_with("/odom", ODOMETRY, self.publishers)
 
     def robots(self) -> set[str]:
-        """Return all robots: odometry or a subscriber of /joy makes one; "" has no namespace."""
+        """Return all robots, by odometry or a subscriber of /joy; "" has no namespace."""
         return self.robots_with_odometry() | self._robots_with("/joy", JOY, self.subscribers)
 
     def robot_with(self, topic: str) -> str:
@@ -86,7 +86,7 @@ class Graph:
         return ""
 
     def parts(self) -> dict[str, Any]:
-        """Return all of it as pages receive it, the connections as edges."""
+        """Return the graph as pages receive it, with connections as edges."""
         nodes, topics = sorted(self.nodes), sorted({*self.publishers, *self.subscribers})
         return {
             "nodes": [self._node(name) for name in nodes],
@@ -128,7 +128,10 @@ def graph_of(
     state: Any, types: dict[str, str], parameters: Iterable[str],
     machines: Mapping[str, str | None], own_name: str,
 ) -> Graph:  # fmt: skip
-    """Return a Graph. state: of getSystemState(). machines: of the nodes; None: it was killed."""
+    """Return the Graph of the state that getSystemState() returns.
+
+    machines: node -> its machine, or None if the node was killed.
+    """
     dead = {node for node, machine in machines.items() if machine is None}
     shown = {topic for topic, _ in state[0]} - {"/rosout"}
     publishers = without({own_name}, without(dead, state[0]).items(), shown_in=shown)

@@ -19,7 +19,7 @@ BEAT_S = 0.05  # period of messages to the driver, and of robots to all pages
 TICK_S = 0.01  # period at which the session and a recording that plays are given the time
 
 
-class Clock(Protocol):
+class HubClock(Protocol):
     """What the hub uses of the module time."""
 
     def monotonic(self) -> float: ...
@@ -27,11 +27,11 @@ class Clock(Protocol):
 
 
 class Hub:
-    """Passes on what the open pages send, and what is sent to them."""
+    """Passes messages of the open pages to sources, and what these show to the pages."""
 
     def __init__(
         self, pages: dict[int, Page], driving: Driving, sources: Sequence[TabSource],
-        report: Callable[[str], None], clock: Clock,
+        report: Callable[[str], None], clock: HubClock,
     ) -> None:  # fmt: skip
         """pages: by number; the hub adds and removes them. report: reports a failure at once."""
         self.pages, self._driving, self._sources = pages, driving, sources

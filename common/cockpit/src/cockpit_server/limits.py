@@ -1,4 +1,4 @@
-"""Limits for pages: their number, what they may send, and what time of the thread they may use."""
+"""Limits for pages: their number, their messages, and their part of the one thread's time."""
 
 from math import inf
 from typing import Optional
@@ -15,8 +15,8 @@ LONGEST_BODY = 1024  # bytes; nothing is uploaded
 # What the kernel buffers for a page that does not read [bytes]; the kernel doubles it.
 SEND_BUFFER = 65536
 
-# The part of the thread's time for messages of pages that do not drive, and as much for sending to
-# pages, and for HTTP.
+# The part of the thread's time for each of: messages of pages that do not drive, messages to pages,
+# HTTP.
 SHARE = 0.15
 SENDING_BURST_S = 0.003  # how long the driver waits while messages are sent to pages in turn
 MESSAGE_S = 0.0005  # reading a message; its further cost is known afterwards
@@ -31,7 +31,7 @@ class Budget:
     """Refills at SHARE, up to burst_s. As costs are known afterwards, there may be debt."""
 
     def __init__(self, burst_s: float, cost_s: float, most_debt_s: float = inf) -> None:
-        """most_debt_s: of the actions that wait."""
+        """most_debt_s: the limit for the cost of all actions that wait."""
         self._burst_s = self._left_s = burst_s
         self._cost_s, self._least_s = cost_s, -most_debt_s
         self._at: Optional[float] = None

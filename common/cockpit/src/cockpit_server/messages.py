@@ -1,4 +1,4 @@
-"""Messages of any type as they arrive, and how they are decoded."""
+"""Messages of any type: how they arrive and are decoded."""
 
 from __future__ import annotations
 
@@ -8,16 +8,16 @@ from typing import Any, Callable, Hashable, Mapping, NamedTuple, Protocol
 import numpy as np
 
 
-class RawMessage(NamedTuple):
+class ReceivedMessage(NamedTuple):
     """A message that is not decoded yet."""
 
     topic: str
     data: bytes
     sender: str  # name of its node, "" if unknown
-    arrived: float  # [s] of the clock that also gives the time to tabs
+    arrived: float  # [s] of the monotonic clock
 
 
-Handler = Callable[[RawMessage], None]
+Handler = Callable[[ReceivedMessage], None]
 
 
 class Subscriptions(Protocol):
@@ -26,7 +26,7 @@ class Subscriptions(Protocol):
     def set_subscriptions(
         self, owner: Hashable, handlers: Mapping[str, Handler], every: bool
     ) -> None:
-        """Replace the topics that an owner receives by those of handlers, {topic: handler}.
+        """Subscribe an owner to the topics of {topic: handler}, and to no others.
 
         every: whether it needs every message, or only the newest, at intervals.
         """

@@ -70,7 +70,7 @@ class TabSource:
         """Gather what these pages show; called twenty times a second."""
 
     def send_to(self, page: Page, now: float) -> None:
-        """Send a page what it lacks; all that was sent before has left this machine."""
+        """Send a page what it lacks; nothing that was sent before is waiting."""
 
 
 def encoded(kind: str, **fields: Any) -> str:

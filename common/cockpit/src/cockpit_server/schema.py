@@ -1,6 +1,6 @@
-"""The messages that pages may send: their fields, and the bounds of these.
+"""The messages that pages may send, with their fields and bounds.
 
-The check of a field returns the value as it is used, or raises ValueError with one line.
+The check of a field returns the value to use, or raises ValueError with one line.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ text = declaration.text(
 
 
 def full_name(value: Any) -> Any:
-    """Return a name of the graph. Raises ValueError for a relative one, which rospy resolves."""
+    """Return an absolute name. Raises ValueError for one that rospy would resolve to another."""
     if not text(value).startswith("/"):
         raise ValueError("must begin with /")
     return value
@@ -78,7 +78,7 @@ class Schema:
             self.messages.update(source.messages)
 
     def watch(self, **fields: Any) -> SimpleNamespace:
-        """Return what a page watches: these fields, and the values of no tab for all others."""
+        """Return what a page watches; a field that it does not name shows nothing."""
         return SimpleNamespace(**{**self._nothing, **fields})
 
     def check(self, data: Any) -> tuple[str, dict[str, Any]]:
@@ -111,7 +111,7 @@ class Schema:
 
 
 def check_lengths(modes: Sequence[str], axes: Sequence[float], buttons: Sequence[int]) -> None:
-    """Raise ValueError unless the gamepad has as many of these in one of the modes."""
+    """Raise ValueError unless a gamepad in one of the modes has as many axes and buttons."""
     allowed = {mode: (len(F710[mode].axes), len(F710[mode].buttons)) for mode in modes}
     if (len(axes), len(buttons)) not in allowed.values():
         has = [f"{mode} mode has {a} axes and {b} buttons" for mode, (a, b) in allowed.items()]

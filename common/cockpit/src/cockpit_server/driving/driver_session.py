@@ -17,13 +17,14 @@ from node_kit.rules.released import are_released
 
 SILENCE_S = 0.2  # After this time without a fresh input the operator is lost.
 LATE_S = 0.1  # An input that took this much longer than the fastest one is dropped.
-FROZEN_S = 0.2  # A gamepad whose own time stands still for this long is frozen,
-# if its time advanced in this many inputs before, while nothing moved. Where the browser advances
-# it with movements alone (Chromium on Linux, gamepad_device_linux.cc), a still stick is no loss.
+# A gamepad is frozen if its own clock stops for FROZEN_S after it advanced in TICKS inputs without
+# movement. Where only movements advance it (Chromium on Linux, gamepad_device_linux.cc), a still
+# stick is no loss.
+FROZEN_S = 0.2
 TICKS = 8
 AWAY_S = 5.0  # After this time without a fresh input the session is free again.
 KEPT_BEATS = 16  # [beats] as many as are sent in several SILENCE_S
-CLOCK_DRIFT = 1e-3  # the page's clock may be slower than ours by this; crystals differ by a tenth
+CLOCK_DRIFT = 1e-3  # the page's clock may be slower than ours by this; crystals: a tenth
 Axes = Tuple[float, ...]
 Buttons = Tuple[int, ...]
 
@@ -78,7 +79,7 @@ class DriverSession:
         self._beats: dict[int, float] = {}  # number -> when it was sent [s]
         self.driver: int | None = None
         self.stopped: str | None = None  # the robot that the last loss has stopped
-        self.why = ""  # why it has
+        self.why = ""  # why it has stopped it, or ""
         self._pad: float | None = None
         self._clear()
 

@@ -6,10 +6,10 @@ from diagnostic_msgs.msg import DiagnosticArray
 
 from cockpit_server.driving.reasons import Report
 from cockpit_server.graph import robot_of
-from cockpit_server.messages import RawMessage, Subscriptions, decoded
+from cockpit_server.messages import ReceivedMessage, Subscriptions, decoded
 from node_kit.rules.arming import DRIVING
 
-MARK = ": joystick"  # the end of the name of joy2twist's status; before it stands its node's
+MARK = ": joystick"  # The name of joy2twist's status is NODE: joystick.
 SILENT_S = 4.0  # It publishes once a second.
 SILENT = Report("silent", "no report from joy2twist for 4 s")
 DEADMAN = "Dead-man button"  # key of the value with its number, or "none"
@@ -34,7 +34,7 @@ class Joy2TwistReports:
             outdated = report._replace(state="unknown", why="it reports once a second")
             self._reports[robot] = outdated, arrived
 
-    def _on_diagnostics(self, message: RawMessage) -> None:
+    def _on_diagnostics(self, message: ReceivedMessage) -> None:
         is_about_joysticks = MARK.encode() in message.data
         array = decoded(DiagnosticArray, message.data) if is_about_joysticks else None
         for status in array.status if array else ():

@@ -58,7 +58,7 @@ def brief(nodes: Iterable[str], separator: str) -> str:
 
 def rival(node: str, services: Container[str]) -> str:
     """Return what to do about a node that publishes the joystick topic of a robot."""
-    # A service of rosbag play: to end that may end its launch file, and the cockpit with it.
+    # rosbag play has this service. Ending it may end its launch file, and with it the cockpit.
     pause = f"{node}/pause_playback"
     if pause in services:
         todo = f"pause it first (tab Topics, Show: services, {pause}, data: true)"
@@ -97,12 +97,12 @@ def by_page(about: About, robot: str, is_own: bool) -> str:
 
 
 def by_form(name: str, is_own: bool, topic: str) -> str:
-    """Return a sentence for a page: it drives by its own form, or the page of this name does."""
+    """Return a sentence for a page: it drives by its form, or the page of this name does."""
     return sentence(f"{'you drive' if is_own else f'{name} drives'} by a form, on {topic}")
 
 
 def again(about: About) -> str:
-    """Return what a person has to do after a stop to drive again."""
+    """Return what a person has to do to drive again after a stop."""
     button = deadman_button(about)
     if button is None:
         return "Release the stick, then move it again."

@@ -124,7 +124,7 @@ class Driving(TabSource):
         return self.session.refusal(page.number)
 
     def on_stop(self, page: Page, _now: float) -> None:
-        """Stop the driven robot: end the own session; another page must release its stick first."""
+        """Stop the driven robot; the session of another page stays, but must be armed again."""
         page.must_drive()
         if self.is_driver(page):
             self.leave(page)
@@ -169,7 +169,7 @@ class Driving(TabSource):
             raise RefusedError("another page drives: until it ends, only that page may do this")
 
     def must_rest(self, page: Page, robot: str) -> None:
-        """Raise RefusedError if a page may not reset a robot, as something else drives it."""
+        """Raise RefusedError if a page may not reset a robot, or something else drives it."""
         page.must_drive()
         if robot == self.driven and not self.is_driver(page):
             raise RefusedError("another page drives this robot: only that page may reset it")
@@ -267,7 +267,7 @@ class Driving(TabSource):
             page.send("drives", **texts)
 
     def _who(self, about: About, robot: str, page: Page) -> str:
-        """Return what drives the robot in sight, and which page drives any robot by a form."""
+        """Return what drives the robot in sight, and which page drives some robot by a form."""
         who, driver = reasons.who(about, robot, page.number), self.session.driver
         if driver is None or not self.session.topic or about.driver is not None:
             return who

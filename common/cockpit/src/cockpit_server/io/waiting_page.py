@@ -19,7 +19,7 @@ ANSWER = (
 
 
 def answer_for(listener: socket.socket, duration_s: float) -> None:
-    """Answer connections with that page for this time."""
+    """Answer all connections with the waiting page, for a time."""
     end = time.monotonic() + duration_s
     while select.select([listener], [], [], max(0.0, end - time.monotonic()))[0]:
         with suppress(OSError):  # The browser has closed it.

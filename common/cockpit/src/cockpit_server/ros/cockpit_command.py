@@ -73,7 +73,7 @@ def listening(port: int, lan: bool) -> list[socket.socket]:
 
 
 def leave_to_other(port: int, lan: bool) -> NoReturn:
-    """Exit, with 0 if the port is that of a cockpit of the same master that is sufficient."""
+    """Exit, with 0 if the port is that of a cockpit of the same master that needs no change."""
     page = address(rosgraph.get_master_uri())
     if not page or urlsplit(page).port != port:
         fail(f"port {port} is taken, maybe by another cockpit: end it, or take --port {port + 1}")
@@ -162,7 +162,7 @@ def no_parameters(given: dict[str, Any]) -> None:
 
 
 def where(page: str) -> str:
-    """Return a line on where to open a page that only this machine can reach."""
+    """Return where to open a page that only this machine can reach."""
     if PUBLISHED in os.environ:
         return f"open http://localhost:{os.environ[PUBLISHED]}/ on the container's host"
     return f"open {page} on this machine"

@@ -14,10 +14,10 @@ from typing import Any, Callable, Hashable, Mapping
 import rospy
 
 from cockpit_server.failures import Guard
-from cockpit_server.messages import Handler, RawMessage
+from cockpit_server.messages import Handler, ReceivedMessage
 from node_kit.ros.rospy_patches.connections import sender_of
 
-PERIOD_S = 0.05  # how often a topic is read of which only the newest message is needed
+PERIOD_S = 0.05  # between two messages of a topic of which only the newest is needed
 # The one thread for calls of the master that may block: they are made one after the other.
 _worker = ThreadPoolExecutor(1, thread_name_prefix="to_the_master")
 _queued: set[Callable[[], Any]] = set()  # later_once() queues an action once.
@@ -67,7 +67,7 @@ class Feeds:
     def set_subscriptions(
         self, owner: Hashable, handlers: Mapping[str, Handler], every: bool
     ) -> None:
-        """As Subscriptions says. The handlers of a topic are called by one thread at a time."""
+        """See Subscriptions. The handlers of a topic are called by one thread at a time."""
         if self._wants.get(owner) == (handlers, every):
             return
         self._wants[owner] = (handlers, every)
@@ -83,7 +83,7 @@ class Feeds:
 
     def _adjust(self) -> None:
         wanted = self._wanted
-        # A topic that rospy refuses must not hold up the others, which also show a rival.
+        # A topic that rospy refuses must not affect the others, which also reveal a rival.
         for key in set(self._subscribers) - wanted:
             self._guard(repr(key[0]), self._subscribers.pop(key).unregister)
         for key in wanted - set(self._subscribers):
@@ -98,7 +98,7 @@ class Feeds:
 
     def _receive(self, message: _Undecoded, about: tuple[str, threading.Lock]) -> None:
         topic, lock = about
-        raw = RawMessage(topic, message.data, sender_of(message), time.monotonic())
+        raw = ReceivedMessage(topic, message.data, sender_of(message), time.monotonic())
         with lock:
             for handler in self._handlers.get(topic, ()):
                 handler(raw)

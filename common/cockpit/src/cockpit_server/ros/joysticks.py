@@ -10,7 +10,7 @@ from sensor_msgs.msg import Joy
 
 from cockpit_server.driving.driver_session import Axes, Buttons
 from cockpit_server.graph import GraphWatcher, topic_of
-from cockpit_server.messages import RawMessage, Subscriptions, decoded
+from cockpit_server.messages import ReceivedMessage, Subscriptions, decoded
 from cockpit_server.pages import Page, TabSource
 from cockpit_server.ros.feeds import later_once
 from cockpit_server.schema import or_null, text
@@ -94,7 +94,7 @@ class Joysticks(TabSource):
         if page.watch.floor and page.take_if_new("pad", (robot, arrived)) and joy:
             page.send("pad", robot=robot, age=round(max(0.0, now - arrived), 3), **joy)
 
-    def _on_joy(self, message: RawMessage) -> None:
+    def _on_joy(self, message: ReceivedMessage) -> None:
         if message.sender != self._own_name:
             self._rivals[message.topic] = (message.sender, message.arrived)
         self._newest[message.topic] = (message.arrived, shown(message.data))

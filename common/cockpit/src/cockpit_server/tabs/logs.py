@@ -1,4 +1,4 @@
-"""Lines on pages: the newest ones of the nodes' logs, and those of the doctor."""
+"""The newest lines that nodes have logged, and lines of the doctor, as pages receive them."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import Any, ClassVar
 
 from rosgraph_msgs.msg import Log
 
-from cockpit_server.messages import RawMessage, Subscriptions, decoded
+from cockpit_server.messages import ReceivedMessage, Subscriptions, decoded
 from cockpit_server.pages import Page, TabSource
 from cockpit_server.schema import switch
 
@@ -77,6 +77,6 @@ class Logs(TabSource):
             entries = [entry for entry in (shown(data) for _, data in lines) if entry]
             page.send("log", entries=entries)
 
-    def _on_line(self, message: RawMessage) -> None:
+    def _on_line(self, message: ReceivedMessage) -> None:
         if all(data != message.data for _, data in list(self._lines)):  # else latched, sent again
             self._lines.append((next(self._numbers), message.data))

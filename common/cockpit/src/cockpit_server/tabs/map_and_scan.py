@@ -12,7 +12,7 @@ from sensor_msgs.msg import LaserScan
 from tf2_msgs.msg import TFMessage
 
 from cockpit_server.graph import GraphWatcher, topic_of
-from cockpit_server.messages import RawMessage, Subscriptions, decoded
+from cockpit_server.messages import ReceivedMessage, Subscriptions, decoded
 from cockpit_server.pages import Page, TabSource
 
 MOST_CELLS = 250_000  # in a page's map; a larger map gets larger cells
@@ -64,12 +64,12 @@ class MapAndScan(TabSource):
             points = scan_points(data, self._mounts) if data else []
             page.send("scan", robot=robot, points=points)
 
-    def _on_map(self, message: RawMessage) -> None:
+    def _on_map(self, message: ReceivedMessage) -> None:
         shown = map_shown(message.data)
         if shown and shown != self._map:
             self._map = shown
 
-    def _on_frames(self, message: RawMessage) -> None:
+    def _on_frames(self, message: ReceivedMessage) -> None:
         frames = decoded(TFMessage, message.data, LONGEST_FRAMES) or TFMessage()
         for stamped in frames.transforms:
             place, frame = stamped.transform.translation, stamped.child_frame_id
@@ -79,7 +79,7 @@ class MapAndScan(TabSource):
             if len(self._mounts) > MOST_FRAMES:
                 del self._mounts[next(iter(self._mounts))]
 
-    def _on_scan(self, message: RawMessage) -> None:
+    def _on_scan(self, message: ReceivedMessage) -> None:
         self._scans[message.topic] = (message.arrived, message.data)
 
 

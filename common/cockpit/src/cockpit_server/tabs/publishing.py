@@ -70,13 +70,13 @@ class Publishing(TabSource):
 
     def collect(self, pages: Sequence[Page], now: float) -> None:
         open_pages = {page.number: page for page in pages}
-        for number, held in list(self._held.items()):
-            page = open_pages.get(number)
+        for page_number, held in list(self._held.items()):
+            page = open_pages.get(page_number)
             is_silent = not held.drives and now - held.fresh_at > SILENCE_S
             if is_silent and page:
                 page.refuse("again", SILENT)
             if is_silent or not page or not self._is_on(page, held):
-                del self._held[number]
+                del self._held[page_number]
         self._publishers.collect(self._graphs.graph.subscribers, now)
 
     def _is_on(self, page: Page, held: Held) -> bool:

@@ -9,7 +9,7 @@ from kobuki_msgs.msg import SensorState
 from nav_msgs.msg import Odometry
 
 from cockpit_server.graph import ODOMETRY, GraphWatcher, topic_of
-from cockpit_server.messages import RawMessage, Subscriptions, decoded
+from cockpit_server.messages import ReceivedMessage, Subscriptions, decoded
 from cockpit_server.pages import Page, TabSource, encoded
 from cockpit_server.schema import switch
 from cockpit_server.tabs.kobuki import core_shown
@@ -68,7 +68,7 @@ class Robots(TabSource):
             self._states, self._text = {}, ""
 
     def _collect_kobukis(self) -> None:
-        """Subscribe to a Kobuki's parts also while no page shows them: an LED keeps its colour."""
+        """Subscribe to Kobukis' parts even if no page shows them, as an LED keeps its colour."""
         types = self._graphs.graph.types.items()
         parts = [topic for topic, kind in types if kind in KOBUKI and BASE in topic]
         robots = {topic.partition(BASE)[0].strip("/") for topic in parts}
@@ -107,10 +107,10 @@ class Robots(TabSource):
         state, arrived, *_ = self._states.get(robot, (Motion(0, 0, 0, 0, 0), 0.0, 0.0, None))
         return now - arrived < FRESH_S and max(abs(state.v), abs(state.w)) > LEAST_SPEED
 
-    def _on_message(self, message: RawMessage) -> None:
+    def _on_message(self, message: ReceivedMessage) -> None:
         self._newest[message.topic] = (message.data, message.arrived)
 
-    def _on_kobuki(self, message: RawMessage) -> None:
+    def _on_kobuki(self, message: ReceivedMessage) -> None:
         robot, _, part = message.topic.partition(BASE)
         names = KOBUKI.get(self._graphs.graph.types.get(message.topic, ""), ())
         state, data = self._kobukis.setdefault(robot.strip("/"), {}), message.data

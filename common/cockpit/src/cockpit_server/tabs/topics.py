@@ -7,7 +7,7 @@ from collections import deque
 from typing import ClassVar, Sequence
 
 from cockpit_server.graph import GraphWatcher
-from cockpit_server.messages import RawMessage, Subscriptions
+from cockpit_server.messages import ReceivedMessage, Subscriptions
 from cockpit_server.pages import Page, TabSource
 from cockpit_server.schema import full_name, list_of, or_null
 from node_kit.message_types import message_class
@@ -34,7 +34,7 @@ class MeasuredTopic:
         self._marks: deque[tuple[float, int, int]] = deque()  # _last at past measurements
         self._newest: deque[tuple[int, bytes]] = deque(maxlen=ECHOED)
 
-    def add(self, message: RawMessage) -> None:
+    def add(self, message: ReceivedMessage) -> None:
         _, count, size = self._last
         self._last = (message.arrived, count + 1, size + len(message.data))
         if self.is_echoed:

@@ -26,7 +26,7 @@ def bag_files(may_drive: bool) -> dict[str, Path]:
 
 
 def version(path: Path) -> tuple[Any, ...]:
-    """Return what changes with a file. Raises BagError."""
+    """Return a key that changes with the file. Raises BagError."""
     try:
         status = path.stat()
     except OSError as error:

@@ -1,4 +1,4 @@
-"""Services that a driver calls and parameters that a driver sets by a form; resets of robots."""
+"""Forms by which a driver calls services, sets parameters and resets robots."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ class Forms(TabSource):
         elif what == "values":
             get_all = lambda: form_values.parameter_values(rospy.get_param("/", {}))  # noqa: E731
             self._ask_master(page, get_all)
-        # Only names in the graph: message_class() keeps every name.
+        # Only names in the graph, as message_class() keeps every name in memory.
         elif name in self._graphs.graph.types.values() and message_class(name):
             kind = message_class(name)
             page.send(**form(name, definition(kind), form_fields(kind), numbers_of(name)))

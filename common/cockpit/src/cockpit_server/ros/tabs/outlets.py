@@ -1,4 +1,4 @@
-"""The publishers of what pages write into forms."""
+"""The publishers of the messages that pages write in forms."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ class Outlets:
         return filled(kind, values)
 
     def send(self, topic: str, message: Any, now: float) -> None:
-        """Publish a message, by a new publisher where there is none."""
+        """Publish a message, by a new publisher if there is none."""
         outlet = self._outlets.get((topic, message._type))
         if outlet:
             outlet.used_at = now
@@ -77,13 +77,13 @@ class Outlets:
         later(outlet.open, topic, type(message))
 
     def send_rest(self, topic: str, message: Any) -> None:
-        """Publish the message that ends a motion, with the time, by the publisher of the motion."""
+        """Publish the message that ends a motion, with the time, by the same publisher."""
         if hasattr(message, "header"):
             message.header.stamp = rospy.Time.now()
         self._outlets[topic, message._type].send(message)
 
     def keep(self, topic: str, message: Any, now: float) -> None:
-        """Keep the publisher of a message, although it publishes nothing now."""
+        """Keep the publisher of a message open, although it publishes nothing now."""
         self._outlets[topic, message._type].used_at = now
 
     def collect(self, subscribers: Column, now: float) -> None:

@@ -11,12 +11,12 @@ import rospy
 
 from cockpit_server.fields import numbers_of, parts_of, split, value_at
 from cockpit_server.graph import GraphWatcher
-from cockpit_server.messages import RawMessage, Subscriptions, decoded
+from cockpit_server.messages import ReceivedMessage, Subscriptions, decoded
 from cockpit_server.pages import Page, TabSource
 from cockpit_server.schema import MOST_FIELDS, list_of, switch, text
 from node_kit.message_types import message_class
 
-NEAR_S = 1.0  # A stamp farther from this clock is of another clock, and is replaced by the arrival.
+NEAR_S = 1.0  # A stamp that differs more from the time is of another clock, and is not used.
 KEPT = 2000  # samples of a field for a page that is behind; only the newest of a whole array
 LONGEST_MESSAGE = 1_000_000  # bytes; a longer one would delay the driver
 Sample = Tuple[int, float, Any]  # number, time [s], value or values
@@ -72,7 +72,7 @@ class Plots(TabSource):
         if new:
             page.send("plot", samples=new)
 
-    def _on_message(self, raw: RawMessage) -> None:
+    def _on_message(self, raw: ReceivedMessage) -> None:
         kind = message_class(self._graphs.graph.types.get(raw.topic, ""))
         message = kind and decoded(kind, raw.data, LONGEST_MESSAGE)
         if message is None:

@@ -90,7 +90,7 @@ def has_space() -> bool:
 
 
 def free_name() -> str:
-    """Return a name with the time that no file has, even one of the same second."""
+    """Return an unused file name with the time, and a number within the same second."""
     base = time.strftime("page_%Y-%m-%d-%H-%M-%S")
     names = (f"{base}{f'_{n}' if n else ''}.bag" for n in itertools.count())
     return next(n for n in names if not os.path.exists(n) and not os.path.exists(f"{n}.active"))

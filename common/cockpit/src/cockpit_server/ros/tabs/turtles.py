@@ -47,7 +47,7 @@ class Turtles(TabSource):
         if answer is Answer.SILENT:  # The node is busy.
             return version, picture
         types = list(map(type, content)) if isinstance(content, list) else []
-        if types != [int, str] or len(content[1]) > LONGEST_PICTURE:  # The original has a window.
+        if types != [int, str] or len(content[1]) > LONGEST_PICTURE:  # The original has none.
             return None
         return content[0], content[1] or picture
 
