@@ -100,10 +100,10 @@ def test_a_joystick_in_a_room_drives_to_the_wall(run):
     ("words", "said"),
     [
         ("none.bag out.bag", "no such file"),
-        (". out.bag", "a folder, no file"),
+        (". out.bag", "a folder, not a file"),
         ("commands.bag out.bag --topic /other", "no topic /other of"),
         ("two.bag out.bag", "(/a, /b); choose one with --topic"),
-        ("cut.bag out.bag", "not a whole ROS 1 bag"),
+        ("cut.bag out.bag", "not a complete ROS 1 bag"),
         ("late.bag out.bag", "is silent for 1.0 h: damaged"),
         ("commands.bag none/out.bag", "no such folder"),
         ("commands.bag precious.bag", "--force overwrites it"),

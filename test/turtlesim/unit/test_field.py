@@ -100,7 +100,7 @@ def test_what_no_message_holds_is_refused_and_moves_nothing(field, value):
         lambda: field.call("turtle1/teleport_relative", {"linear": 0.0, "angular": value}, 0.0),
         lambda: spawn(field, "", x=value),
     ):
-        with pytest.raises(ValueError, match="is no length"):
+        with pytest.raises(ValueError, match="is not a length"):
             call()
     field.step(1.0)
     assert {name: one.pose[:3] for name, one in field.turtles.items()} == {"turtle1": START}

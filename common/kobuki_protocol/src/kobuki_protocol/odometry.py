@@ -116,6 +116,6 @@ def signed(ticks: int) -> int:
 
 
 def wrapped(angle: float) -> float:
-    """Return the angle [rad] turned by whole circles into (-pi, pi]."""
+    """Return the angle [rad] wrapped into (-pi, pi]."""
     turned = remainder(angle, tau)
     return turned if turned > -pi else pi

@@ -1,7 +1,7 @@
-"""From a recording of commands to a recording of the robot that obeys them, without a master.
+"""Replay of a bag of commands: writes a bag of the robot that obeys them, without a master.
 
-The same simulation as in the node, only that time is read from the bag, and so as fast as the
-machine can. rosbags (PyPI) reads and writes the bags; the messages are ROS's own classes.
+The simulation is that of the node, but time comes from the bag, so it runs as fast as the machine
+can. rosbags (PyPI) reads and writes the bags; the messages are ROS's own classes.
 """
 
 from __future__ import annotations
@@ -24,25 +24,25 @@ from fake_turtlebot_sim.simulator.ros_messages import RobotMessages
 from fake_turtlebot_sim.simulator.simulated_robot import RobotState, SimulatedRobot
 
 LONGEST_SILENCE_S = 1000.0  # between two commands
-Commands = List[Tuple[int, Optional[Velocity]]]  # times [ns]; None: a message not to be obeyed
+Commands = List[Tuple[int, Optional[Velocity]]]  # times [ns]; None: a message to ignore
 
 
 @dataclass
 class Replay:
-    """What came of it."""
+    """The result of a replay."""
 
     seconds: float  # simulated time
     distance: float  # [m] along the path
-    path: list[RobotState]  # one for each period, by the odometry; in a world, by the truth
-    ignored: int  # commands that were none
+    path: list[RobotState]  # for each period: the odometry, or in a world the true state
+    ignored: int  # messages without a command
 
 
 def read_commands(
     path: Path, topic: str, kind: Any, to_velocity: Callable[[Any], Velocity | None]
 ) -> Commands:
-    """Return the commands in the messages, of the class `kind`, on a topic of a bag.
+    """Return the commands in the messages of class `kind` on a topic of a bag.
 
-    to_velocity turns a message into (v [m/s], w [rad/s]) or None. Raises ReplayError.
+    to_velocity converts a message into (v [m/s], w [rad/s]) or None. Raises ReplayError.
     """
     message = kind()
     with _open(path) as reader:
@@ -56,8 +56,8 @@ def read_commands(
     for (before_ns, _), (after_ns, _) in zip(commands, commands[1:]):
         if after_ns - before_ns > LONGEST_SILENCE_S * 1e9:
             hours = (after_ns - before_ns) / 3.6e12
-            said = f"is silent for {hours:.1f} h: damaged, or no one drive"
-            raise ReplayError(f"{path}: {topic} {said}")
+            why = f"is silent for {hours:.1f} h: damaged, or more than a single drive"
+            raise ReplayError(f"{path}: {topic} {why}")
     return commands
 
 
@@ -70,19 +70,19 @@ def topics_of(path: Path) -> dict[str, str]:
 @contextmanager
 def _open(path: Path) -> Iterator[Reader]:
     if not path.is_file():
-        raise ReplayError(f"{path}: {'a folder, no file' if path.is_dir() else 'no such file'}")
+        raise ReplayError(f"{path}: {'a folder, not a file' if path.is_dir() else 'no such file'}")
     try:
         with Reader(path) as reader:
             yield reader
-    except Exception as error:  # rosbags lets KeyError and more through from a damaged file
+    except Exception as error:  # rosbags raises KeyError and more for a damaged file
         why = " ".join(str(error).split()) or type(error).__name__
-        raise ReplayError(f"{path}: not a whole ROS 1 bag ({why:.200})") from None
+        raise ReplayError(f"{path}: not a complete ROS 1 bag ({why:.200})") from None
 
 
 def replay(commands: Commands, target: Path, parameters: SimulatorParameters) -> Replay:
     """Obey the commands and write odom, /tf and joint_states to a new bag `target`.
 
-    The robot starts at the first command and is watched until it has come to rest after the last.
+    The bag begins at the first command and ends when the robot has stopped after the last one.
     """
     robot = SimulatedRobot(parameters, parameters.start_poses()[""])
     messages, path = RobotMessages(parameters), []
@@ -111,12 +111,12 @@ def replay(commands: Commands, target: Path, parameters: SimulatorParameters) ->
 
 
 def _add(writer: Writer, topic: str, message: Any) -> Any:
-    kind = message._type.replace("/", "/msg/")  # as rosbags names it
+    kind = message._type.replace("/", "/msg/")  # the name in rosbags
     return writer.add_connection(topic, kind, msgdef=message._full_text, md5sum=message._md5sum)
 
 
 def periods(robot: SimulatedRobot, commands: Commands, period_ns: int) -> Iterator[int]:
-    """Move the robot period by period through the commands; yield the time [ns] of each."""
+    """Move the robot period by period through the commands; yield the time [ns] of each period."""
     start_ns = now_ns = commands[0][0]
     waiting = list(reversed(commands))
     while waiting or robot.is_moving:

@@ -1,4 +1,4 @@
-"""The command replay_bag: arguments, picture and one clear line for each mistake."""
+"""The command replay_bag: its arguments, its picture, and a line for each mistake."""
 
 from __future__ import annotations
 
@@ -31,9 +31,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     )
     parser.add_argument("bag", type=Path, help="recording of the commands")
     parser.add_argument("output", type=Path, help="new bag with /odom, /tf and /joint_states")
-    parser.add_argument("--topic", help="which topic holds the commands, if there are several")
+    parser.add_argument("--topic", help="topic of the commands, if there are several")
     parser.add_argument("--config", type=Path, help="YAML file of parameters of fake_turtlebot")
-    parser.add_argument("--world", help="what to drive in: room, maze, table or a file")
+    parser.add_argument("--world", help="world to drive in: room, maze, table or a file")
     parser.add_argument("--picture", type=Path, metavar="PNG", help="draw the path")
     parser.add_argument("--force", action="store_true", help="overwrite the output")
     try:
@@ -55,7 +55,7 @@ def run(options: argparse.Namespace) -> None:
     began_s = time.monotonic()
     to_velocity = velocity_of_twist if kind is Twist else velocity_of_joy
     commands = read_commands(options.bag, topic, kind, to_velocity)
-    # Under another name until it is whole, so that an interruption leaves no half of a bag.
+    # Under another name until it is complete, so that an interruption leaves no partial bag.
     unfinished = options.output.with_name(options.output.name + ".unfinished")
     try:
         unfinished.unlink(missing_ok=True)
@@ -75,7 +75,7 @@ def run(options: argparse.Namespace) -> None:
 
 
 def read_parameters(path: Path | None, world: str | None = None) -> SimulatorParameters:
-    """Return the parameters in a YAML file, or the defaults; world: replaces that of the file."""
+    """Return the parameters of a YAML file, or the defaults; world: replaces the file's."""
     in_world = {} if world is None else {"world": world}
     if path is None:
         return parse_parameters(in_world)
@@ -87,25 +87,25 @@ def read_parameters(path: Path | None, world: str | None = None) -> SimulatorPar
         raise ReplayError(f"{path}: must hold lines of `name: value`")
     parameters = parse_parameters({**given, **in_world})
     if parameters.robots:
-        raise ReplayError(f"{path}: a replay is of one robot; leave ~robots out")
+        raise ReplayError(f"{path}: a replay has one robot; leave out ~robots")
     return parameters
 
 
 def choose_topic(bag: Path, wanted: str | None) -> tuple[str, Any]:
-    """Return (topic, message class) of the commands: the wanted, a Twist, or a Joy."""
+    """Return (topic, message class) of the commands: `wanted`, else a Twist, else a Joy."""
     kinds = {Twist._type: Twist, Joy._type: Joy}
-    found = {
+    topics = {
         topic: kinds[kind]
         for topic, kind in sorted(topics_of(bag).items())
         if kind in kinds and wanted in (None, topic)
     }
-    found = {topic: kind for topic, kind in found.items() if kind is Twist} or found
-    if len(found) > 1:
-        raise ReplayError(f"{bag}: several topics ({', '.join(found)}); choose one with --topic")
-    if not found:
+    topics = {topic: kind for topic, kind in topics.items() if kind is Twist} or topics
+    if len(topics) > 1:
+        raise ReplayError(f"{bag}: several topics ({', '.join(topics)}); choose one with --topic")
+    if not topics:
         name = f"topic {wanted}" if wanted else "topic"
         raise ReplayError(f"{bag}: no {name} of {Twist._type} or {Joy._type}")
-    return next(iter(found.items()))
+    return next(iter(topics.items()))
 
 
 def velocity_of_twist(twist: Any) -> Velocity:
@@ -114,14 +114,14 @@ def velocity_of_twist(twist: Any) -> Velocity:
 
 
 def velocity_of_joy(joy: Any) -> Velocity:
-    """Return (v [m/s], w [rad/s]) as the tutorial's node does: zero if the message is unusable."""
+    """Return (v [m/s], w [rad/s]) of a Joy, as the tutorial's node does; zero if it is unusable."""
     if len(joy.axes) < 2 or not all(map(isfinite, joy.axes[:2])):
         return 0.0, 0.0
     return joy.axes[1], joy.axes[0]
 
 
 def draw(path: Sequence[RobotState], target: Path, world: World | None = None) -> None:
-    """Draw the path, and the world around it, as a picture."""
+    """Draw a picture of the path and the world around it."""
     import matplotlib  # noqa: PLC0415  takes a second to load
 
     matplotlib.use("Agg")

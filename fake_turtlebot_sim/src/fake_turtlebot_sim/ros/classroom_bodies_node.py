@@ -1,7 +1,7 @@
-"""The node classroom_bodies: gives RViz a body and a name for every robot of a classroom.
+"""The node classroom_bodies: shows a body and a name in RViz for each robot of a classroom.
 
-A RobotModel of RViz needs for each robot a robot_state_publisher and an entry in a configuration,
-which cannot know the names. Markers need neither: RViz moves them with their frame.
+For each robot RViz's RobotModel needs a robot_state_publisher, and an entry in a configuration,
+where the names are unknown. Markers need neither: RViz moves them with their frame.
 """
 
 from __future__ import annotations
@@ -9,19 +9,19 @@ from __future__ import annotations
 import time
 
 import rospy
-from geometry_msgs.msg import Point, Pose, Quaternion
+from geometry_msgs.msg import Point, Vector3
 from std_msgs.msg import ColorRGBA
 from visualization_msgs.msg import Marker, MarkerArray
 
 from fake_turtlebot_sim.simulator.parameters import SimulatorParameters, parse_parameters
+from fake_turtlebot_sim.simulator.world_messages import marker
 from node_kit.ros.lifecycle.start import run
 
 NODE_NAME = "classroom_bodies"
-PERIOD_S = 1.0  # not of rospy, whose time may be simulated
-UPRIGHT = Quaternion(0.0, 0.0, 0.0, 1.0)
+PERIOD_S = 1.0  # of real time; rospy's may be simulated
 BLACK, PLATE = ColorRGBA(0.10, 0.10, 0.10, 1.0), ColorRGBA(0.30, 0.30, 0.32, 1.0)
 GREEN = ColorRGBA(0.35, 0.75, 0.20, 1.0)
-# The outline of the URDF: shape, middle and size [m] in the frame of the base.
+# The outline of the URDF: shape, centre and size [m] in the base frame.
 BODY = (
     (Marker.CYLINDER, (0.0, 0.0, 0.052), (0.356, 0.356, 0.080), BLACK),  # the base
     (Marker.CYLINDER, (0.0, 0.0, 0.142), (0.320, 0.320, 0.008), PLATE),
@@ -36,27 +36,24 @@ BODY = (
 
 def markers(robot: str, base_frame: str) -> list[Marker]:
     """Return the Markers of one robot, which stay and move with the frame."""
-    found = []
-    for number, (shape, middle, size, colour) in enumerate(BODY):
-        marker = Marker(ns=robot, id=number, type=shape, action=Marker.ADD, color=colour)
-        # Without a stamp and locked: wherever the frame is when RViz draws.
-        marker.header.frame_id, marker.frame_locked = base_frame, True
-        marker.pose = Pose(Point(*middle), UPRIGHT)
-        marker.scale.x, marker.scale.y, marker.scale.z = size
-        found.append(marker)
-    found[-1].text = robot
-    return found
+    body = []
+    for number, (shape, centre, size, colour) in enumerate(BODY):
+        part = marker(robot, number, shape, base_frame, colour)
+        part.pose.position, part.scale = Point(*centre), Vector3(*size)
+        body.append(part)
+    body[-1].text = robot
+    return body
 
 
 class ClassroomBodies:
-    """Publishes the bodies once a second: RViz drops a marker that comes before its frame.
+    """Publishes the bodies once a second: RViz drops a marker that arrives before its frame.
 
     Publishers: classroom_bodies (visualization_msgs/MarkerArray)
-    Parameters: those of the node fake_turtlebot; of these count ~robots and ~base_frame
+    Parameters: those of the node fake_turtlebot, of which only ~robots and ~base_frame matter
     """
 
     def __init__(self, parameters: SimulatorParameters) -> None:
-        """Take the robots' names."""
+        """Make the markers of all robots."""
         self._bodies = MarkerArray()
         for name in parameters.robots:
             self._bodies.markers += markers(name, f"{name}/{parameters.base_frame}")

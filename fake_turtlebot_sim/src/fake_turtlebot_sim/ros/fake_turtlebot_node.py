@@ -1,4 +1,4 @@
-"""The node: ROS on one side, simulated robots on the other, and no arithmetic in between."""
+"""The node fake_turtlebot: ROS around the simulated robots."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ from node_kit.ros.rospy_patches.connections import report_bad_messages
 from node_kit.ros.rospy_patches.prompt_publisher import PromptPublisher
 
 NODE_NAME = "fake_turtlebot"
-LONGEST_END_S = 0.3  # for the last messages, while /clock may stand still
+LONGEST_END_S = 0.3  # for the last messages, as /clock may be paused
 
 
 class FakeTurtlebot:
-    """One TurtleBot 2, or with ~robots as many as named, each in the namespace of its name.
+    """One TurtleBot 2, or with ~robots several, each in the namespace of its name.
 
     Subscribers: cmd_vel (geometry_msgs/Twist), initialpose (PoseWithCovarianceStamped),
-        mobile_base/commands/reset_odometry (std_msgs/Empty); of a Kobuki those of kobuki_topics
+        mobile_base/commands/reset_odometry (std_msgs/Empty); with ~kobuki those of kobuki_topics
     Publishers: odom (nav_msgs/Odometry), joint_states (sensor_msgs/JointState),
         base_pose_ground_truth (nav_msgs/Odometry; in a world, or if the odometry has errors),
         in a world map (nav_msgs/OccupancyGrid), map_metadata (nav_msgs/MapMetaData), both latched,
@@ -39,13 +39,13 @@ class FakeTurtlebot:
         for each robot scan (sensor_msgs/LaserScan), bumper_markers (MarkerArray) and
         mobile_base/events/bumper, cliff, wheel_drop (kobuki_msgs),
         /tf and /tf_static (tf2_msgs/TFMessage), /diagnostics (diagnostic_msgs/DiagnosticArray)
-    Services: ~reset (std_srvs/Empty), and of several robots each one's own, reset; in a world
+    Services: ~reset (std_srvs/Empty), and NAME/reset for each of several robots; in a world
         static_map (nav_msgs/GetMap), change_map (nav_msgs/LoadMap)
     Parameters: parameters.SimulatorParameters, as a table in README.md
     """
 
     def __init__(self, parameters: SimulatorParameters) -> None:
-        """Put the robots at their start poses; nothing is published before spin()."""
+        """Put the robots at their start poses; spin() publishes them."""
         log, parameters = Log(), prefixed(parameters)
         report_bad_messages(log.warn)
         world = parameters.world
@@ -55,7 +55,7 @@ class FakeTurtlebot:
         self._motion = MotionLock()
         self._period_ns = parameters.period_ns()
         self._rate = parameters.rate
-        # Absolute, as every listener of tf2 subscribes to it; one message for all robots.
+        # An absolute name, as in tf2, and one message for all robots.
         self._tf = PromptPublisher("/tf", TFMessage)
         self._topics = [
             RobotTopics(name, pose, parameters, self._motion, log)
@@ -67,13 +67,13 @@ class FakeTurtlebot:
             if parameters.world:
                 self._transforms.transforms += [topics.messages.in_map for topics in self._topics]
         self._world: WorldTopics | None = None
-        frames = [(parameters.world_frame, one.odom_frame, ORIGIN) for one in self._topics]
+        frames = [(parameters.world_frame, t.odom_frame, ORIGIN) for t in self._topics]
         if parameters.world:
             robots = {topics.name: topics.robot for topics in self._topics}
             self._world = WorldTopics(parameters, parameters.world, robots, log.warn)
             frames = self._world.frames()
         if parameters.publish_tf and (parameters.world or parameters.robots):
-            self._lay(frames)
+            self._publish_static(frames)
         self._cycles = self._missed = self._reported_rejected = 0  # since the last report
         self._cycle_number = 0
         self._diagnostics = diagnostic_updater.Updater()
@@ -81,7 +81,7 @@ class FakeTurtlebot:
         self._diagnostics.add("simulation", self._report)
         rospy.Service("~reset", Empty, self._on_reset)
         self._is_ending = False
-        self._has_ended = threading.Event()  # the robots at rest were published
+        self._has_ended = threading.Event()  # set when the robots were published at rest
         rospy.on_shutdown(self._end)
 
     def spin(self) -> None:
@@ -106,7 +106,7 @@ class FakeTurtlebot:
             if self._world:
                 self._world.after_move(now.stamp)
         self._cycle_number += 1
-        if now.stamp:  # zero: simulated time has not started
+        if now.stamp:  # 0: simulated time has not started
             for topics in self._topics:
                 topics.publish()
             if self._world:
@@ -115,14 +115,14 @@ class FakeTurtlebot:
                 self._tf.publish(self._transforms)
         return now
 
-    def _lay(self, frames: list[tuple[str, str, Place]]) -> None:
-        """Publish where static frames are: (parent, child, place [m] in the parent)."""
+    def _publish_static(self, frames: list[tuple[str, str, Place]]) -> None:
+        """Publish static frames: (parent, child, place [m] in the parent)."""
         stamp = rospy.Time.now()
         self._tf_static = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
-        self._tf_static.publish(TFMessage([static_transform(one, stamp) for one in frames]))
+        self._tf_static.publish(TFMessage([static_transform(frame, stamp) for frame in frames]))
 
     def _end(self) -> None:
-        """Leave the robots standing, and have it seen that they do."""
+        """Stop the robots, and wait until their last state is published."""
         with self._motion.hold() as now:
             for topics in self._topics:
                 topics.end(now)
@@ -135,7 +135,7 @@ class FakeTurtlebot:
         return EmptyResponse()
 
     def _count(self, missed: int) -> None:
-        """Count one cycle and the periods missed before it; report once a second."""
+        """Count a cycle and the periods missed before it; report once a second."""
         self._cycles += 1
         self._missed += missed
         if self._cycles + self._missed >= self._rate:

@@ -1,4 +1,4 @@
-"""The topics of a Kobuki beside velocity and odometry: kobuki_node's, in its namespace."""
+"""The topics of kobuki_node other than velocity and odometry, in its namespace."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from node_kit.ros.log import Log
 from node_kit.ros.rospy_patches.prompt_publisher import PromptPublisher
 
 IDENTITY = HardwareVersion(4, 0, 1), FirmwareVersion(0, 2, 1), UniqueId((0, 0, 0))
-# Published once: what a Kobuki answers when its driver asks.
+# Published once: the answers of a Kobuki to its driver's requests.
 LATCHED = {
     "version_info": messages.version_info(*IDENTITY, software="simulated"),
     "controller_info": messages.controller_info(Controller()),
@@ -34,7 +34,7 @@ GYRO_READINGS = 2  # in a packet
 
 
 class KobukiTopics:
-    """Sensors, events and commands of a Kobuki, and a topic that presses its buttons."""
+    """The sensors, events and commands of a Kobuki, and a topic that presses its buttons."""
 
     def __init__(
         self,
@@ -44,7 +44,7 @@ class KobukiTopics:
         motion: MotionLock,
         log: Log,
     ) -> None:
-        """Take the prefix of all names; in a world WorldTopics has the events of bumpers."""
+        """Take the prefix of all names; in a world, WorldTopics publishes the bumper events."""
         self._prefix, self._robot, self._motion, self._log = prefix, robot, motion, log
         self._rad_per_turned = parameters.wheel_radius / parameters.wheel_separation
         self._reading_ns = parameters.period_ns() // GYRO_READINGS
@@ -73,13 +73,13 @@ class KobukiTopics:
         rospy.Subscriber(f"{base}press", msg.ButtonEvent, self._on_press)
 
     def _subscribe(self, base: str) -> None:
-        """Take the commands that change nothing here; the cockpit shows LEDs and sounds."""
+        """Subscribe to commands without effect here; the cockpit shows LEDs and sounds."""
         encoder = command_messages.CommandEncoder()
         for name, kind in command_messages.TOPICS.items():
             rospy.Subscriber(base + name, kind, self._on_command, callback_args=(encoder, name))
 
     def messages(self, stamp: rospy.Time) -> list[tuple[PromptPublisher, Any]]:
-        """Return what subscribers are to get; call once a period, while the motion is held."""
+        """Return the messages to publish; call it once a period, with the motion held."""
         sensors = [(topic, make) for topic, make in self._sensors if topic.listeners]
         made = [(topic, message) for topic, make in sensors for message in make(stamp)]
         if made:
@@ -103,7 +103,7 @@ class KobukiTopics:
         return messages.raw_imu(gyro, (earlier, stamp), self._prefix)
 
     def _raw_rates(self) -> tuple[float, float]:
-        """Return the rate [rad/s] in the middle of the period, about, and at its end."""
+        """Return the rate [rad/s] at the middle of the period, estimated, and at its end."""
         rate = self._robot.state().w
         return 0.5 * (self._rate_before + rate), rate
 

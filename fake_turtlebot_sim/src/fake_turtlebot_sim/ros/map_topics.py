@@ -1,4 +1,4 @@
-"""The map of a world, offered as map_server offers one."""
+"""The map of a world, with the topics and services of map_server."""
 
 from __future__ import annotations
 
@@ -17,19 +17,19 @@ from fake_turtlebot_sim.simulator.world_messages import grid_message
 
 
 class SerialisedMap(GetMapResponse):
-    """An answer whose bytes exist already: a map as large as a building takes a while."""
+    """A response that is serialized already: the map of a large building takes a while."""
 
     __slots__ = ("data",)
 
     def serialize(self, buff: Any) -> None:
-        """Write the bytes of the OccupancyGrid, the answer's only field."""
+        """Write the bytes of the OccupancyGrid, the response's only field."""
         buff.write(self.data)
 
 
 class MapTopics:
     """Publishers, latched: map, map_metadata. Services: static_map, change_map (of nav_msgs).
 
-    change_map replaces what is published; the world in which robots drive stays.
+    change_map replaces the published map, but not the world in which robots drive.
     """
 
     def __init__(self, grid: OccupancyGrid, warn: Callable[[str], None]) -> None:
@@ -52,7 +52,7 @@ class MapTopics:
             self._map.publish(rospy.AnyMsg().deserialize(answer.data))
 
     def _on_change(self, request: Any) -> Any:
-        """Publish another map; as map_server does, take a path, and answer with no map."""
+        """Publish the map at a path; as with map_server, the response has no map."""
         try:
             grid = read_grid(Path(request.map_url))
         except WorldError as error:

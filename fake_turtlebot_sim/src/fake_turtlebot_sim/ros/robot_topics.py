@@ -1,4 +1,4 @@
-"""The topics of one robot; the node decides when they are published."""
+"""The topics of one robot; the node decides when to publish."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class RobotTopics:
         motion: MotionLock,
         log: Log,
     ) -> None:
-        """Take the MotionLock of all robots."""
+        """Create the robot and its topics; motion: shared by all robots."""
         prefix = f"{name}/" if name else ""
         self.name = name
         self._name = name or "the robot"
@@ -46,7 +46,7 @@ class RobotTopics:
         self.rejected = 0
         self.robot = SimulatedRobot(parameters, start_pose, name)
         self.odom_frame = prefix + parameters.odom_frame
-        # The frames a pose may be given in: that of all robots coincides with each odometry's.
+        # The frames of a pose from outside; world_frame coincides with each odometry frame.
         self._frames = [self.odom_frame] + ([parameters.world_frame] if name else [])
         self._is_in_world = parameters.world is not None
         if parameters.world:
@@ -64,7 +64,7 @@ class RobotTopics:
             ("initialpose", PoseWithCovarianceStamped, self._on_initialpose),
             ("mobile_base/commands/reset_odometry", Empty, self._on_reset_odometry),
         ):
-            # Only the newest counts, so none may wait behind it.
+            # Only the newest message counts, so none may be queued.
             subscriber = rospy.Subscriber(
                 prefix + topic, kind, callback, queue_size=1, tcp_nodelay=True
             )
@@ -72,11 +72,11 @@ class RobotTopics:
                 self._fresh.watch(subscriber)
         kobuki = prefix, self.robot, parameters, motion, log
         self._kobuki = KobukiTopics(*kobuki) if parameters.kobuki else None
-        if name:  # for a single robot the node's own does this
+        if name:  # a single robot has the node's own service
             rospy.Service(f"{prefix}reset", srv.Empty, self._on_reset)
 
     def move(self, now: Instant) -> None:
-        """Move the robot to the present and take its messages; call while the motion is held."""
+        """Move the robot to the present and fill its messages; call it with the motion held."""
         self._notice_suspension(now)
         if self.robot.advance(now.motion_ns):
             what = (
@@ -89,17 +89,17 @@ class RobotTopics:
         self._sensed = self._kobuki.messages(now.stamp) if self._kobuki else []
 
     def publish(self) -> None:
-        """Publish the messages as they were filled last."""
+        """Publish the messages that move() filled."""
         for publisher, message in (*self._publishers, *self._sensed):
             publisher.publish(message)
 
     def end(self, now: Instant) -> None:
-        """Stop the robot for good; call while the motion is held."""
+        """Stop the robot for good; call it with the motion held."""
         self.robot.command(REST, now.motion_ns)
         self._has_ended = True
 
     def reset(self) -> None:
-        """Begin again at the start."""
+        """Return the robot to its start."""
         with self._motion.hold() as now:
             self.robot.advance(now.motion_ns)
             self._lift(self.robot.reset)
@@ -137,7 +137,7 @@ class RobotTopics:
     def _notice_suspension(self, now: Instant) -> None:
         if self._fresh.notice():
             self.robot.command(REST, now.motion_ns)
-            self._warn(f"{self._name} was suspended. What was sent meanwhile is not obeyed.")
+            self._warn(f"{self._name} was suspended. Commands sent meanwhile are ignored.")
 
     def _on_initialpose(self, message: Any) -> None:
         try:

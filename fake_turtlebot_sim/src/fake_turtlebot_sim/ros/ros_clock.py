@@ -1,8 +1,8 @@
-"""The two clocks a ROS node can live by, behind one interface, and the motion that follows them.
+"""Real and simulated time behind one interface, and the lock of the motion that follows it.
 
-``read()`` returns (stamp, reading): the ROS time for the messages and the time in nanoseconds that
-motion and periods follow. ``wait(reading, deadline)`` returns once the clock has reached the
-deadline, was set back behind the reading, or the node is shut down.
+``read()`` returns (stamp, reading): the ROS time for messages, and the time in nanoseconds for
+motion and periods. ``wait(reading, deadline)`` returns once the clock has reached the deadline, was
+set back behind the reading, or the node is shut down.
 """
 
 from __future__ import annotations
@@ -17,11 +17,11 @@ import rospy
 from fake_turtlebot_sim.simulator.clock import MotionClock
 from node_kit.io.suspension import Suspensions
 
-SHUTDOWN_CHECK_S = 0.1  # how long a shutdown may go unnoticed while /clock stands still
+SHUTDOWN_CHECK_S = 0.1  # longest delay of a shutdown while /clock is paused
 
 
 class RealClock:
-    """Stamps from the system clock; motion from the monotonic one, which nobody can set."""
+    """Stamps from the system clock; motion from the monotonic clock, which cannot be set."""
 
     def read(self) -> tuple[rospy.Time, int]:
         return rospy.Time.now(), time.monotonic_ns()
@@ -31,7 +31,7 @@ class RealClock:
 
 
 class SimulatedClock:
-    """Everything from /clock, which may pause, jump forwards and be set back."""
+    """Stamps and motion from /clock, which may pause, jump forwards and be set back."""
 
     def read(self) -> tuple[rospy.Time, int]:
         stamp = rospy.Time.now()
@@ -47,7 +47,7 @@ class SimulatedClock:
 
 
 class Instant(NamedTuple):
-    """One moment, as the three clocks of the node show it."""
+    """A reading of the node's three clocks."""
 
     stamp: rospy.Time
     reading_ns: int
@@ -55,10 +55,10 @@ class Instant(NamedTuple):
 
 
 class MotionLock:
-    """Guards the motion of all robots: a thread that holds it has them, and the present, alone."""
+    """The lock for the motion of all robots; only the thread that holds it may move them."""
 
     def __init__(self) -> None:
-        """Follow the clock that /use_sim_time asks for; the node must be initialised."""
+        """Use the clock that /use_sim_time selects; the node must be initialised."""
         self.clock = RealClock() if rospy.rostime.is_wallclock() else SimulatedClock()
         self._lock = threading.Lock()
         self.suspensions = Suspensions()
@@ -66,7 +66,7 @@ class MotionLock:
 
     @contextmanager
     def hold(self) -> Iterator[Instant]:
-        """Keep other threads out and yield the Instant, read inside so that all are in order."""
+        """Hold the lock and yield the Instant, read under the lock, so that all are in order."""
         with self._lock:
             stamp, reading_ns = self.clock.read()
             yield Instant(stamp, reading_ns, self._motion_clock.update(reading_ns))

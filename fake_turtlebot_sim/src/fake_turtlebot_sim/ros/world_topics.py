@@ -1,4 +1,4 @@
-"""The topics of a world: its map, its markers, its frames, and what each robot senses in it."""
+"""The topics of a world: its map, its markers, and each robot's sensors in it."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from node_kit.ros.rospy_patches.prompt_publisher import PromptPublisher
 
 # The camera's depth frame above base_footprint [m]: turtlebot_description's 0.287 above base_link.
 SCAN_Z = 0.2972
-MARKERS_S = 1.0  # how often they are sent: RViz drops a marker that comes before its frame
+MARKERS_S = 1.0  # period of the markers: RViz drops one that arrives before its frame
 
 
 class WorldTopics:
@@ -38,40 +38,40 @@ class WorldTopics:
         robots: dict[str, SimulatedRobot],
         warn: Callable[[str], None],
     ) -> None:
-        """Take the robots by name and publish the map and the markers."""
+        """Take the robots by name, and publish the map."""
         self._parameters, self._robots = parameters, list(robots.values())
         self._sensors = [SensorTopics(name, parameters, world, warn) for name in robots]
         self._map = MapTopics(world_map(world, parameters.map_frame, rospy.Time.now()), warn)
         self._markers = PromptPublisher("world_markers", MarkerArray)
         self._cycles_per_markers = round(MARKERS_S * parameters.rate)
-        shown = io.BytesIO()
-        serialize_message(shown, 0, MarkerArray(world_markers(world, parameters.map_frame)))
-        self._shown = shown.getvalue()
+        data = io.BytesIO()
+        serialize_message(data, 0, MarkerArray(world_markers(world, parameters.map_frame)))
+        self._marker_data = data.getvalue()
 
     def frames(self) -> list[tuple[str, str, Place]]:
-        """Return where static frames are: (parent, child, place [m] in the parent)."""
+        """Return the static frames: (parent, child, place [m] in the parent)."""
         p = self._parameters
         place = p.scan_x, p.scan_y, SCAN_Z
-        laid = self._sensors if p.publish_scan_tf else []
-        scanners = [(sensors.base_frame, sensors.scan_frame, place) for sensors in laid]
+        published = self._sensors if p.publish_scan_tf else []
+        scanners = [(sensors.base_frame, sensors.scan_frame, place) for sensors in published]
         return scanners + ([(p.world_frame, p.map_frame, ORIGIN)] if p.robots else [])
 
     def before_move(self) -> None:
-        """Let the robots meet, if they may."""
+        """Let the robots meet, if ~robots_meet."""
         if self._parameters.robots_meet:
             meet(self._robots, self._parameters.meeting_reach())
 
     def after_move(self, stamp: Any) -> None:
-        """Remember what the sensors feel; the motion is held meanwhile."""
+        """Remember the states of all sensors; call it with the motion held."""
         discs, numbers = np.array([robot.disc for robot in self._robots]), range(len(self._robots))
         for k, sensors, robot in zip(numbers, self._sensors, self._robots):
             is_seen = np.not_equal(numbers, k) & self._parameters.robots_meet
             sensors.take(robot, stamp, discs[is_seen])
 
     def publish(self, cycle: int) -> None:
-        """Publish what is new in this cycle; not all robots scan in the same one."""
+        """Publish markers, events and scans; the robots' scans are spread over the cycles."""
         if cycle % self._cycles_per_markers == 0:
-            self._markers.send(self._shown)
+            self._markers.send(self._marker_data)
         for k, sensors in enumerate(self._sensors):
             sensors.publish(cycle + k)
 
@@ -82,7 +82,7 @@ class SensorTopics:
     def __init__(
         self, name: str, parameters: SimulatorParameters, world: World, warn: Callable[[str], None]
     ) -> None:
-        """Take the name of the robot, empty for the only one."""
+        """Take the name of the robot, empty for a single one."""
         self._name, self._warn = name or "the robot", warn
         p, prefix = parameters, f"{name}/" if name else ""
         self.scan_frame, self.base_frame = prefix + p.scan_frame, prefix + p.base_frame
@@ -108,12 +108,12 @@ class SensorTopics:
         self._scan.header.frame_id = self.scan_frame
 
     def take(self, robot: SimulatedRobot, stamp: Any, others: Any) -> None:
-        """Remember what the sensors of the robot feel; others: obstacles (n, 5) that it may see."""
+        """Remember the robot's sensors; others: obstacles (n, 5) that it may see."""
         self._scan.header.stamp, self._sensed = stamp, robot.sensed()
         self._seen = robot.true_pose, others
 
     def publish(self, cycle: int) -> None:
-        """Publish what changed, and the scan in every so many cycles."""
+        """Publish the events, and in each _cycles_per_scan-th cycle the scan."""
         before, self._published = self._published, self._sensed
         if before != self._sensed:
             self._publish_events(before, self._sensed)

@@ -23,7 +23,7 @@ Velocity = Tuple[float, float]  # v [m/s], w [rad/s]
 
 
 def wrap_angle(angle: float) -> float:
-    """Return the angle [rad] turned by whole circles into (-pi, pi]."""
+    """Return the angle [rad] wrapped into (-pi, pi]."""
     wrapped = remainder(angle, tau)
     return wrapped if wrapped > -pi else pi
 

@@ -74,7 +74,7 @@ def _drawn(world: World, resolution: float) -> Grid:
 
 
 def marker(ns: str, number: int, kind: int, frame: str, colour: ColorRGBA) -> Marker:
-    """Return a Marker that is fixed in the frame."""
+    """Return a Marker that is fixed in the frame: without a stamp, and locked to it."""
     made = Marker(ns=ns, id=number, type=kind, action=Marker.ADD, color=colour)
     made.header.frame_id, made.frame_locked = frame, True
     made.pose.orientation = Quaternion(0.0, 0.0, 0.0, 1.0)

@@ -1,1 +1,1 @@
-"""What programs after ROS by Example import."""
+"""The module that programs after the book ROS by Example import."""

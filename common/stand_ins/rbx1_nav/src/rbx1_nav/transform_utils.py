@@ -1,4 +1,4 @@
-"""Angles, under the names by which programs after ROS by Example import them."""
+"""Functions for angles, with the names that programs after ROS by Example import."""
 
 from __future__ import annotations
 
@@ -14,5 +14,5 @@ def quat_to_angle(quat: Any) -> float:
 
 
 def normalize_angle(angle: float) -> float:
-    """Return an angle [rad], turned by whole circles into -pi to pi."""
+    """Return the angle [rad] wrapped into -pi to pi."""
     return remainder(angle, tau)

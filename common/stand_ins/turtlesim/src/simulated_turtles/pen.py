@@ -1,6 +1,6 @@
-"""Lines as Qt's QPainter draws them without antialiasing, with square ends (pure, numpy).
+"""Lines as Qt's QPainter draws them without antialiasing, with square ends.
 
-Measured: of the pixels of 5.15's lines, 99 % are the same, and no other is farther than one.
+Compared with Qt 5.15, 99 % of the pixels are the same, and the others are off by one.
 """
 
 from __future__ import annotations
@@ -9,19 +9,19 @@ from typing import Any
 
 import numpy as np
 
-TIE = 1e-6  # [pixels]: a middle on the edge counts on the side of larger numbers
+TIE = 1e-6  # [pixels] a pixel centre on the edge belongs to the side of larger numbers
 
 
 def covered(start: complex, end: complex, width: int, size: int) -> Any:
     """Return the pixels of a line in a picture of size x size: (n, 2) of columns and rows.
 
-    start, end: column + row j [pixels]; a width of 0 is 1 [pixels].
+    start, end: column + row j [pixels]. A width of 0 counts as 1.
     """
     return _broad(start, end, width, size) if width > 1 else _thin(start, end, size)
 
 
 def _broad(start: complex, end: complex, width: int, size: int) -> Any:
-    """Return the pixels whose middle is in the rectangle of the line."""
+    """Return the pixels whose centre is in the rectangle of the line."""
     way, half = end - start, width / 2
     ahead = way / abs(way) if way else 1 + 0j
     ends = np.array([[start.real, end.real], [start.imag, end.imag]])

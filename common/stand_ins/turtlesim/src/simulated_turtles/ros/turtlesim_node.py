@@ -1,4 +1,4 @@
-"""The node turtlesim: ROS on one side, the rules of field.py on the other."""
+"""The node turtlesim: ROS and a window around the rules in field.py."""
 
 from __future__ import annotations
 
@@ -24,29 +24,29 @@ BACKGROUND = {"background_r": 69, "background_g": 86, "background_b": 255}
 
 
 class Turtlesim:
-    """Turtles that drive and draw.
+    """The turtles, which drive and draw.
 
     Subscribers, of each turtle: NAME/cmd_vel (geometry_msgs/Twist). Publishers, at 62.5 Hz:
     NAME/pose (turtlesim/Pose), NAME/color_sensor (turtlesim/Color). Services: clear, reset
     (std_srvs/Empty), spawn, kill, NAME/set_pen, NAME/teleport_absolute, NAME/teleport_relative.
     Parameters, read at the start and by clear and reset: ~background_r (69), ~background_g (86),
-    ~background_b (255). Time is the monotonic clock's, whatever /use_sim_time says, as upstream.
+    ~background_b (255). As upstream, time is real, whatever /use_sim_time says.
     """
 
     def __init__(self, given: dict[str, Any]) -> None:
-        """Begin with turtle1; given: private parameters."""
+        """Start with turtle1; given: private parameters."""
         for name, default in BACKGROUND.items():
             rospy.set_param(f"~{name}", given.get(name, default))
         rospy.loginfo(f"Starting turtlesim with node name {rospy.get_name()}")
         self._lock = threading.RLock()
         self._field = Field(background, time.monotonic())
-        self._ends: dict[str, list[Any]] = {}  # each turtle's ends of topics and services
+        self._ends: dict[str, list[Any]] = {}  # topics and services of each turtle
         self._open_and_close()
         self._services = [self._serve(service) for service in SERVICES]
         answer("picture", self._picture)
 
     def _picture(self, known: int) -> tuple[int, str]:
-        """Return the version of the picture, and a PNG in base64 unless that is known."""
+        """Return the version of the picture, and a PNG in base64 unless the version is known."""
         with self._lock:
             version = self._field.version
             png = b"" if version == known else self._field.picture("PNG")
@@ -71,7 +71,7 @@ class Turtlesim:
         return text
 
     def _open_and_close(self) -> None:
-        """Have topics and services for exactly the turtles of the field."""
+        """Open and close topics and services to match the turtles of the field."""
         for name in self._ends.keys() - self._field.turtles.keys():
             for end in self._ends.pop(name):
                 end.shutdown() if isinstance(end, rospy.Service) else end.unregister()
@@ -91,7 +91,7 @@ class Turtlesim:
             rospy.logwarn_throttle(1.0, f"{name}/cmd_vel is ignored: {error}")
 
     def spin(self) -> None:
-        """Drive, publish and show until the node or its window is closed."""
+        """Drive, publish and draw until the node is shut down or its window is closed."""
         (window, image), shown = open_window(), -1
         while not rospy.is_shutdown():
             with self._lock:
@@ -109,32 +109,32 @@ class Turtlesim:
 
 
 def background() -> tuple[int, ...]:
-    """Return the background (r, g, b), of the parameters as roscpp reads whole numbers."""
+    """Return the background (r, g, b) in the parameters, read as roscpp reads whole numbers."""
     given = ((rospy.get_param(f"~{name}", None), value) for name, value in BACKGROUND.items())
     return tuple(whole(value, default) & 255 for value, default in given)
 
 
 def whole(value: Any, default: int) -> int:
-    """Return a number as an int32; the default for what is no number, as true and false are none.
+    """Return a number as an int32, or the default for other values, such as true and false.
 
-    Halves are rounded up, and below zero all is rounded down.
+    Halves are rounded up; all negative numbers are rounded down.
     """
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         return default
-    if not abs(value) < 2**31:  # NaN, too. roscpp makes INT_MIN of these.
+    if not abs(value) < 2**31:  # or NaN; roscpp returns INT_MIN
         return 0
     return math.floor(value) if math.fmod(value, 1.0) < 0.5 else math.ceil(value)
 
 
 def open_window() -> tuple[Any, Any]:
-    """Return a window and the image in it, for the main thread; None, None without a screen."""
+    """Return a window and its image, for the main thread, or (None, None) without a screen."""
     try:
         import tkinter  # noqa: PLC0415
 
         root = tkinter.Tk(className="turtlesim")
-    except Exception as error:  # ImportError, or TclError of the module that may be missing
+    except Exception as error:  # ImportError, or TclError, whose module may be missing
         if os.environ.get("DISPLAY"):
-            rospy.logwarn(f"no window, for which python3-tk and a screen are needed: {error}")
+            rospy.logwarn(f"no window, which needs python3-tk and a screen: {error}")
         return None, None
     root.title("TurtleSim")
     root.resizable(False, False)
