@@ -1,4 +1,4 @@
-"""Notices from the messages that a gamepad is switched to another mode than expected (pure)."""
+"""Detects from the messages that a gamepad is in another mode than expected."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ SWAPPED_STICK = {4, 5}
 
 
 class GamepadHints:
-    """Looks at the first messages and gives at most one line of help on each thing found."""
+    """Checks the first messages, and returns one line of help for each problem."""
 
     def __init__(self, parameters: Parameters) -> None:
         self._expected = parameters.gamepad_axes
         self._used = {axis.index for axis in parameters.axes}
-        self._count: int | None = None  # the number of axes that was looked at last
+        self._count: int | None = None  # the number of axes in the last message
         self._look_for_swap = False
         self._turbo = parameters.enable_turbo_button
-        self._buttons: int | None = None  # the number of buttons that was looked at last
+        self._buttons: int | None = None  # the number of buttons in the last message
 
     def hint(self, axes: Sequence[float], buttons: Sequence[int]) -> str | None:
-        """Return one line that says what to do, or None."""
+        """Return one line on what to do, or None."""
         if len(buttons) != self._buttons:
             self._buttons = len(buttons)
             if self._turbo >= self._buttons:
@@ -46,8 +46,8 @@ class GamepadHints:
         moved = {i for i, axis in enumerate(axes) if abs(axis) > RELEASED_AXIS}
         self._look_for_swap = not moved & (self._used | SWAPPED_STICK)
         if self._look_for_swap or moved & self._used:
-            return None  # nothing has moved so far, or the stick is where it should be
-        # A D-pad moves these axes too, and the swapped stick gives no more than it: -1, 0 and 1.
+            return None  # nothing has moved yet, or the stick is where it should be
+        # A D-pad moves these axes too, and the swapped stick gives the same values: -1, 0 and 1.
         return (
             "Only axes 4 and 5 move: if that was the left stick of a Logitech F710, "
             "press MODE so that its LED goes off."

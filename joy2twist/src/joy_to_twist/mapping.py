@@ -1,4 +1,4 @@
-"""From the axes and buttons of a joystick to the velocity that the user asks for (pure).
+"""From the axes and buttons of a joystick to the velocity that the user asks for.
 
 A velocity is linear x, y, z [m/s] and angular x, y, z [rad/s]; REP-103. The linear and the angular
 part are limited as vectors, which keeps their direction.
@@ -13,20 +13,20 @@ from joy_to_twist.parameters import COMPONENTS, Parameters
 from node_kit.rules.arming import Velocity
 from node_kit.rules.released import are_released
 
-# A stick gives -1 to 1, other devices may give some hundreds. More is noise, not a hand.
+# A stick gives -1 to 1, and other devices a few hundred. A larger value is noise.
 LARGEST_AXIS_VALUE = 1e6
 
 
 class BadJoyError(ValueError):
-    """A Joy message that must not drive a robot; its text says why, in one line."""
+    """A Joy message must not drive a robot; the text is the reason, in one line."""
 
 
 class Mapping:
-    """What each axis and button means."""
+    """The meaning of each axis and button."""
 
     def __init__(self, parameters: Parameters) -> None:
         self._parameters = parameters
-        # Tuples, because this is read for every message.
+        # Tuples, for speed: this is read for every message.
         self._axes = [(a.component, a.index, a.scale, a.turbo_scale) for a in parameters.axes]
         self._turbo = parameters.enable_turbo_button
         self._enable = parameters.enable_button
@@ -40,13 +40,13 @@ class Mapping:
         self._max_angular = parameters.max_angular_speed or math.inf
 
     def velocity(self, axes: Sequence[float], buttons: Sequence[int]) -> Velocity | None:
-        """Return the velocity asked for, or None with the dead-man released.
+        """Return the requested velocity, or None if the dead-man button is released.
 
         axes: about -1 to 1. buttons: 0 or 1. Raises BadJoyError.
         """
         if len(axes) < self._needed_axes or len(buttons) < self._needed_buttons:
             raise BadJoyError(self._what_is_missing(axes, buttons))
-        # One comparison finds NaN (never smaller than anything), infinity and noise.
+        # One comparison detects NaN (which compares false), infinity and noise.
         if not math.hypot(*axes) <= LARGEST_AXIS_VALUE:
             raise BadJoyError(f"not every axis has a usable value: {list(axes)}")
 
@@ -62,7 +62,7 @@ class Mapping:
         return limit_speed(tuple(velocity), self._max_linear, self._max_angular)
 
     def rests(self, axes: Sequence[float], velocity: Velocity | None) -> bool:
-        """Return whether all is released in a good message, for which velocity() returned this."""
+        """Return whether everything is released. velocity: what velocity() returned."""
         sticks = (axes[index] for _, index, _, _ in self._axes)
         return (velocity is None or self._free) and are_released(sticks)
 
@@ -84,13 +84,13 @@ class Mapping:
 
     @property
     def deadman(self) -> str:
-        """The number of the button that has to be held, or "none"; turbo's, if it is the only."""
+        """The number of the button that must be held, or "none"."""
         if not self._parameters.require_enable_button:
             return "none"
         return str(self._enable if self._enable >= 0 else self._turbo)
 
     def describe(self) -> list[str]:
-        """Return the mapping in words: a line for every axis that drives the robot, and more."""
+        """Return lines that describe the mapping, such as one for each axis in use."""
         p = self._parameters
         held = [f"{p.enable_button}"] if p.require_enable_button and p.enable_button >= 0 else []
         held += [f"{self._turbo} for turbo"] if self._turbo >= 0 else []
@@ -107,7 +107,7 @@ class Mapping:
         if p.stop_button >= 0:
             lines.append(f"button {p.stop_button} stops, until button {p.stop_reset_button}")
         if p.arm_on_neutral:
-            lines.append("nothing moves before the sticks and the dead-man button were released")
+            lines.append("nothing moves before the sticks and the dead-man button are released")
         if p.joy_timeout:
             lines.append(f"no message of the joystick for {p.joy_timeout:g} s stops the robot")
         if p.vigilance_timeout:
@@ -116,7 +116,7 @@ class Mapping:
 
 
 def limit_speed(velocity: Velocity, max_linear: float, max_angular: float) -> Velocity:
-    """Return the velocity with both parts within their largest length; infinity is no limit."""
+    """Return the velocity with both vectors limited in length; infinity is no limit."""
     x, y, z, roll, pitch, yaw = velocity
     linear = math.hypot(x, y, z)
     if linear > max_linear:
@@ -130,9 +130,9 @@ def limit_speed(velocity: Velocity, max_linear: float, max_angular: float) -> Ve
 def approach(
     velocity: Velocity, target: Velocity, max_linear_change: float, max_angular_change: float
 ) -> Velocity:
-    """Return the velocity one step nearer to target, changed by at most so much [m/s, rad/s]."""
+    """Return the velocity one step nearer to target, within the largest changes [m/s, rad/s]."""
     change = tuple(wanted - now for wanted, now in zip(target, velocity))
     step = limit_speed(change, max_linear_change, max_angular_change)
     if step == change:
-        return target  # exactly, not up to rounding: a robot that should stand must stand
+        return target  # exactly, without rounding: a robot that should stand must stand
     return tuple(now + by for now, by in zip(velocity, step))

@@ -1,7 +1,7 @@
-"""The private parameters of the node, each declared once (pure).
+"""The private parameters of the node, each declared once.
 
-The YAML files of teleop_twist_joy, a C++ node, load unchanged. Two defaults differ, so that the
-bare node is the tutorial's: every scale is 1, and enable_button is -1 (no dead-man), not 0.
+The YAML files of teleop_twist_joy, a C++ node, load unchanged. Two defaults differ, so that
+the bare node is the tutorial's: every scale is 1, and enable_button is -1 (no dead-man), not 0.
 `./tutorial lint --fix` writes the README's table from these declarations.
 """
 
@@ -25,12 +25,12 @@ from node_kit.parameters.declaration import (
 LINEAR = ("x", "y", "z")
 ANGULAR = ("roll", "pitch", "yaw")  # turning about x, y, z
 COMPONENTS = ("linear.x", "linear.y", "linear.z", "angular.x", "angular.y", "angular.z")
-# Far beyond any robot on wheels; what is larger is a slip of the keys. [m/s or rad/s]
+# [m/s or rad/s] Faster than any robot on wheels; a larger value is a typing error.
 LARGEST_SCALE = 100
 
 
 @dataclass(frozen=True)
-class Axis:
+class AxisMapping:
     """One joystick axis that drives one component of the velocity."""
 
     component: int  # index into COMPONENTS
@@ -43,7 +43,7 @@ def _one_or_each(names: tuple[str, ...], fits: Callable[[Any], bool], allowed: s
     def all_fit(value: Any) -> bool:
         if not isinstance(value, dict):
             return fits(value)
-        return bool(value) and all(name in names and fits(one) for name, one in value.items())
+        return bool(value) and all(name in names and fits(part) for name, part in value.items())
 
     return Allowed(f"a number ({allowed}), or a map from {', '.join(names)} to such", all_fit)
 
@@ -124,7 +124,7 @@ class Parameters:
     diagnostic_period: float = parameter(
         1.0, number(0.1, 60, "s"), "between two messages on `/diagnostics`"
     )
-    axes: tuple[Axis, ...] = ()  # what the first six mean
+    axes: tuple[AxisMapping, ...] = ()  # the meaning of the first six
 
 
 def load(given: Mapping[str, Any]) -> Parameters:
@@ -151,19 +151,21 @@ def load(given: Mapping[str, Any]) -> Parameters:
 
 def _check_buttons(values: dict[str, Any]) -> None:
     names = ("enable_button", "enable_turbo_button", "stop_button", "stop_reset_button")
-    for one, other in itertools.combinations(names, 2):
-        if values[one] == values[other] >= 0:
-            raise ValueError(f"~{other}: {values[other]}: must be a button other than ~{one}")
-    for one, other in (("stop_button", "stop_reset_button"), ("stop_reset_button", "stop_button")):
-        if values[one] >= 0 > values[other]:
-            raise ValueError(f"~{one}: {values[one]}: needs ~{other}")
+    for first, second in itertools.combinations(names, 2):
+        if values[first] == values[second] >= 0:
+            raise ValueError(f"~{second}: {values[second]}: must be a button other than ~{first}")
+    for name, partner in itertools.permutations(names[2:]):
+        if values[name] >= 0 > values[partner]:
+            raise ValueError(f"~{name}: {values[name]}: needs ~{partner}")
 
 
-def _axes(values: dict[str, Any], kind: str, names: tuple[str, ...], first: int) -> list[Axis]:
+def _axes(
+    values: dict[str, Any], kind: str, names: tuple[str, ...], first: int
+) -> list[AxisMapping]:
     """Return the axes that drive the linear or the angular velocity.
 
-    As in the C++ node, an axis_* number stands for x or yaw and a scale_* number for every
-    component. A turbo scale that is not given is that without turbo (in the C++ node perhaps 0).
+    As in the C++ node, an axis_* number stands for x or yaw, and a scale_* number for every
+    component. A missing turbo scale is the normal scale (in the C++ node it may be 0).
     """
 
     def of_each(value: Any) -> dict[str, Any]:
@@ -181,6 +183,8 @@ def _axes(values: dict[str, Any], kind: str, names: tuple[str, ...], first: int)
         )
     turbo = normal if turbo is None else {**normal, **of_each(turbo)}
     return [
-        Axis(first + names.index(name), indices[name], float(normal[name]), float(turbo[name]))
+        AxisMapping(
+            first + names.index(name), indices[name], float(normal[name]), float(turbo[name])
+        )
         for name in used
     ]

@@ -1,10 +1,10 @@
-"""When to send a velocity, when to send zero and when to stay silent (pure).
+"""When to send a velocity, when to send zero and when to send nothing.
 
-Every method takes the time `now` [s] of one clock that never jumps. A method returns the velocity
-to send at once, or None to send nothing.
+Every method takes the time `now` [s] of a clock that never jumps, and returns the velocity to send
+at once, or None to send nothing.
 
-A loss is: silence on joy, a joystick node that leaves, another sender, a suspension of this node,
-and a joystick that does not change while the robot moves. Where arm_on_neutral is on, nothing moves
+A loss is: silence on joy, a joystick node that exits, another sender, a suspension of this node, or
+a joystick that does not change while the robot moves. Where arm_on_neutral is on, nothing moves
 after a loss until the sender that drives then has shown that everything is released
 (node_kit.rules.arming). Where it is off, only: no velocity later than joy_timeout after the last
 message, unless a stop was sent between them.
@@ -21,17 +21,17 @@ from joy_to_twist.states import WARNS_BEFORE_S, Notice, State
 from node_kit.rules.arming import ZERO, Arming, Velocity
 from node_kit.rules.throttle import ThrottleEach
 
-IN_TURN_S = 1.0  # two joystick nodes that send within this time of each other send in turn
-WARNING_PERIOD_S = 5.0  # between such warnings
+IN_TURN_S = 1.0  # two joystick nodes that send within this time send in turn
+WARNING_PERIOD_S = 5.0  # between two of these warnings
 
 
 class Safety:
-    """Turns the velocity that the user asks for into the velocity that the robot gets.
+    """Turns the velocity that the user asks for into the velocity that the robot receives.
 
-    With a dead-man button, its release gives zero a few times and then silence, so that a
-    multiplexer of velocities can fall back to another source. Without one, every joystick message
-    is answered by one velocity. Zero comes at once for a released dead-man, a bad message and a
-    loss (hard stop); a released stick slows down within the acceleration limits (soft stop).
+    With a dead-man button, a release sends a few zeros and then nothing, so that a multiplexer of
+    velocities can switch to another source. Without one, every joystick message gives one velocity.
+    A released dead-man button, a bad message and a loss send zero at once (hard stop); a released
+    stick slows down within the acceleration limits (soft stop).
     """
 
     def __init__(
@@ -40,7 +40,7 @@ class Safety:
         wake: Callable[[], object],
         warn: Callable[[Notice], object] = lambda notice: None,
     ) -> None:
-        """Call wake() when due has become sooner, and warn() with what the user must know."""
+        """Call wake() when `due` becomes earlier, and warn() with what the user must know."""
         p = self._parameters = parameters
         self._wake, self._warn = wake, warn
         self._period = 1.0 / p.output_rate
@@ -51,33 +51,33 @@ class Safety:
         )
         self._silence_s = p.joy_timeout or math.inf
         self._stillness_s = p.vigilance_timeout or math.inf
-        self._hears = False  # a good message came since the last loss
+        self._hears = False  # a good message arrived since the last loss
         self._silent_at = math.inf  # when the joystick counts as silent
-        self._still_at = math.inf  # when it has been unchanged for too long
-        self._is_warned = False  # the warning has been sent
+        self._still_at = math.inf  # when it counts as unchanged for too long
+        self._is_warned = False  # the warning was sent
         self._sent: Velocity = ZERO  # the last velocity sent
         self._target: Velocity = ZERO  # where the acceleration limits lead to
-        self._stopping = False  # zeros are being repeated, or have been
-        self._repeats: float = 0  # zeros still to come
+        self._stopping = False  # zeros are or were repeated
+        self._repeats: float = 0  # zeros still to send
         self._next_output = math.inf  # when a zero or a step of the acceleration is due
-        self._sender: object = None  # sent the last good message
-        self._switched_at = -math.inf  # when that was another one than before
+        self._sender: object = None  # of the last good message
+        self._switched_at = -math.inf  # when the sender last changed
         self._may_warn = ThrottleEach(1.0 / WARNING_PERIOD_S)
-        self.arming = Arming(not p.arm_on_neutral)  # for this sender
-        self._unarmed = State.NOT_ARMED  # the state until it is armed
+        self.arming = Arming(not p.arm_on_neutral)  # of this sender
+        self._unarmed = State.NOT_ARMED  # the state until then
         self.latched = False  # the stop button was pressed
         self.state = State.WAITING
 
     @property
     def due(self) -> float:
-        """When tick() must be called next [s]; infinity if nothing will happen by itself."""
+        """When tick() must be called next [s]; infinity if only a message can change the state."""
         still_at = self._still_at - (0.0 if self._is_warned else WARNS_BEFORE_S)
         due = min(self._next_output, self._silent_at)
         return due if self._sent == ZERO else min(due, still_at)
 
     @property
     def released(self) -> bool:
-        """Whether a lost robot may be driven again: all released or, without arming, zero sent."""
+        """Whether to drive a lost robot again: all released or, without arming, zero sent."""
         return self.arming.rests if self._parameters.arm_on_neutral else self._sent == ZERO
 
     def drive(
@@ -88,10 +88,10 @@ class Safety:
         sender: object = None,
         changed: bool = True,
     ) -> Velocity | None:
-        """Take the velocity of a good message; None: its dead-man button is released.
+        """Take the velocity of a good message; None if its dead-man button is released.
 
-        rests: all is released. sender: an object that identifies the joystick node. changed: an
-        axis or a button differs from the message before.
+        rests: whether everything is released. sender: an object that identifies the joystick node.
+        changed: whether an axis or a button differs from the message before.
         """
         if changed:
             self._still_at = now + self._stillness_s
@@ -103,7 +103,7 @@ class Safety:
         rests = rests and not is_still
         if is_still and self.arming.armed:
             why = State.STILL
-        elif now >= self._silent_at:  # and tick() was not called in time
+        elif now >= self._silent_at:  # tick() was not called in time
             why = State.SILENT
         elif sender is not self._sender and self._parameters.arm_on_neutral:
             why = State.ANOTHER
@@ -112,7 +112,7 @@ class Safety:
             self._switched_at = now
         stop = self.lost(why, now) if why else None
         if stop is not None and not self._parameters.arm_on_neutral:
-            return stop  # the next message is in time again
+            return stop  # the next message arrives in time again
         self._sender = sender
         answer = self._obey(velocity, rests, now)
         return answer or stop
@@ -121,7 +121,7 @@ class Safety:
         self._silent_at = now + self._silence_s
         if not self._hears:
             self._hears = True
-            self._wake()  # the watch over the silence begins
+            self._wake()  # the silence timeout starts
         if not self.arming.hear(rests):
             if self._unarmed is State.NOT_ARMED and velocity not in (None, ZERO):
                 self._warn_at_times(Notice.NOT_ARMED, now)
@@ -136,16 +136,16 @@ class Safety:
         if not self._gradual:
             return self._answer(velocity)
         self._target = velocity
-        # While the velocity changes, tick() sends it at a steady rate.
+        # During a change of velocity, tick() sends at a steady rate.
         return self._step(now) if math.isinf(self._next_output) else None
 
     def reject(self, now: float) -> Velocity | None:
-        """Stop at a bad message, which is no sign of life."""
+        """Stop at a bad message, which does not count as a sign of life."""
         self.arming.rests = False
         return self._refuse(State.BAD_MESSAGE, now)
 
     def latch(self, now: float) -> Velocity | None:
-        """Send zeros from the stop button until reset(), which hold a multiplexer, too."""
+        """Send zeros from the stop button until reset(), which also hold a multiplexer."""
         if self.latched:
             return None
         self._warn(Notice.BUTTON)
@@ -156,12 +156,12 @@ class Safety:
         return self._repeat(now)
 
     def reset(self) -> None:
-        """End the effect of the stop button: the robot moves again once all was seen released."""
+        """End the effect of the stop button: the robot moves again once everything was released."""
         self.latched, self._repeats = False, 1
         self.state = self._unarmed = State.NOT_ARMED
 
     def lost(self, why: State, now: float) -> Velocity | None:
-        """Stop, as the joystick is unreliable, and disarm if so configured."""
+        """Stop, because the joystick is unreliable, and disarm if so configured."""
         if not self._hears:
             return None
         self._forget(why)
@@ -173,7 +173,7 @@ class Safety:
             self._warn(Notice[why.name])
         if self._parameters.arm_on_neutral:
             self.arming.lose()
-        # A robot that stands needs no zero, and its multiplexer no claim to drive it.
+        # A robot that stands needs no zero, which would also occupy its multiplexer.
         stands = self._sent == ZERO and math.isinf(self._next_output)
         return None if stands else self._stop(now)
 
@@ -182,7 +182,7 @@ class Safety:
         self._hears, self._silent_at = False, math.inf
 
     def tick(self, now: float) -> Velocity | None:
-        """Send what is due by now."""
+        """Return the velocity that is due."""
         if now >= self._silent_at:
             return self.lost(State.SILENT, now)
         if self._sent != ZERO and now >= self._still_at - WARNS_BEFORE_S:
@@ -232,5 +232,5 @@ class Safety:
     def _answer(self, velocity: Velocity) -> Velocity:
         before, self._sent = self._sent, velocity
         if before == ZERO != velocity:
-            self._wake()  # the watch over its stillness begins
+            self._wake()  # the vigilance timeout starts
         return velocity

@@ -1,4 +1,4 @@
-"""What joy2twist reports of itself: states and warnings, and their sentences (pure)."""
+"""The states and warnings that joy2twist reports, and their sentences."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from enum import Enum
 from joy_to_twist.parameters import Parameters
 from node_kit.rules import arming
 
-WARNS_BEFORE_S = 0.5  # before the stop, when a joystick does not change
+WARNS_BEFORE_S = 0.5  # before it stops because of a joystick that does not change
 NO_CHANGE = f"the joystick does not change: the robot stops in {WARNS_BEFORE_S:g} s"
 
 
@@ -30,8 +30,7 @@ class State(Enum):
         "range; to go on, release the sticks and the dead-man button once"
     )
     ANOTHER = (
-        "stopped: another joystick node sends, whose sticks and dead-man button were not seen "
-        "released"
+        "stopped: another joystick node sends; its sticks and dead-man button were not released yet"
     )
     LEFT = "stopped: the joystick node has left"
     SUSPENDED = "stopped: this node was suspended"

@@ -1,4 +1,4 @@
-"""The whole way from a joystick message to a velocity, and what to report to the user (pure)."""
+"""From a joystick message to a velocity, and the reports to the user."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from joy_to_twist.states import State, sentence
 from node_kit.rules.arming import Resumption, Velocity
 from node_kit.rules.throttle import Throttle
 
-UNHEARD_S = 2.0  # a robot that starts together with this node takes a moment to listen
-WARNING_PERIOD_S = 5.0  # often enough to be seen, not so often that it hides the rest
+UNHEARD_S = 2.0  # a robot that starts together with this node needs a moment to subscribe
+WARNING_PERIOD_S = 5.0  # often enough to be seen, and not so often that it hides other lines
 
 
 class Teleoperation:
-    """Joins the mapping, the safety rules and the hints. Not thread-safe.
+    """Combines the mapping, the safety rules and the hints. Not thread-safe.
 
-    Times are in seconds of a clock that never jumps; None in place of a velocity: send nothing.
+    Times are in seconds of a clock that never jumps. None in place of a velocity: send nothing.
     """
 
     def __init__(
@@ -30,13 +30,13 @@ class Teleoperation:
         self._parameters = parameters
         self._warn = warn
         self._mapping = Mapping(parameters)
-        self._safety = Safety(parameters, wake, lambda one: warn(sentence(one, parameters)))
+        self._safety = Safety(parameters, wake, lambda notice: warn(sentence(notice, parameters)))
         self._hints = GamepadHints(parameters)
         self._may_warn = Throttle(1.0 / WARNING_PERIOD_S)
         self._max_age_ns = round(parameters.max_joy_age * 1e9)
-        self._unheard_since: float | None = None  # when velocities began to reach no subscriber
+        self._unheard_since: float | None = None  # since when velocities reach no subscriber
         self._resumption = Resumption()
-        self._messages, self._counted_at = 0, -math.inf  # since the last summary, and its time
+        self._messages, self._counted_at = 0, -math.inf  # messages since the last summary; its time
         self._last_message: float | None = None
         self._last: object = None  # axes and buttons of the last good message
 
@@ -46,7 +46,7 @@ class Teleoperation:
 
     @property
     def due(self) -> float:
-        """When tick() must be called next [s]; infinity if nothing will happen by itself."""
+        """When tick() must be called next [s]; infinity if only a message can change the state."""
         return self._safety.due
 
     @property
@@ -55,7 +55,7 @@ class Teleoperation:
         return self._safety.released
 
     def describe(self) -> list[str]:
-        """Return the mapping in words, a line for each axis that drives the robot, and more."""
+        """Return lines that describe the mapping."""
         return self._mapping.describe()
 
     def tick(self, now: float) -> Velocity | None:
@@ -72,7 +72,7 @@ class Teleoperation:
     ) -> Velocity | None:
         """Take a joystick message; return the velocity to send at once.
 
-        age_ns: [ns] since its stamp; ignored unless max_joy_age is set. sender: an object that
+        age_ns: time since its stamp [ns], ignored unless max_joy_age is set. sender: an object that
         identifies the joystick node.
         """
         if self._mapping.stops(buttons):
@@ -102,10 +102,10 @@ class Teleoperation:
         return self._safety.drive(velocity, rests, now, sender, last != self._last)
 
     def suspended(self, number: int, now: float) -> Velocity | None:
-        """Take how often this node was suspended; return the velocity to send at once."""
+        """Take the number of suspensions of this node; return the velocity to send at once."""
         if not self._resumption.notice(number, now):
             return None
-        self._warn("This node was suspended. What came meanwhile is not driven.")
+        self._warn("This node was suspended. Messages from that time are ignored.")
         return self._safety.lost(State.SUSPENDED, now)
 
     def left(self, now: float) -> Velocity | None:
@@ -113,7 +113,7 @@ class Teleoperation:
         return self._safety.lost(State.LEFT, now)
 
     def listeners(self, count: int, topic: str, now: float) -> None:
-        """Warn, once, when driving reaches no subscriber, as under a wrong name."""
+        """Warn once if velocities reach no subscriber, such as on a topic with a wrong name."""
         if count or self._safety.state is not State.DRIVING:
             self._unheard_since = None
         elif self._unheard_since is None:
@@ -123,7 +123,7 @@ class Teleoperation:
             self._warn(f"No node subscribes to {topic}: start the robot, or check its name.")
 
     def summary(self, now: float) -> tuple[bool, str, dict[str, str]]:
-        """Return for diagnostics whether all is well, the state, and details by name."""
+        """Return for /diagnostics whether all is well, the state, and details by name."""
         state = self._safety.state
         rate = self._messages / ((now - self._counted_at) or math.inf)
         self._messages, self._counted_at = 0, now

@@ -108,7 +108,7 @@ def test_the_stop_button_counts_in_a_message_that_is_cut_and_wins_over_reset():
         ({"vigilance_timeout": 3.0, "arm_on_neutral": True},
          "no change of the joystick for 3 s stops the robot", "none"),
         ({"arm_on_neutral": True},
-         "nothing moves before the sticks and the dead-man button were released", "none"),
+         "nothing moves before the sticks and the dead-man button are released", "none"),
         ({"joy_timeout": 0.5}, "no message of the joystick for 0.5 s stops the robot", "none"),
     ],
 )  # fmt: skip

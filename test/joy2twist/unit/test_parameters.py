@@ -4,7 +4,8 @@ from dataclasses import asdict
 
 import pytest
 
-from joy_to_twist.parameters import Axis, Parameters, load
+from joy_to_twist.parameters import AxisMapping as Axis
+from joy_to_twist.parameters import Parameters, load
 from tutorial_testing.claims import claim
 
 pytestmark = claim("Every parameter has the bounds of its table, and the presets are within them")

@@ -1,4 +1,4 @@
-"""What the node shows to its user."""
+"""The lines that the node shows to its user."""
 
 from __future__ import annotations
 
@@ -15,28 +15,28 @@ from rosgraph.roslogging import RosStreamHandler
 from node_kit.ros.log import Log
 from node_kit.rules.throttle import Throttle
 
-# A bag's messages that come at log_rate, but not quite evenly, and a few at once, all pass.
+# Messages of a bag that arrive at log_rate, but unevenly or a few at once, are all displayed.
 BURST_S = 0.2
 
 
 class Console(Log):
-    """A Log that also displays joystick messages, some tens a second."""
+    """A Log that also displays joystick messages."""
 
     def __init__(self, log_rate: float) -> None:
-        """Take how many messages a second are displayed at most."""
+        """Take the largest number of messages a second to display."""
         super().__init__()
         self._may_display = Throttle(log_rate, burst=max(1.0, log_rate * BURST_S))
         self._prefix = f"{rospy.get_name()}: Get from Joy"
 
     def display(self, axes: Sequence[float], now: float) -> None:
-        """Show the axes of a joystick message, as the tutorial does."""
+        """Show the axes of a joystick message, as in the tutorial."""
         if self._may_display.ready(now):
             self.put(self._show_axes, axes)
 
     def goodbye(self, line: str) -> None:
-        """Show a last line at once, without a question to the master.
+        """Show a last line at once, without a call to the master.
 
-        The master would take that for this node's return, and end one that has taken over.
+        To the master, a call is a return of this node, and it ends the node that has replaced it.
         """
         with contextlib.suppress(OSError):
             _write([line])
@@ -47,9 +47,9 @@ class Console(Log):
 
 
 def _write(lines: list[str]) -> None:
-    """Write lines as rospy.loginfo does to the screen, which takes longer than all else."""
+    """Write lines to the screen as rospy.loginfo does."""
     if rospy.rostime.is_wallclock() and "ROSCONSOLE_FORMAT" not in os.environ:
-        # What RosStreamHandler makes of each: its search for every tag costs ten times as much.
+        # The same text as from RosStreamHandler, whose search for tags takes ten times as long.
         sys.stdout.write("".join([f"[INFO] [{time.time():f}]: {line}\n" for line in lines]))
     else:
         screen = RosStreamHandler(colorize=False)

@@ -25,10 +25,10 @@ from node_kit.rules.arming import SILENCE_S, ZERO, Velocity
 from node_kit.rules.throttle import Throttle
 
 NODE_NAME = "NewJoy2Twist"
-LOOK_ROUND_S = 0.25  # how soon it is noticed that the joystick node has left
-DELIVERY_TIME_S = 0.1  # for the last zero, which an exit at once may lose
-BURST = 100  # Joy messages read at once, at most: all of a burst, but never a long backlog
-READ_BYTES = 4096  # some tens of them; Python allocates this for every message
+LOOK_ROUND_S = 0.25  # period at which to check whether the joystick node has exited
+DELIVERY_TIME_S = 0.1  # for the last zero, which an immediate exit may lose
+BURST = 100  # most Joy messages in the queue: a whole burst, but no long backlog
+READ_BYTES = 4096  # a few tens of messages; Python allocates this for every message
 
 
 # Layout of a serialised Joy, little-endian: seq, secs, nsecs (uint32 each), the length of frame_id
@@ -39,20 +39,20 @@ _FRAME_LENGTH_AT = 12
 
 
 class LeanJoy(Joy):
-    """A Joy to subscribe with, of which axes, buttons and stamp_ns are read, and nothing else.
+    """A Joy to subscribe with, which reads only axes, buttons and stamp_ns.
 
-    rospy lets the message class read its own bytes. After an idle pause, when the caches of the
-    processor are cold, the general way (a Header, a Time, a decoded frame_id) takes most of the
-    time that passes between a message and its velocity.
+    rospy lets the message class read its bytes. After a pause, when the CPU's caches are cold, the
+    general code (a Header, a Time, a decoded frame_id) takes most of the time between a message and
+    its velocity.
     """
 
     __slots__ = ("data",)
 
     def __init__(self) -> None:
-        """Leave everything to deserialize(), the only source of these messages."""
+        """Do nothing: deserialize() is the only source of these messages."""
 
     def deserialize(self, data: bytes) -> LeanJoy:
-        """Read axes (tuple of floats) and buttons (tuple of ints); struct.error if cut."""
+        """Read axes (floats) and buttons (ints). Raises struct.error if the bytes are cut."""
         self.data = data
         at = _FRAME_LENGTH_AT
         at += 4 + _COUNT.unpack_from(data, at)[0]
@@ -65,30 +65,30 @@ class LeanJoy(Joy):
 
     @property
     def stamp_ns(self) -> int:
-        """The time of the reading [ns], on the clock of the joystick node."""
+        """The stamp [ns], by the clock of the joystick node."""
         secs, nsecs = _STAMP.unpack_from(self.data)
         return secs * 1_000_000_000 + nsecs
 
 
 class Joy2Twist:
-    """Turns every joystick message into a velocity, and leaves the robot standing.
+    """Turns every joystick message into a velocity, and stops the robot at the end.
 
     Subscribes: joy (sensor_msgs/Joy).
     Publishes: cmd_vel (geometry_msgs/Twist), never latched, in the frame of the base (REP-103);
     /diagnostics (diagnostic_msgs/DiagnosticArray).
-    Private parameters with their defaults: parameters.Parameters, as a table in README.md.
+    Private parameters with their defaults: see parameters.py, or the table in README.md.
     """
 
     def __init__(self, parameters: Parameters) -> None:
-        """Register topics; the node is initialised, not anonymous: only one drives."""
+        """Register the topics. The node is initialised, and not anonymous: only one may drive."""
         self.console = Console(parameters.log_rate)
         report_bad_messages(self.console.warn)
-        self.timer = threading.Event()  # set to have the time looked at now
+        self.timer = threading.Event()  # set to call look() at once
         self.teleoperation = Teleoperation(parameters, self.console.warn, self.timer.set)
         for line in self.teleoperation.describe():
             self.console.info(line)
         self.uses_age = parameters.max_joy_age > 0
-        # ROS time [ns]; without simulated time read the short way, as it is for every message.
+        # ROS time [ns]; the fast function if it is wall time, as it is called for every message.
         self.read_clock_ns = time_ns if rospy.rostime.is_wallclock() else simulated_time_ns
         self.suspensions = Suspensions()
         self.lock = threading.Lock()  # one velocity at a time, and none after the last zero
@@ -121,30 +121,30 @@ class Joy2Twist:
         self.console.display(joy.axes, now)
 
     def notice_suspension(self, now: float) -> None:
-        """Stop if this process was suspended: what is in its sockets is old."""
+        """Stop if this process was suspended: the messages in its sockets are old."""
         stop = self.teleoperation.suspended(self.suspensions.number(), now)
         if stop is not None:
             self.publish(stop)
 
     def publish(self, velocity: Velocity | None) -> None:
-        """Publish a velocity, or None, until the node is stopped."""
+        """Publish a velocity, or nothing for None, until the node is stopped."""
         if not self.stopped.is_set():
             self.cmd_vel.publish(velocity, self.teleoperation.released, self.hold_new)
 
     def watch(self) -> None:
-        """Stop the robot when the joystick falls silent or leaves, and repeat what is to repeat.
+        """Stop the robot when the joystick is silent or exits, and repeat zeros.
 
-        A thread and a clock apart from rospy's: its timers follow the simulated time, which
-        may stand still or jump. If this thread fails, the node ends: nothing drives unwatched.
+        This thread and its clock are separate from rospy's, whose timers follow simulated time,
+        which may pause or jump. If this thread fails, the node shuts down.
         """
         try:
             while not self.stopped.is_set():
                 self.timer.wait(self.look())
         finally:
-            rospy.signal_shutdown("the watch over the joystick has ended")
+            rospy.signal_shutdown("the joystick watchdog has ended")
 
     def look(self) -> float:
-        """Look at the time and the joystick once; return for how long [s] nothing will be due."""
+        """Check the time and the joystick once; return the time until the next check [s]."""
         with self.lock:
             now = monotonic()
             self.notice_suspension(now)
@@ -171,12 +171,12 @@ class Joy2Twist:
         return status
 
     def shutdown(self) -> None:
-        """Leave the robot standing: zero velocity, and the time to deliver it."""
+        """Stop the robot: send a zero velocity, and wait for its delivery."""
         with self.lock:
             self.stopped.set()
             self.cmd_vel.publish(ZERO)
         self.console.goodbye("Stopping the node ...")
-        # Not rospy.sleep: in simulated time without a clock it never returns.
+        # Not rospy.sleep(), which never returns in simulated time without a clock.
         threading.Event().wait(DELIVERY_TIME_S)
 
 
@@ -188,7 +188,7 @@ def simulated_time_ns() -> int:
 def spin(parameters: Parameters) -> None:
     """Run the node until it is shut down."""
     Joy2Twist(parameters)
-    gc.freeze()  # what is there now stays: the garbage collector need not look at it again
+    gc.freeze()  # the present objects stay: the garbage collector can skip them
     rospy.spin()
 
 
