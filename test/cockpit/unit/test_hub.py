@@ -11,6 +11,7 @@ from cockpit_server.hub import Hub
 from cockpit_server.limits import MOST_PAGES
 from cockpit_server.pages import TabSource
 from tutorial_testing.claims import claim
+from tutorial_testing.clock import Clock
 from tutorial_testing.session_room import page
 
 
@@ -51,10 +52,7 @@ def kinds(sent):
 
 @pytest.fixture
 def clock():
-    """The time now, and how long the thread has worked [s]."""
-    clock = SimpleNamespace(now=100.0, worked=0.0)
-    clock.monotonic, clock.thread_time = (lambda: clock.now), (lambda: clock.worked)
-    return clock
+    return Clock(100.0)
 
 
 @claim("One source that fails holds up no other")

@@ -10,6 +10,7 @@ from sensor_msgs.msg import Joy
 from node_kit.ros.rospy_patches import connections
 from node_kit.rules.throttle import ThrottleEach
 from tutorial_testing.claims import claim
+from tutorial_testing.clock import Clock
 
 WRONG_LENGTH = b"\x03\0\0\0abc"  # three bytes are no Joy
 
@@ -17,14 +18,14 @@ WRONG_LENGTH = b"\x03\0\0\0abc"  # three bytes are no Joy
 @pytest.fixture
 def read(monkeypatch):
     """Read bytes at a time [s] as a subscription does: the warnings, and the messages or None."""
-    now, lines = [0.0], []
-    monkeypatch.setattr(connections, "time", SimpleNamespace(monotonic=lambda: now[0]))
+    clock, lines = Clock(), []
+    monkeypatch.setattr(connections, "time", clock)
     monkeypatch.setattr(connections, "_may_warn", ThrottleEach(1.0))
     monkeypatch.setattr(connections, "_warn", lines.append)
     subscription = SimpleNamespace(queue_size=10, recv_data_class=Joy, resolved_name="/joy")
 
     def read(data, at, buffer=None):
-        now[0] = at
+        clock.now = at
         buffer, messages = buffer or io.BytesIO(), []
         buffer.write(data)
         try:

@@ -3,7 +3,6 @@
 import json
 import os
 from dataclasses import dataclass
-from types import SimpleNamespace
 
 import pytest
 
@@ -15,6 +14,7 @@ from tutorial_check.recording import worker_process
 from tutorial_check.sandbox import bubblewrap
 from tutorial_check.submission.order import Order, Question, Reply
 from tutorial_testing.claims import claim
+from tutorial_testing.clock import Clock
 
 pytestmark = claim("What was found before a worker ended, or its 15 minutes were over, is reported")
 READY, SEEN = "{}", json.dumps({"recording": {"number": 1}})
@@ -85,12 +85,12 @@ def test_what_was_recorded_before_the_worker_ended(examine):
 
 
 def test_what_was_found_before_the_time_was_over(examine, monkeypatch):
-    clock = SimpleNamespace(monotonic=lambda: 0.0)
+    clock = Clock()
     monkeypatch.setattr(worker_process, "time", clock)
     monkeypatch.setattr(judging, "time", clock)
 
     def let_it_be_over(outcome, _):
-        clock.monotonic = lambda: worker_process.LONGEST_S + 1
+        clock.now = worker_process.LONGEST_S + 1
 
     outcomes = found_in(examine([READY, SEEN], "exec sleep 3600", let_it_be_over))
     assert outcomes["2"] == (["C2"], "")
