@@ -37,9 +37,7 @@ EXERCISE = "3"
 RACE = "Twist for String"  # whichever of its two programs comes first decides what is wrong
 ROWS = [row for row in OF_HANDOUT if row.exercise == EXERCISE and row.what != RACE]
 SUBMISSIONS, LONGEST_S = 8, 1800.0
-GONE = (
-    f"check: no verdict: the scheduler at {ADDRESS} has ended; run the command again to continue"
-)
+GONE = f"check: no verdict: the scheduler at {ADDRESS} has ended; run the command again to continue"
 
 
 @pytest.fixture
