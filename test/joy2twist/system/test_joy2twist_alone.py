@@ -49,6 +49,7 @@ def test_two_folders_and_a_file_of_teleop_twist_joy_drive_another_robot(alone):
                 assert ",0.7,0.0,0.0,0.0,0.0,0.2\n" in robot.output, stick.output
             wait_for(lambda: robot.output.splitlines()[-1].endswith(",0.0" * 6), "zeros at the end")
     launch = "joy2twist_turtlebot.launch joy_config:=xbox cmd_vel:=/base/cmd_vel"
-    with alone(f". own_ws/devel/setup.bash; roslaunch joy2twist {launch}") as node:
+    build = "cp -r ~/ros1_tutorial/common/launch_kit own_ws/src; cd own_ws; catkin_make"
+    with alone(f"{build}; . devel/setup.bash; roslaunch joy2twist {launch}") as node:
         wait_for(lambda: "hold button 4, or 5" in node.output or node.ended, "joy2twist")
         assert not node.ended, node.output
