@@ -4,8 +4,9 @@ import pytest
 
 from node_kit.rules.answer import Answer
 from tutorial_testing.claims import claim
+from tutorial_tools.errors import JoinError
 from tutorial_tools.ros import join
-from tutorial_tools.ros.join import JoinError, check_host, check_master, check_robot
+from tutorial_tools.ros.join import check_host, check_master, check_robot
 
 pytestmark = claim("join refuses a host, a master and a robot in one line each")
 URI, OWN = "http://10.0.0.1:11311", "10.0.0.2"

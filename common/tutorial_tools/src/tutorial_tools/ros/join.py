@@ -14,15 +14,12 @@ from launch_kit.ros.launch_tree import checked
 from node_kit.ros.graph.ros_api import way_out
 from node_kit.rules.answer import Answer
 from tutorial_tools.doctor.facts import some
+from tutorial_tools.errors import JoinError
 from tutorial_tools.io.command.subcommands import fail, parser_of
 from tutorial_tools.ros.doctor.network import addresses, call, is_called_back, is_here
 
 DEFAULT_PORT = 11311
 START = "has the teacher started classroom.launch?"
-
-
-class JoinError(Exception):
-    """Why nothing can be started, in one line for the user."""
 
 
 def check_host(host: str) -> tuple[str, str]:

@@ -10,7 +10,8 @@ WORKSPACE, TYPED = Path(sys.argv[1]), sys.argv[2:]
 ONLY_PACKAGES = sys.dont_write_bytecode = TYPED == ["setup", "system"]
 
 try:
-    from tutorial_tools.io.system.apt import SetUpError, say
+    from tutorial_tools.errors import SetUpError
+    from tutorial_tools.io.system.apt import say
 
     if ONLY_PACKAGES:
         from tutorial_tools.io.system.packages import DONE, install, packages

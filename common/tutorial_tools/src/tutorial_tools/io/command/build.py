@@ -19,9 +19,10 @@ from pathlib import Path
 from node_kit.manifests import broken_manifests, manifests
 from tutorial_tools.command.build_errors import first_errors
 from tutorial_tools.command.requirements import names_of
+from tutorial_tools.errors import SetUpError
 from tutorial_tools.hidden_stand_ins import hidden_stand_ins
 from tutorial_tools.io.command.lock import one_at_a_time
-from tutorial_tools.io.system.apt import SetUpError, say
+from tutorial_tools.io.system.apt import say
 from tutorial_tools.rqt_windows import MODEL, TABS, make_rqt
 
 REPOSITORY = Path(__file__).resolve().parents[6]

@@ -9,11 +9,12 @@ import subprocess
 import sys
 from pathlib import Path
 
+from tutorial_tools.errors import SetUpError
 from tutorial_tools.io.command import subcommands
 from tutorial_tools.io.command.build import build, is_done
 from tutorial_tools.io.command.charts import fetch_charts
 from tutorial_tools.io.command.environment import environment_of, environment_of_help
-from tutorial_tools.io.system.apt import SetUpError, not_installed, say
+from tutorial_tools.io.system.apt import not_installed, say
 from tutorial_tools.io.system.packages import DONE, install, packages
 
 NO_VERDICT = "check: nothing was checked; this says nothing about your exercises"

@@ -11,6 +11,8 @@ import sys
 from pathlib import Path
 from typing import Iterable, Iterator, Sequence
 
+from tutorial_tools.errors import SetUpError
+
 # No retries: without a network they would take minutes, for each of hundreds of packages.
 APT_GET = (
     *("env", "DEBIAN_FRONTEND=noninteractive", "apt-get", "-q", "-y", "--no-install-recommends"),
@@ -27,10 +29,6 @@ exit ${status-0}"""
 INTERRUPTED = 130  # exit code
 FINISHES = "interrupted: what is being installed is finished first, as dpkg must not be cut"
 AS_ROOT = "As root, run: ./tutorial setup system"
-
-
-class SetUpError(Exception):
-    """Why something cannot be set up, in one line for the user."""
 
 
 def say(line: str) -> None:

@@ -10,8 +10,9 @@ import sys
 import tempfile
 from pathlib import Path
 
+from tutorial_tools.errors import SetUpError
 from tutorial_tools.io.system import apt
-from tutorial_tools.io.system.apt import AS_ROOT, SetUpError, say
+from tutorial_tools.io.system.apt import AS_ROOT, say
 
 LIST = Path(__file__).resolve().parents[4] / "etc" / "packages"
 INCLUDES = {"more": ("view",), "view": ("qt6",)}  # sections in others
