@@ -8,8 +8,8 @@ import pytest
 from tutorial_testing.claims import claim
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
-from tutorial_tools.io.command import build
 from tutorial_tools.errors import SetUpError
+from tutorial_tools.io.command import build
 
 # A system on which nothing is installed yet. LACKING: what its archive has not; SLOW: download or
 # install, which then lasts until the file `go_on` is there; BROKEN: no network, nor lists of apt's.

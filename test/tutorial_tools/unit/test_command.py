@@ -7,9 +7,10 @@ from pathlib import Path
 import pytest
 
 from tutorial_testing.claims import claim
+from tutorial_tools.command.plans import plan, read
+from tutorial_tools.command.subcommands import OWN_PARSER, candidates
 from tutorial_tools.io.command import build
 from tutorial_tools.io.command.environment import environment_of_help
-from tutorial_tools.io.command.subcommands import OWN_PARSER, candidates, plan, read
 from tutorial_tools.io.system import apt
 from tutorial_tools.io.system.packages import packages
 from tutorial_tools.rqt_windows import MODEL
@@ -87,13 +88,13 @@ def test_a_mistake_is_one_line(monkeypatch, capsys, line, words):
     for name in ("DISPLAY", "TUTORIAL_IN"):
         monkeypatch.delenv(name, raising=False)
     with pytest.raises(SystemExit) as end:
-        read(Path("/ws"), line.split())
+        read(Path("/ws"), line.split(), pytest.fail)
     (said,) = capsys.readouterr().err.splitlines()
     assert words in said and end.value.code == 2
 
 
 def test_the_list_of_words_names_courses(capsys):
-    assert read(Path("/ws"), ["--help"]) is None
+    assert read(Path("/ws"), ["--help"], pytest.fail) is None
     assert "workspace; --course wiki, or FOLDER: others\n" in capsys.readouterr().out
 
 

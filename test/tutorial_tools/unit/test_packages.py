@@ -12,8 +12,9 @@ from tutorial_testing.claims import claim
 from tutorial_testing.noetic import META
 from tutorial_testing.processes import REPOSITORY
 from tutorial_tools.command.requirements import names_of
-from tutorial_tools.io.command.build import SHARE, lock_of
+from tutorial_tools.io.command.build import lock_of
 from tutorial_tools.io.system import packages as system_packages
+from tutorial_tools.paths import SHARE
 
 pytestmark = claim(
     "Over a ROS in /opt/ros, ros-base and the listed packages are all that the demo needs"

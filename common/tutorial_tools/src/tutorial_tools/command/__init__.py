@@ -1,1 +1,0 @@
-"""What ./tutorial runs once Python is installed: its words, and the build."""

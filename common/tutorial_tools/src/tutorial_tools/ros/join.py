@@ -13,9 +13,9 @@ from launch_kit.arguments import written_out
 from launch_kit.ros.launch_tree import checked
 from node_kit.ros.graph.ros_api import way_out
 from node_kit.rules.answer import Answer
+from tutorial_tools.command.subcommands import fail, parser_of
 from tutorial_tools.doctor.facts import some
 from tutorial_tools.errors import JoinError
-from tutorial_tools.io.command.subcommands import fail, parser_of
 from tutorial_tools.ros.doctor.network import addresses, call, is_called_back, is_here
 
 DEFAULT_PORT = 11311

