@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import struct
 from dataclasses import dataclass
 from struct import Struct
-from typing import ClassVar, Iterable, Sequence, Union
+from typing import Callable, ClassVar, Iterable, Sequence, Union, get_args
 
-from kobuki_protocol.framing import packet, part, split
+from kobuki_protocol.framing import packet, parse_parts, part
 from kobuki_protocol.identity import Controller
+from kobuki_protocol.packed_part import PackedPart
 
 POWER_ON = 0x00F0  # all four supplies on, as the driver starts
 LED_COLOURS = (0, 2, 3, 1)  # two bits, red and green, of kobuki_msgs' BLACK, GREEN, ORANGE, RED
@@ -17,7 +17,7 @@ MOST_GAIN = 1 << 32  # in thousandths
 
 
 @dataclass(frozen=True)
-class BaseControl:
+class BaseControl(PackedPart):
     """The motion of the wheels; see kobuki_protocol.base_control."""
 
     ID: ClassVar[int] = 1
@@ -25,18 +25,9 @@ class BaseControl:
     speed: int = 0  # [mm/s] of the outer wheel
     radius: int = 0  # [mm]; 0: straight on, 1: on the spot
 
-    def data(self) -> bytes:
-        """Return the data of the part."""
-        return self.LAYOUT.pack(self.speed, self.radius)
-
-    @classmethod
-    def parse(cls, data: bytes) -> BaseControl:
-        """Return the part with this data; all parse() raise struct.error."""
-        return cls(*cls.LAYOUT.unpack(data))
-
 
 @dataclass(frozen=True)
-class Sound:
+class Sound(PackedPart):
     """A note; the driver never sends this command."""
 
     ID: ClassVar[int] = 3
@@ -44,18 +35,9 @@ class Sound:
     note: int
     duration: int  # [ms]
 
-    def data(self) -> bytes:
-        """Return the data of the part."""
-        return self.LAYOUT.pack(self.note, self.duration)
-
-    @classmethod
-    def parse(cls, data: bytes) -> Sound:
-        """Return the part with this data."""
-        return cls(*cls.LAYOUT.unpack(data))
-
 
 @dataclass(frozen=True)
-class SoundSequence:
+class SoundSequence(PackedPart):
     """One of the MELODIES."""
 
     ID: ClassVar[int] = 4
@@ -69,18 +51,9 @@ class SoundSequence:
             raise ValueError(f"sound {number}: must be 0 to {len(MELODIES) - 1}")
         return cls(number)
 
-    def data(self) -> bytes:
-        """Return the data of the part."""
-        return self.LAYOUT.pack(self.number)
-
-    @classmethod
-    def parse(cls, data: bytes) -> SoundSequence:
-        """Return the part with this data."""
-        return cls(*cls.LAYOUT.unpack(data))
-
 
 @dataclass(frozen=True)
-class Request:
+class Request(PackedPart):
     """A request for versions and the unique id."""
 
     ID: ClassVar[int] = 9
@@ -90,18 +63,9 @@ class Request:
     UNIQUE_ID: ClassVar[int] = 8
     flags: int = HARDWARE | FIRMWARE | UNIQUE_ID
 
-    def data(self) -> bytes:
-        """Return the data of the part."""
-        return self.LAYOUT.pack(self.flags)
-
-    @classmethod
-    def parse(cls, data: bytes) -> Request:
-        """Return the part with this data."""
-        return cls(*cls.LAYOUT.unpack(data))
-
 
 @dataclass(frozen=True)
-class Outputs:
+class Outputs(PackedPart):
     """Pins (bits 0 to 3), supplies (4 to 7), red and green of the LEDs (8, 9 and 10, 11)."""
 
     ID: ClassVar[int] = 12
@@ -134,15 +98,6 @@ class Outputs:
     def _with(self, mask: int, values: int) -> Outputs:
         return Outputs((self.bits & ~mask) | (values & mask))
 
-    def data(self) -> bytes:
-        """Return the data of the part."""
-        return self.LAYOUT.pack(self.bits)
-
-    @classmethod
-    def parse(cls, data: bytes) -> Outputs:
-        """Return the part with this data."""
-        return cls(*cls.LAYOUT.unpack(data))
-
 
 @dataclass(frozen=True)
 class SetController:
@@ -171,32 +126,17 @@ class SetController:
 
 
 @dataclass(frozen=True)
-class GetController:
-    """A request for the gains; its byte has no meaning."""
+class GetController(PackedPart):
+    """A request for the gains."""
 
     ID: ClassVar[int] = 14
-
-    def data(self) -> bytes:
-        """Return the data of the part."""
-        return bytes(1)
-
-    @classmethod
-    def parse(cls, data: bytes) -> GetController:
-        """Return the part with this data."""
-        if len(data) != 1:
-            raise struct.error
-        return cls()
+    LAYOUT: ClassVar[Struct] = Struct("<x")  # a byte without a meaning
 
 
 Command = Union[
     BaseControl, Sound, SoundSequence, Request, Outputs, SetController, GetController
 ]  # fmt: skip
-KINDS: dict[int, type[Command]] = {
-    kind.ID: kind
-    for kind in (
-        BaseControl, Sound, SoundSequence, Request, Outputs, SetController, GetController
-    )
-}  # fmt: skip
+PARSERS: dict[int, Callable[[bytes], Command]] = {c.ID: c.parse for c in get_args(Command)}
 
 
 def bits_of(flags: Iterable[bool]) -> int:
@@ -211,11 +151,4 @@ def build(*commands: Command) -> bytes:
 
 def parse(payload: bytes) -> list[Command]:
     """Return the commands of a payload, without those of an unknown id or length."""
-    commands: list[Command] = []
-    for number, data in split(payload):
-        try:
-            if number in KINDS:
-                commands.append(KINDS[number].parse(data))
-        except struct.error:
-            continue
-    return commands
+    return parse_parts(payload, PARSERS)

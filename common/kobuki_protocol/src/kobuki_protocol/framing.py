@@ -6,15 +6,18 @@ sequence of parts, each with its id and length. All numbers are little-endian.
 
 from __future__ import annotations
 
+import struct
+from contextlib import suppress
 from functools import reduce
 from operator import xor
-from typing import Iterator, Tuple
+from typing import Callable, Iterator, Mapping, Tuple, TypeVar
 
 HEADER = b"\xaa\x55"
 PREFIX = len(HEADER) + 1  # bytes before a payload: the header and its length
 LONGEST_PAYLOAD = 255
 Part = Tuple[int, bytes]  # id and data
 DAMAGED, INCOMPLETE = 0, -1
+_Parsed = TypeVar("_Parsed")
 
 
 def packet(payload: bytes) -> bytes:
@@ -35,6 +38,16 @@ def split(payload: bytes) -> Iterator[Part]:
         end = start + 2 + payload[start + 1]
         yield payload[start], payload[start + 2 : end]
         start = end
+
+
+def parse_parts(payload: bytes, parsers: Mapping[int, Callable[[bytes], _Parsed]]) -> list[_Parsed]:
+    """Return the parts of a payload, without those of an unknown id or length."""
+    parsed = []
+    for number, data in split(payload):
+        if number in parsers:
+            with suppress(struct.error):
+                parsed.append(parsers[number](data))
+    return parsed
 
 
 class Framer:

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import struct
-from typing import Union
+from typing import Callable, Union, get_args
 
 from kobuki_protocol import feedback, identity
-from kobuki_protocol.framing import packet, part, split
+from kobuki_protocol.framing import packet, parse_parts, part
 
 RobotPart = Union[
     feedback.Sensor,
@@ -15,14 +14,7 @@ RobotPart = Union[
     identity.UniqueId,
     identity.Controller,
 ]
-KINDS: dict[int, type[RobotPart]] = {
-    kind.ID: kind
-    for kind in (
-        feedback.Core, feedback.DockInfrared, feedback.Inertia, feedback.Cliff, feedback.Current,
-        feedback.RawGyro, feedback.Inputs, identity.HardwareVersion, identity.FirmwareVersion,
-        identity.UniqueId, identity.Controller,
-    )
-}  # fmt: skip
+PARSERS: dict[int, Callable[[bytes], RobotPart]] = {p.ID: p.parse for p in get_args(RobotPart)}
 
 
 def build(*parts: RobotPart) -> bytes:
@@ -32,11 +24,4 @@ def build(*parts: RobotPart) -> bytes:
 
 def parse(payload: bytes) -> list[RobotPart]:
     """Return the parts of a payload, without those of an unknown id or length."""
-    parts: list[RobotPart] = []
-    for number, data in split(payload):
-        try:
-            if number in KINDS:
-                parts.append(KINDS[number].parse(data))
-        except struct.error:
-            continue
-    return parts
+    return parse_parts(payload, PARSERS)
