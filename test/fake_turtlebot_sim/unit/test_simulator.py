@@ -12,7 +12,7 @@ from fake_turtlebot_sim.simulator.contact import gap
 from fake_turtlebot_sim.simulator.differential_drive import composed
 from fake_turtlebot_sim.simulator.laser import Laser
 from fake_turtlebot_sim.simulator.parameters import SimulatorParameters, parse_parameters
-from fake_turtlebot_sim.simulator.ros_messages import between_frames
+from fake_turtlebot_sim.simulator.robot_messages import between_frames
 from fake_turtlebot_sim.simulator.sensors import bumpers
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot, meet
 from fake_turtlebot_sim.simulator.world import Surroundings, World, gaps

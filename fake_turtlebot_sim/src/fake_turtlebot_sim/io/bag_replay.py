@@ -20,7 +20,7 @@ from tf2_msgs.msg import TFMessage
 from fake_turtlebot_sim.errors import ReplayError
 from fake_turtlebot_sim.simulator.differential_drive import Velocity
 from fake_turtlebot_sim.simulator.parameters import SimulatorParameters
-from fake_turtlebot_sim.simulator.ros_messages import RobotMessages
+from fake_turtlebot_sim.simulator.robot_messages import RobotMessages
 from fake_turtlebot_sim.simulator.simulated_robot import RobotState, SimulatedRobot
 
 LONGEST_SILENCE_S = 1000.0  # between two commands

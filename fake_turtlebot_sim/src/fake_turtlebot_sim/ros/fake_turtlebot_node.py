@@ -17,7 +17,7 @@ from fake_turtlebot_sim.ros.ros_clock import Instant, MotionLock
 from fake_turtlebot_sim.ros.world_topics import WorldTopics
 from fake_turtlebot_sim.simulator.clock import PhaseLock
 from fake_turtlebot_sim.simulator.parameters import SimulatorParameters, parse_parameters
-from fake_turtlebot_sim.simulator.ros_messages import ORIGIN, Place, static_transform
+from fake_turtlebot_sim.simulator.robot_messages import ORIGIN, Place, static_transform
 from node_kit.ros.lifecycle.start import run
 from node_kit.ros.log import Log
 from node_kit.ros.rospy_patches.connections import report_bad_messages

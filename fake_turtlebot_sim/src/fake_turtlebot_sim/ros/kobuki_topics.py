@@ -11,7 +11,7 @@ from std_msgs.msg import Int16MultiArray, String
 
 from fake_turtlebot_sim.ros.ros_clock import MotionLock
 from fake_turtlebot_sim.simulator.differential_drive import wrap_angle
-from fake_turtlebot_sim.simulator.kobuki import sensors, with_gyro
+from fake_turtlebot_sim.simulator.kobuki_feedback import sensors, with_gyro
 from fake_turtlebot_sim.simulator.parameters import SimulatorParameters
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
 from kobuki_protocol import command_messages, commands, messages, robot_packets

@@ -15,7 +15,7 @@ from fake_turtlebot_sim.ros.kobuki_topics import KobukiTopics
 from fake_turtlebot_sim.ros.ros_clock import Instant, MotionLock
 from fake_turtlebot_sim.simulator.differential_drive import Pose, composed
 from fake_turtlebot_sim.simulator.parameters import SimulatorParameters
-from fake_turtlebot_sim.simulator.ros_messages import RobotMessages, between_frames, pose_on_plane
+from fake_turtlebot_sim.simulator.robot_messages import RobotMessages, between_frames, pose_on_plane
 from fake_turtlebot_sim.simulator.simulated_robot import REST, CommandResult, SimulatedRobot
 from node_kit.ros.log import Log
 from node_kit.ros.rospy_patches.fresh_only import FreshOnly

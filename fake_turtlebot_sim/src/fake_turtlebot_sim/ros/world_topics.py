@@ -12,10 +12,10 @@ from sensor_msgs.msg import LaserScan
 from visualization_msgs.msg import MarkerArray
 
 from fake_turtlebot_sim.ros.map_topics import MapTopics
-from fake_turtlebot_sim.simulator.kobuki import felt
+from fake_turtlebot_sim.simulator.kobuki_feedback import touch_feedback
 from fake_turtlebot_sim.simulator.laser import Laser
 from fake_turtlebot_sim.simulator.parameters import SimulatorParameters
-from fake_turtlebot_sim.simulator.ros_messages import ORIGIN, Place
+from fake_turtlebot_sim.simulator.robot_messages import ORIGIN, Place
 from fake_turtlebot_sim.simulator.sensors import Sensed
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot, meet
 from fake_turtlebot_sim.simulator.world import World
@@ -122,7 +122,7 @@ class SensorTopics:
             self._scans.publish(self._scan)
 
     def _publish_events(self, before: Sensed, after: Sensed) -> None:
-        for topic, event in events(felt(before), felt(after)):
+        for topic, event in events(touch_feedback(before), touch_feedback(after)):
             self._events[topic].publish(event)
         if any(after.wheels) and not any(before.wheels):
             (x, y, _), todo = self._seen[0], "lift it with ~reset or initialpose"

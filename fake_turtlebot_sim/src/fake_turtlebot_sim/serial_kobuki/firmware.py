@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 from fake_turtlebot_sim.serial_kobuki.outputs import changes
 from fake_turtlebot_sim.simulator.differential_drive import wrap_angle
-from fake_turtlebot_sim.simulator.kobuki import BATTERY, WRAP, sensors, with_gyro
+from fake_turtlebot_sim.simulator.kobuki_feedback import BATTERY, WRAP, sensors, with_gyro
 from fake_turtlebot_sim.simulator.simulated_robot import REST, SimulatedRobot
 from kobuki_protocol import commands, identity
 from kobuki_protocol.base_control import velocity_of

@@ -5,7 +5,7 @@ from math import pi
 
 import pytest
 
-from fake_turtlebot_sim.simulator import kobuki
+from fake_turtlebot_sim.simulator import kobuki_feedback as kobuki
 from fake_turtlebot_sim.simulator.parameters import SimulatorParameters
 from fake_turtlebot_sim.simulator.sensors import Sensed
 from fake_turtlebot_sim.simulator.simulated_robot import CommandResult, SimulatedRobot

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fake_turtlebot_sim.simulator.parameters import SimulatorParameters
-from fake_turtlebot_sim.simulator.ros_messages import RobotMessages, pose_on_plane
+from fake_turtlebot_sim.simulator.robot_messages import RobotMessages, pose_on_plane
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
 from tutorial_testing.claims import claim
 

@@ -21,7 +21,7 @@ FULL_CURRENT = 30  # [10 mA] of a motor at FULL_RATE, about
 BATTERY = 164  # [0.1 V] of 4 lithium cells that are almost full
 
 
-def felt(sensed: Sensed) -> Feedback:
+def touch_feedback(sensed: Sensed) -> Feedback:
     """Return the feedback of bumpers, cliff sensors and wheel drop switches."""
     right_to_left = [bits_of(reversed(flags)) for flags in (sensed.bumpers, sensed.wheels)]
     cliffs = sensed.cliffs[::-1]
@@ -31,7 +31,7 @@ def felt(sensed: Sensed) -> Feedback:
 
 def sensors(now_ns: int, robot: SimulatedRobot, pressed: Sequence[bool]) -> Feedback:
     """Return the feedback of all sensors but the gyro; pressed: buttons 0 to 2."""
-    state, touch = robot.state(), felt(robot.sensed())
+    state, touch = robot.state(), touch_feedback(robot.sensed())
     left, right = (floor(angle / tau * TICKS_PER_TURN) % WRAP for angle in robot.turned)
     rates = state.left_rate, state.right_rate
     pwm = [max(-100, min(100, round(100 * rate / FULL_RATE))) for rate in rates]
