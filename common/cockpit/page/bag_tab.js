@@ -69,14 +69,14 @@ export class BagTab {
     link.on("hello", ({ role }) => {
       byId("bag-record").disabled = role !== "driver";
       this.#report({ playing: false });
-      if (this.#bag) link.send("bag_open", { name: this.#bag.path }); // for the server this page is new
+      if (this.#bag) link.send("bag_open", { name: this.#bag.path }); // The server of a new connection does not know it.
     });
     byId("bag-open").onclick = () => this.#ask();
     byId("bag-record").onclick = () => link.send("record", { on: !this.#records });
     byId("bag-play").onclick = () => this.#play();
     byId("bag-pause").onclick = () => link.send("bag_pause");
     byId("bag-position").oninput = () => this.#seek(byId("bag-position").valueAsNumber);
-    // A change while it plays counts at once.
+    // A change while it plays takes effect at once.
     for (const id of ["bag-rate", "bag-loop", "bag-topic"]) byId(id).onchange = () => this.#at.playing && this.#play();
     byId("bag-zoom").onclick = () => this.chart.wholeRange();
   }
@@ -160,7 +160,7 @@ export class BagTab {
     byId("bag-curves").querySelectorAll("input").forEach((box, i) => this.chart.setVisible(i, box.checked));
   }
 
-  /** Without a connection nothing can be opened or published, and what is published is unknown. */
+  /** Without a connection nothing can be opened or published, and what the server publishes is unknown. */
   connect() {
     this.#report(this.#at);
   }
@@ -180,7 +180,7 @@ export class BagTab {
     const isNone = this.#bag && !byId("bag-topic").options.length;
     const refusal = isNone ? "This recording has no joystick topic to publish here." : this.#refusal;
     byId("bag-chart").dataset.empty = isNone
-      ? `Curves are drawn of a joystick's topics, and ${this.#bag.path} has none. In a shell: rosbag play ${this.#bag.path}`
+      ? `Only joystick topics have curves, and ${this.#bag.path} has none. In a shell: rosbag play ${this.#bag.path}`
       : EMPTY;
     byId("bag-open").disabled = byId("bag-position").disabled = !isOpen;
     byId("bag-play").disabled = !isOpen || !this.#bag || Boolean(refusal);

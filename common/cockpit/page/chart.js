@@ -1,16 +1,16 @@
-/** Curves over time, drawn by dygraphs: several series, each with times of its own. */
+/** Curves over time, drawn by dygraphs: several series, each with its own times. */
 
 import { element } from "./dom.js";
 import { mark, rowsOf } from "./samples.js";
 
-const MOST_POINTS = 8000; // drawn at once: of more a frame takes too long
-const MARK_PX = 30; // between two marks of the axis, as dygraphs has it
+const MOST_POINTS = 8000; // drawn at once; a frame with more takes too long
+const MARK_PX = 30; // between two marks of the axis, as in dygraphs
 const TIME = "time [s]"; // the axis across, unless another one is chosen
 const RETRY_MS = 1000;
 
 // Distinct on light and dark backgrounds, and for most colour-blind readers.
 const COLOURS = ["#2b83d6", "#d9700a", "#1f9e6e", "#c2438f", "#8a6fd1", "#a38712", "#d6403a", "#3fa9b5"];
-// Where the colours begin again, lines are broken: strokes and gaps [px], and their name in CSS.
+// When the colours repeat, lines are dashed: strokes and gaps [px], and their name in CSS.
 const STROKES = [[null, "solid"], [[7, 3], "dashed"], [[2, 3], "dotted"]];
 
 /** How the line of series i is drawn. */
@@ -19,7 +19,7 @@ function style(i) {
   return { colour: COLOURS[i % COLOURS.length], pattern, border };
 }
 
-/** From the least to the largest of numbers, which may be null, and a little more. */
+/** The range of numbers, some of which may be null, with a small margin. */
 function around(values) {
   let [least, most] = [Infinity, -Infinity];
   for (const value of values) {
@@ -37,29 +37,29 @@ function centred([from, to], length) {
   return [(from + to - length) / 2, (from + to + length) / 2];
 }
 
-const page = /** @type {any} */ (globalThis); // which has Dygraph then
+const page = /** @type {any} */ (globalThis); // which defines Dygraph
 
-/** Load dygraphs once it is needed, until it is there; a phone that only drives does without. */
+/** Load dygraphs when it is first needed, and retry until that succeeds; driving does not need it. */
 async function loadLibrary() {
   for (let attempt = 0; !page.Dygraph; attempt++) {
-    // A browser remembers that a module did not come, by its address.
+    // A browser remembers by its address that a module failed to load.
     const loaded = import(`/lib/dygraph.min.js?${attempt}`);
     await loaded.catch(() => new Promise((resolve) => setTimeout(resolve, RETRY_MS)));
   }
-  // Its legend, which is not used, writes style attributes, which the page's policy forbids.
+  // Its legend is not used: it writes style attributes, which the page's policy forbids.
   const { Dygraph } = page;
   Dygraph.PLUGINS = Dygraph.PLUGINS.filter((plugin) => plugin !== Dygraph.Plugins.Legend);
 }
 
 export class Chart {
   #graph = null;
-  #wanted = null; // what is shown, or is to be once the library is there
-  #library = null; // the wait for it
+  #wanted = null; // what to show, once the library is loaded
+  #library = null; // the promise of it
   #labels = []; // of the axis across, and of each series
   #cursor = null;
   pointed = null; // the time [s] at which the mouse points, or null
   points = []; // of the curves there: {name, yval}
-  #window = []; // from, to: as the page itself has set it last
+  #window = []; // from, to: as the page has set it last
   #drawn = ""; // the part of the time for which samples were chosen
 
   /**
@@ -74,12 +74,12 @@ export class Chart {
     root.addEventListener("wheel", (event) => this.#turn(event), { passive: false });
   }
 
-  /** An element that looks as the line of a series. */
+  /** An element that looks like the line of a series. */
   sample(i) {
     return element("i", { className: "sample", style: `border-top: 4px ${style(i).border} ${style(i).colour}` });
   }
 
-  /** Whether a person chose what is shown. For dygraphs a window that the page has set is zoomed, too. */
+  /** Whether a person chose the visible range. To dygraphs, a window that the page has set is zoomed, too. */
   get isZoomed() {
     return Boolean(this.#graph?.isZoomed("x")) && this.#graph.xAxisRange().join() !== this.#window.join();
   }
@@ -89,13 +89,13 @@ export class Chart {
     this.#graph?.resetZoom();
   }
 
-  /** What is seen once there are curves: {left, right} [px] of them in the element, {from, to} [s]. */
+  /** The visible part, if there are curves: {left, right} [px] in the element, {from, to} [s]. */
   get seen() {
     const [{ x, w }, [from, to]] = [this.#graph.getArea(), this.#graph.xAxisRange()];
     return { left: x, right: this.root.clientWidth - x - w, from, to };
   }
 
-  /** The wheel zooms where the mouse is; with Shift, or to the side, it pans. */
+  /** The wheel zooms at the mouse; with Shift, or sideways, it pans. */
   #turn(event) {
     if (!this.#graph) return;
     event.preventDefault();
@@ -107,7 +107,7 @@ export class Chart {
     this.#graph.updateOptions({ dateWindow: [from, to].map((t) => at + (t - at) * factor + aside) });
   }
 
-  /** Where both axes have one unit: ranges of it in which a circle is a circle, around what is seen. */
+  /** If both axes have one unit: ranges around the visible part in which a circle is drawn as a circle. */
   #equal(across, up) {
     const { w, h } = this.#graph?.getArea() ?? { w: this.root.clientWidth, h: this.root.clientHeight };
     const perPixel = Math.max((across[1] - across[0]) / w, (up[1] - up[0]) / h);
@@ -146,7 +146,7 @@ export class Chart {
     if (this.#graph) this.onRange();
   }
 
-  /** Another part may be seen, as after a zoom: choose its samples, or the other axis' range. */
+  /** If another part is visible, as after a zoom, choose its samples, or the other axis' range. */
   #look() {
     if (!this.#graph) return; // it is being made
     this.onRange();
@@ -210,7 +210,7 @@ export class Chart {
     if (x >= area.x && x <= area.x + area.w) pen.fillRect(x - 1, area.y, 2, area.h);
   }
 
-  /** The picture as it is seen, with axes and labels: a canvas. */
+  /** A canvas with the picture, its axes and its labels. */
   picture() {
     const { clientWidth: width, clientHeight: height } = this.root;
     const ratio = devicePixelRatio || 1;

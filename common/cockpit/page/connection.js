@@ -1,22 +1,22 @@
 /**
- * The connection to the server: JSON messages both ways, and its return after a loss.
+ * The connection to the server: JSON messages in both directions, and reconnecting after a loss.
  *
- * Silence is shown at once as a loss. But the server may only be busy, or the Wi-Fi weak for a moment,
- * and a closed connection costs the driver's session: so it stays open for a while.
+ * Silence is shown at once as a loss. As the server may only be busy, or the Wi-Fi weak for a moment,
+ * the connection stays open for a while: closing it ends the driver's session.
  */
 
 const RETRY_MS = 500;
-const QUIET_MS = 1000; // of silence are a loss: the robots' places come 20 times a second
+const QUIET_MS = 1000; // of silence are a loss, as the robots' places arrive 20 times a second
 const GIVE_UP_MS = {
-  [WebSocket.CONNECTING]: 3000, // a cut network answers nothing
-  [WebSocket.OPEN]: 4000, // the server waits as long for a silent page
+  [WebSocket.CONNECTING]: 3000, // A cut network does not answer.
+  [WebSocket.OPEN]: 4000, // The server waits as long for a silent page.
 };
-const HOPE_MS = 6000; // of attempts in vain; then a person has to act
-const FULL = 4096; // [byte] waiting to be sent: what is added now would come late
+const HOPE_MS = 6000; // of failed attempts; then a person has to act
+const FULL = 4096; // [bytes] waiting to be sent; another message would arrive late
 
 export class Link extends EventTarget {
   #socket = null;
-  heardAt = 0; // when the newest message came [ms since 1970], also on a machine that slept since
+  heardAt = 0; // arrival of the newest message [ms since 1970], which also counts the time that a machine sleeps
   #lastHeard = 0; // or when the connection was started
   #lostAt = 0;
   #state = "connecting";
@@ -75,7 +75,7 @@ export class Link extends EventTarget {
     const silence = now - this.#lastHeard;
     if (this.#state === "lost" && now - this.#lostAt > HOPE_MS) this.#become("gone");
     if (document.hidden) {
-      this.#lastHeard = now; // timers and messages of a hidden page come late, which is no loss
+      this.#lastHeard = now; // A hidden page's timers and messages are late, which is no loss.
     } else if (silence > GIVE_UP_MS[state]) {
       this.#lose(this.#socket);
     } else if (state === WebSocket.OPEN && silence > QUIET_MS) {
@@ -84,7 +84,7 @@ export class Link extends EventTarget {
   }
 
   #lose(socket) {
-    if (socket !== this.#socket) return; // given up before
+    if (socket !== this.#socket) return; // It was given up before.
     this.#socket = null;
     socket.onmessage = socket.onopen = null;
     socket.close();

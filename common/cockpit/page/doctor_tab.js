@@ -21,7 +21,7 @@ export class DoctorTab {
   constructor(link) {
     this.link = link;
     link.on("hello", () => {
-      this.#asked = false; // a run may have ended with its server
+      this.#asked = false; // A run may have ended with its server.
       this.#report("", false);
       this.show(!byId("doctor").hidden);
     });
@@ -38,7 +38,7 @@ export class DoctorTab {
     if (this.#asked) this.#report("Checking …", this.#running);
   }
 
-  /** Without a connection a verdict is an old one. */
+  /** Without a connection the verdict is an old one. */
   connect() {
     this.#report(this.#state, this.#running);
   }

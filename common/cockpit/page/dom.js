@@ -1,4 +1,4 @@
-/** The few functions with which the tabs build their elements. */
+/** The functions with which tabs build their elements. */
 
 /** @type {(id: string) => any} of any kind: an input has a value */
 export const byId = (id) => document.getElementById(id);
@@ -17,7 +17,7 @@ export function element(tag, properties = {}, ...children) {
 /** For sort(): robot_2 before robot_10. */
 export const byName = new Intl.Collator("en", { numeric: true }).compare;
 
-/** A node's name without the numbers that rospy, or roscpp, gives an anonymous one: /talker_host_…. */
+/** A node's name without the numbers that rospy and roscpp give anonymous nodes: /talker_host_…. */
 export const brief = (name) => name.replace(/_\d+_\d{10,}$|_\d{16,}$/, "_…");
 
 /** A row of a table. */
@@ -27,22 +27,22 @@ export const row = (...cells) => element("tr", {}, ...cells.map((cell) => elemen
 export const number = (value, digits = 2) =>
   Number.isFinite(value) ? value.toFixed(digits).replace(/^-(0\.?0*)$/, "$1") : "–";
 
-/** Let a <select> offer these [value, text] pairs, and keep what is chosen if it is still there. */
+/** Let a <select> offer these [value, text] pairs, and keep the choice if it is still offered. */
 export function offer(select, choices) {
   const wanted = JSON.stringify(choices);
-  if (select.dataset.choices === wanted) return; // an open list stays as it is
+  if (select.dataset.choices === wanted) return; // An open list stays as it is.
   const chosen = select.value;
   select.dataset.choices = wanted;
   select.replaceChildren(...choices.map(([value, text = value]) => new Option(text, value)));
   if (choices.some(([value]) => value === chosen)) select.value = chosen;
 }
 
-/** Set a text only if it differs: screen readers read each change. */
+/** Set a text only if it differs, as screen readers read every change. */
 export function say(target, text) {
   if (target.textContent !== text) target.textContent = text;
 }
 
-/** Append to a list, keep the newest of it, and stay at the end of what scrolls if that was seen. */
+/** Append to a list, drop its oldest rows, and keep showing its end if that was visible. */
 export function appendBelow(list, parts, most, scroll = list) {
   const atEnd = scroll.scrollHeight - scroll.scrollTop - scroll.clientHeight < 40;
   list.append(...parts);

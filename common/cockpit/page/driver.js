@@ -1,5 +1,5 @@
 /**
- * The person at this page as a joystick: what hands do on keys, glass or a gamepad goes to the server.
+ * The person at this page as a joystick: sends the server what hands do on keys, glass or a gamepad.
  *
  * The server decides whether that moves a robot. The page notices some losses of the operator earlier
  * (a hidden page, a lost pointer), and reports them.
@@ -10,7 +10,7 @@ import { Keys } from "./keys.js";
 import { Pad } from "./pad.js";
 import { isAtRest, positions } from "./f710.js";
 
-const PERIOD_MS = 50; // of inputs while nothing changes, as that of the server's beats
+const PERIOD_MS = 50; // of inputs while nothing changes, and of the server's beats
 const LOOK_MS = 10; // between two looks at gamepads; the browser reads them about every 16 ms
 const RIGHT = 2, RIGHT_HELD = 2; // of a mouse, as event.button and in event.buttons
 
@@ -33,7 +33,7 @@ export class Driver {
     this.pad = new Pad(lost);
     link.on("hello", ({ buttons }) => {
       this.names = buttons;
-      this.stop(); // a new connection drives nothing
+      this.stop(); // A new connection does not drive.
     });
     link.on("beat", (beat) => (this.#beat = beat.n));
     this.#shunMenus();
@@ -44,7 +44,7 @@ export class Driver {
     return this.#timer !== null;
   }
 
-  /** This page has the session: send what hands do, at every change and every period. */
+  /** Send what hands do at every change and every period, as this page has the session. */
   start() {
     if (this.isDriving) return;
     this.#letGo();
@@ -58,15 +58,15 @@ export class Driver {
     this.#letGo();
   }
 
-  /** The operator was lost: report it, and hold nothing any more. */
+  /** Report that the operator was lost, and release everything. */
   release(why) {
     this.#letGo();
     if (this.isDriving) this.link.send("release", { why });
   }
 
   /**
-   * An open menu takes the keys and their releases, although the window keeps the focus. So no menu
-   * opens while this page drives, and what opens one all the same is a loss: the list of a <select>,
+   * An open menu takes the keys and their releases, although the window keeps the focus. So menus are
+   * suppressed while this page drives, and those that open nevertheless are a loss: the list of a <select>,
    * and the right button, with which Firefox shows its menu whenever Shift is held.
    */
   #shunMenus() {
@@ -106,7 +106,7 @@ export class Driver {
 
   /** Hands on keys and glass together (Shift may hold LB for a mouse on the stick), else on a gamepad. */
   #hands() {
-    const pad = this.pad.read(this.names); // first: if it was unplugged, nothing is held any more
+    const pad = this.pad.read(this.names); // first: an unplugged one releases everything
     const [keys, glass] = [this.keys.hands, this.glass.hands];
     const left = glass.left.some(Boolean) ? glass.left : keys.left;
     const hands = { ...glass, left, held: [...new Set([...keys.held, ...glass.held])] };

@@ -1,4 +1,4 @@
-/** The driver's session: above all tabs who drives, how fast, and Stop; in the tab Robot driving from here. */
+/** The driver's session: the driver, the speed and Stop above all tabs, and driving in the tab Robot. */
 
 import { byId, number, say } from "./dom.js";
 import { Driver } from "./driver.js";
@@ -7,13 +7,13 @@ const NOTHING = {
   session: { driver: null, yours: false, robot: "", topic: "" },
   drives: { robots: {}, who: "", ready: "", how: "", refusal: "", no_reset: "" },
 };
-export const STALE_S = 1; // an older speed is not shown, and other news of this age is greyed
-const CUT = "This page no longer drives: its connection was lost. Press Drive from this page, or Publish, to go on.";
+export const STALE_S = 1; // An older speed is not shown, and other values of this age are grey.
+const CUT = "This page no longer drives: its connection was lost. Press Drive from this page, or Publish, to continue.";
 
 export class DriverSession {
-  #role = null; // "driver" or "viewer", once the server has said so
+  #role = null; // "driver" or "viewer", once the server has sent it
   #said = NOTHING; // by the server, over this connection
-  #advice = ""; // a notice of what to do, which counts as long as this page has the session
+  #advice = ""; // a notice of what to do, valid while this page has the session
 
   /** tab: the RobotTab, which has the robot, the floor, and the elements below the tabs. */
   constructor(link, notice, tab) {
@@ -54,7 +54,7 @@ export class DriverSession {
     say(byId("speed"), isKnown ? `${number(v)} m/s, ${number(w)} rad/s` : "– m/s");
   }
 
-  /** Show what the server said last. Without a connection that is no news, and nothing drives. */
+  /** Show what the server sent last. Without a connection that is outdated, and this page does not drive. */
   show() {
     const { isOpen, heardAt } = this.link;
     const { session, drives } = this.#now;
@@ -83,7 +83,7 @@ export class DriverSession {
     stop.disabled = !mayDrive || driver === null || !(yours || topic || robot === this.tab.look);
     reset.disabled = !mayDrive || Boolean(noReset);
     reset.title = noReset;
-    if (focused && (focused.hidden || focused.disabled)) { // the keyboard goes on from what can be pressed
+    if (focused && (focused.hidden || focused.disabled)) { // Move the focus to an element that can be pressed.
       const selected = document.querySelector("[role=tab][aria-selected=true]");
       ([stop, take].find((one) => !one.disabled && one.offsetParent) ?? selected)?.focus();
     }
@@ -109,15 +109,15 @@ export class DriverSession {
   }
 
   #take(session) {
-    const drives = session.yours && !session.topic; // a form may move what is no robot
-    if (drives && !this.yours) this.tab.floor.setFollow(true); // a driver sees the driven robot
-    if (drives && session.robot !== this.tab.look) this.tab.lookAt(session.robot); // it was handed over
+    const drives = session.yours && !session.topic; // A form may move something that is no robot.
+    if (drives && !this.yours) this.tab.floor.setFollow(true); // A driver sees the driven robot.
+    if (drives && session.robot !== this.tab.look) this.tab.lookAt(session.robot); // It was handed over.
     if (session.yours) this.driver.mode = byId("mode").value;
-    if (session.yours && session.armed) this.notice(""); // it may go on
+    if (session.yours && session.armed) this.notice(""); // It may drive on.
     this.#hear({ session });
   }
 
-  /** Stop the robot: this page's hands let go at once, and leave the session; another driver is stopped. */
+  /** Stop the robot: release this page's hands at once and leave the session, or stop another driver. */
   #stop() {
     this.notice(""); // why it stopped before
     this.driver.stop();

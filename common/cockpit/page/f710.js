@@ -1,5 +1,5 @@
 /**
- * The Logitech F710 as /joy shows it, and what hands do on it (pure).
+ * The Logitech F710 as /joy shows it, and what hands do on it.
  *
  * Hands are {left, right, dpad: [x, y] from -1 to 1, left and up positive as on /joy; triggers:
  * [LT, RT] from 0 (released) to 1; held: names of buttons}. gamepads.py and controls.py of the
@@ -9,8 +9,8 @@
 export const REST = Object.freeze({
   left: [0, 0], right: [0, 0], dpad: [0, 0], triggers: [0, 0], held: [],
 });
-const DIGITAL = 0.5; // from this deflection on a trigger or the D-pad is pressed
-const DEADZONE = 0.05; // of a stick, as joy_node has it
+const DIGITAL = 0.5; // A trigger or the D-pad deflected this far is pressed.
+const DEADZONE = 0.05; // of a stick, as in joy_node
 
 // The Gamepad API's "standard" layout, https://w3c.github.io/gamepad/#remapping
 const STANDARD = [
@@ -55,8 +55,8 @@ export function isAtRest({ left, right, dpad, triggers, held }) {
 /** What hands do on a Gamepad of the browser. names: {D, X: names of the buttons of that mode}. */
 export function handsOfGamepad({ mapping, axes, buttons }, names) {
   const pressed = buttons.map((button) => button.pressed);
-  const ros = axes.map((v) => -v); // there right and down are positive
-  // Without the standard mapping as the kernel numbers them: an F710 has 8 axes at X, 6 at D.
+  const ros = axes.map((v) => -v); // The browser's right and down are positive.
+  // Without the standard mapping the kernel's order applies: an F710 has 8 axes at X, 6 at D.
   const mode = ros.length >= 8 ? "X" : "D";
   const hands = mapping === "standard"
     ? handsOfStandard(ros, buttons, pressed)

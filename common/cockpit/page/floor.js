@@ -7,7 +7,7 @@ const BODY_RADIUS_M = 0.177; // TurtleBot 2
 const TRAIL_STEP_M = 0.02; // between two points of a trail
 const TRAIL_POINTS = 3000;
 const SCALE = { least: 4, start: 110, most: 1500 }; // [pixel/m]
-const GRID_PX = 45; // least distance of two lines of the grid
+const GRID_PX = 45; // least distance between two lines of the grid
 const BODY = "M1 0 A1 1 0 0 1 -1 0 A1 1 0 0 1 1 0"; // of a robot, with the radius 1
 const ARROW = "M.85 0 L-.44 .41 L-.2 0 L-.44 -.41"; // on it, ahead
 const [body, arrow] = [BODY, ARROW].map((path) => new Path2D(path));
@@ -21,10 +21,10 @@ export class Floor {
   #robots = {};
   #pointers = new Map();
   #due = false;
-  around = new Surroundings(); // what is new is drawn with the robots' next places
+  around = new Surroundings(); // Changes are drawn with the robots' next places.
   #free = { left: 0, top: 0, right: 0, bottom: 0 }; // the part of the canvas that nothing covers [pixel]
 
-  /** toolbar, glass: what covers the canvas from above, and maybe from below. Texts are between. */
+  /** toolbar, glass: they cover the canvas at the top, and maybe at the bottom. Names are between them. */
   constructor(canvas, toolbar, glass) {
     this.canvas = canvas;
     this.toolbar = toolbar;
@@ -46,7 +46,7 @@ export class Floor {
       const trail = this.#trails.get(name) ?? [];
       const [lastX, lastY] = trail.at(-1) ?? [Infinity, 0];
       const step = Math.hypot(x - lastX, y - lastY);
-      if (step > 1) trail.length = 0; // it was put somewhere else
+      if (step > 1) trail.length = 0; // It was moved elsewhere.
       if (step > TRAIL_STEP_M) trail.push([x, y]);
       if (trail.length > TRAIL_POINTS) trail.shift();
       this.#trails.set(name, trail);
@@ -55,7 +55,7 @@ export class Floor {
     this.#drawSoon();
   }
 
-  /** Its points stay where they are while the robot drives on. */
+  /** The scan's points stay in place while the robot drives on. */
   showScan(scan) {
     this.around.showScan(scan, this.#robots[scan.robot]);
   }
@@ -85,7 +85,7 @@ export class Floor {
     this.#drawSoon();
   }
 
-  /** Move and zoom until every robot and trail is seen. */
+  /** Move and zoom until every robot and trail is visible. */
   showAll() {
     const robots = Object.values(this.#robots).map(({ x, y }) => [x, y]);
     const points = [...[...this.#trails.values()].flat(), ...robots, ...this.around.corners()];
@@ -151,7 +151,7 @@ export class Floor {
       }
       this.#pointers.set(event.pointerId, now);
     };
-    canvas.onlostpointercapture = (event) => this.#pointers.delete(event.pointerId); // also of a lifted one
+    canvas.onlostpointercapture = (event) => this.#pointers.delete(event.pointerId); // also for a lifted pointer
     canvas.onkeydown = (event) => {
       if (event.key in PAN) this.pan(...PAN[event.key]);
       else if (event.key in ZOOM) this.zoom(ZOOM[event.key]);
@@ -190,7 +190,7 @@ export class Floor {
     this.around.draw(paper, this.look);
     for (const [name, trail] of this.#trails) this.#drawTrail(paper, name, trail);
     const robots = Object.entries(this.#robots).map(([name, robot]) => this.#drawRobot(paper, name, robot));
-    robots.sort((a, b) => Number(b.isChosen) - Number(a.isChosen)); // its name gets the best place
+    robots.sort((a, b) => Number(b.isChosen) - Number(a.isChosen)); // Its name gets the best place.
     drawNames(paper, robots, this.#free);
   }
 
@@ -200,7 +200,7 @@ export class Floor {
     const step = [1, 2, 5, 10, 20, 50].find((m) => m * this.#scale >= GRID_PX) ?? 100;
     const [west, north] = this.#toFloor([0, 0]);
     const [east, south] = this.#toFloor([width, height]);
-    // Whole numbers are counted: far away x + step equals x, and a loop over x would not end.
+    // The loop counts whole numbers: far away, x + step equals x, and a loop over x would not end.
     const multiples = (from, to) => {
       const first = Math.ceil(from / step);
       return Array.from({ length: Math.floor(to / step) - first + 1 }, (_, i) => (first + i) * step);
@@ -240,7 +240,7 @@ export class Floor {
     pen.translate(px, py);
     pen.rotate(-yaw);
     pen.scale(radius, radius);
-    pen.globalAlpha = age >= 1 ? 0.4 : 1; // no news
+    pen.globalAlpha = age >= 1 ? 0.4 : 1; // outdated
     pen.fillStyle = colour(isChosen ? "--accent" : "--muted");
     pen.fill(body);
     pen.fillStyle = colour("--floor");

@@ -1,4 +1,4 @@
-/** The F710 drawn as the gamepad that it is, its sticks and buttons as /joy has them. */
+/** A drawing of the F710, with its sticks and buttons as /joy has them. */
 
 import { handsOf, heldBy } from "./f710.js";
 

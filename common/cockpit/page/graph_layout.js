@@ -1,9 +1,9 @@
-/** Where nodes and topics are drawn: in layers from left to right, as arrows go (pure). */
+/** Where nodes and topics are drawn: in layers from left to right, in the direction of the arrows. */
 
 import { byName } from "./dom.js";
 
 const SIZE = { height: 34, letter: 7.2, padding: 24, between: 16, bend: 6, layers: 56, tip: 12, margin: 12 };
-const ROWS = 14; // of boxes in a column; a layer with more has several columns, about as wide as high
+const ROWS = 14; // of boxes in a column; a layer with more has several columns, and is about as wide as high
 const BEND = "bend "; // of a long arrow: a place in each column between, where no box may be
 
 /** Of edges: before, the items that lead to an item, by its name; after, those to which it leads. */
@@ -50,7 +50,7 @@ function split(layers) {
 
 /**
  * The items of an arrow from left to right, with a bend in each column that it passes. All arrows of a
- * node in one direction share these, as far as they go: else 2,000 topics would want as many rows.
+ * node in one direction share their bends, as otherwise 2,000 topics would need as many rows.
  */
 function wayOf({ from, to }, columnOf, columns, near) {
   const [left, right] = columnOf[from] < columnOf[to] ? [from, to] : [to, from];
@@ -65,19 +65,19 @@ function wayOf({ from, to }, columnOf, columns, near) {
   const connect = (item, other, isWanted) => {
     if (isWanted || !item.startsWith(BEND)) near.set(item, (near.get(item) ?? new Set()).add(other));
   };
-  way.slice(1).forEach((item, i) => { // a bend only follows its node, so that the line is straight
+  way.slice(1).forEach((item, i) => { // A bend only follows its node, so that the line is straight.
     connect(item, way[i], isAfter);
     connect(way[i], item, !isAfter);
   });
   return way;
 }
 
-/** Both ends of what an arrow passes, out to the sides of its column: there it bends behind no box. */
+/** Both ends of what an arrow passes, extended to the sides of its column, so that no box hides a bend. */
 function stops({ x, y, w, h }, [left, right]) {
   return [[left, y + h / 2], [x, y + h / 2], [x + w, y + h / 2], [right, y + h / 2]];
 }
 
-/** An SVG path along the stops of boxes, to the right or to the left. tip: room for the head. */
+/** An SVG path along the stops at boxes, to the right or to the left. tip: room for the arrowhead. */
 function curve(stopped, tip) {
   const points = stopped.slice(2, -2); // from the far side of the first box to the near side of the last
   points[points.length - 1] = [points.at(-1)[0] + tip, points.at(-1)[1]];
@@ -90,7 +90,7 @@ function curve(stopped, tip) {
   }, "");
 }
 
-/** Each item one layer after the last of those that lead to it; an arrow that closes a loop does not count. */
+/** An item is one layer after the last item that leads to it; an arrow that closes a loop is ignored. */
 function layers(items, edges) {
   const { before, after } = neighbours(edges);
   const seen = new Set();
@@ -118,7 +118,7 @@ function untangle(columns, near) {
   const mean = (item) => {
     const others = [...(near.get(item) ?? [])];
     const found = others.reduce((sum, other) => sum + place[other] / others.length, 0);
-    return item.startsWith(BEND) ? found + Math.sign(found) : found; // beyond what the line leads to
+    return item.startsWith(BEND) ? found + Math.sign(found) : found; // farther out than the item to which the line leads
   };
   columns.forEach(note);
   for (let turn = 0; turn < 6; turn += 1) {
@@ -130,7 +130,7 @@ function untangle(columns, near) {
   }
 }
 
-/** Boxes, and the left and right side of each column. */
+/** The boxes, and the left and right side of each column. */
 function place(columns) {
   const isBend = (item) => item.startsWith(BEND);
   const rowOf = (item) => (isBend(item) ? SIZE.bend : SIZE.height + SIZE.between);

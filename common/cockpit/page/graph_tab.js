@@ -3,9 +3,9 @@
 import { brief, byId, byName, element, say } from "./dom.js";
 import { layout, neighbours } from "./graph_layout.js";
 
-// Every node is connected to /rosout, which would hide the rest; as draw_graph has it.
+// Every node is connected to /rosout, which would hide the rest; draw_graph omits the same.
 const DEBUG = ["node /rosout", "topic /rosout", "topic /rosout_agg", "topic /statistics"];
-const READABLE = 0.7; // the scale to which the picture shrinks by itself; then it is scrolled
+const READABLE = 0.7; // The picture shrinks to this scale by itself; then it scrolls.
 const SVG = "http://www.w3.org/2000/svg";
 
 function svg(tag, attributes = {}, ...children) {
@@ -35,7 +35,7 @@ export class GraphTab {
 
   #chosen = null; // "node /a" or "topic /b"
   #drawn = "";
-  #scale = () => Math.min(1, Math.max(READABLE, this.#fits[0])); // until a person chooses another
+  #scale = () => Math.min(1, Math.max(READABLE, this.#fits[0])); // until a person chooses another scale
   #size = { width: 1, height: 1 }; // of the picture in its own units
   #graph = { nodes: [], topics: [], edges: [] };
 
@@ -73,7 +73,7 @@ export class GraphTab {
     }
   }
 
-  /** The scales in which the picture is as wide, and as high, as there is room. */
+  /** The scales at which the picture is as wide, and as high, as the space for it. */
   get #fits() {
     return [this.picture.clientWidth / this.#size.width, this.picture.clientHeight / this.#size.height];
   }
@@ -83,7 +83,7 @@ export class GraphTab {
     this.#resize(() => scale);
   }
 
-  /** Scale the picture; what is in the middle stays there. */
+  /** Scale the picture around its visible middle. */
   #resize(scale = this.#scale) {
     this.#scale = scale;
     const drawn = this.picture.querySelector("svg");
@@ -107,7 +107,7 @@ export class GraphTab {
     return found;
   }
 
-  /** Show the first that is found, or choose the next one. */
+  /** Show the first match, or choose the next one. */
   #find(next) {
     const found = this.#search();
     if (!found.length) return;
@@ -119,7 +119,7 @@ export class GraphTab {
   }
 
   #draw(graph) {
-    if (byId("graph").hidden) return; // the tab Topics has asked for it
+    if (byId("graph").hidden) return; // The tab Topics has asked for it.
     const items = this.#items(graph);
     const wanted = JSON.stringify([items, graph.edges]);
     if (wanted === this.#drawn) return;
@@ -144,7 +144,7 @@ export class GraphTab {
     if (focused) this.picture.querySelector(`[data-item="${CSS.escape(focused)}"]`)?.focus();
   }
 
-  /** What is drawn: all, or all but /rosout and topics without a publisher. */
+  /** What is drawn: everything, or everything except /rosout and topics without a publisher. */
   #items({ nodes, topics, edges }) {
     const items = [...nodes.map(({ name }) => `node ${name}`), ...topics.map(({ name }) => `topic ${name}`)];
     if (byId("graph-all").checked) return items;

@@ -13,27 +13,27 @@ const TYPED_INTO = "input:not([type=checkbox]), select, textarea";
 export class Keys {
   #down = new Set();
 
-  /** isOurs(): whether keys drive now. onChange(): after each change. */
+  /** isOurs(): whether keys drive now. onChange(): called after a change. */
   constructor(isOurs, onChange) {
     const drop = (codes) => {
       const dropped = codes.filter((code) => this.#down.delete(code));
       if (dropped.length) onChange();
     };
-    // A menu or another program may have taken a key's release, but each event has the state of
-    // Shift. While Cmd of a Mac is down, no release is reported.
+    // A menu or another program may have taken a key's release, but every event has the state of
+    // Shift. While Cmd is down on a Mac, no release is reported.
     for (const kind of HAVE_SHIFT) {
       addEventListener(kind, (/** @type {KeyboardEvent} */ event) => {
         if (event.metaKey) drop([...this.#down]);
         else if (event.shiftKey === false) drop(SHIFTS);
       }, { capture: true, passive: true });
     }
-    // Captured, so that arrows do not choose tabs while they drive.
+    // Captured, so that arrows do not choose tabs while driving.
     addEventListener("keydown", (/** @type {any} */ event) => {
       const isKnown = event.code in STICK || SHIFTS.includes(event.code);
       if (!isKnown || !isOurs() || event.target.matches?.(TYPED_INTO)) return;
       event.preventDefault();
       event.stopPropagation();
-      // A key that was down before the page came back only repeats: it must be pressed again.
+      // A key that was down before the page returned only repeats, and must be pressed again.
       if (event.repeat || event.ctrlKey || event.altKey || event.metaKey) return;
       this.#down.add(event.code);
       onChange();

@@ -2,9 +2,9 @@
 
 import { appendBelow, byId, offer, row, say } from "./dom.js";
 
-const LEVELS = ["DEBUG", "INFO", "WARN", "ERROR", "FATAL"]; // a line of another level is always shown
+const LEVELS = ["DEBUG", "INFO", "WARN", "ERROR", "FATAL"]; // A line of another level is always shown.
 const OPTIONS = LEVELS.map((level) => `<option>${level}</option>`).join("");
-const MOST = 1000; // lines that are kept, as many as by the server
+const MOST = 1000; // lines that are kept, as many as the server keeps
 const NOTHING = `No line yet. What nodes log with rospy.loginfo() and the like comes here, and of each node the last line
  before the cockpit was started. What is printed stays in its terminal; older lines are in ~/.ros/log.`;
 
@@ -38,7 +38,7 @@ export class LogTab {
     this.watch = watch;
     this.link = link;
     this.lines = byId("log-lines");
-    link.on("hello", () => this.#show([])); // the server of a new connection sends its last lines
+    link.on("hello", () => this.#show([])); // After a new connection the server sends its last lines.
     link.on("log", ({ entries }) => this.#append(entries.map(lineOf)));
     byId("log-level").value = "INFO";
     link.on("graph", ({ services }) => {
@@ -52,7 +52,7 @@ export class LogTab {
     byId("log-level").onchange = byId("log-filter").oninput = () => this.#show([...this.lines.rows]);
   }
 
-  /** Lines stay while another tab is shown: the server then sends those that came meanwhile. */
+  /** Lines stay while another tab is shown; afterwards the server sends those that are missing. */
   show(on) {
     this.watch({ log: on, graph: on });
     if (on) this.#ask();
@@ -72,7 +72,7 @@ export class LogTab {
     const found = [...text.matchAll(/name: "(.*)"\s+level: "(.*)"/g)];
     this.#levels = Object.fromEntries(found.map(([, name, level]) => [name, level.toUpperCase()]));
     offer(byId("log-logger"), Object.keys(this.#levels).map((name) => [name]));
-    if (this.#levels.rosout) byId("log-logger").value = "rosout"; // that of rospy.loginfo() and the like
+    if (this.#levels.rosout) byId("log-logger").value = "rosout"; // the logger of rospy.loginfo() and the like
     this.#showLogger();
   }
 
@@ -86,7 +86,7 @@ export class LogTab {
     this.#levels[logger] = byId("log-logs").value;
   }
 
-  /** Show these lines alone. */
+  /** Show these lines only. */
   #show(lines) {
     this.lines.replaceChildren();
     this.#append(lines);
@@ -104,6 +104,6 @@ export class LogTab {
     const seen = this.lines.querySelectorAll("tr:not([hidden])").length;
     say(byId("log-count"), `${seen} of ${all}`);
     byId("log-empty").hidden = seen > 0;
-    say(byId("log-empty"), all ? `None of ${all} lines passes the filter and the level.` : NOTHING);
+    say(byId("log-empty"), all ? `None of ${all} lines matches the filter and the level.` : NOTHING);
   }
 }

@@ -12,10 +12,10 @@ import { makeTabs } from "./tabs.js";
 import { TopicsTab } from "./topics_tab.js";
 
 /**
- * A tab has a title, a panel (its HTML), watches (what the server is asked to send at first), and may
- * have show(on), called when it is chosen or left, connect(), when the connection is open or lost, and a place of its
- * own in the address: place, a text that begins with / or ?, and go(path, query), which shows what an address has.
- * The robots' places are always watched: they show that the server is there.
+ * A tab has a title, a panel (its HTML) and watches (what the server is asked to send at first). It may have show(on),
+ * called when it is chosen or left; connect(), called when the connection opens or is lost; and its own part of the
+ * address: place, a text that begins with / or ?, and go(path, query), which shows what an address names.
+ * The robots' places are always watched, as they show that the server runs.
  */
 const TABS = [RobotTab, GraphTab, TopicsTab, BagTab, PlotTab, LogTab, DoctorTab];
 const NOTICE_MS = 8000;
@@ -27,7 +27,7 @@ const GONE = `The cockpit has exited, it waits for a ROS master (start roscore),
 
 const watched = Object.assign({}, ...TABS.map((Tab) => Tab.watches));
 let noticeEnd = null;
-let refusal = ""; // the newest one's line
+let refusal = ""; // the line of the newest one
 
 const link = new Link((state) => {
   byId("connection").dataset.state = state;
@@ -45,7 +45,7 @@ function watch(fields) {
   if (JSON.stringify(watched) !== before) link.send("watch", watched);
 }
 
-/** Show a line for a while [ms] or without end (Infinity), or none (""). */
+/** Show a line for a time [ms] or for good (Infinity), or none (""). */
 function notice(text, duration = NOTICE_MS) {
   say(byId("notice"), text);
   clearTimeout(noticeEnd);
@@ -64,11 +64,11 @@ for (const Tab of TABS) {
   tabs[id] = new Tab(link, watch, page);
 }
 link.on("refused", ({ what, why }) => {
-  if (what === "input") return; // the loss of the session has a message of its own
+  if (what === "input") return; // The loss of the session has its own message.
   refusal = `Not possible: ${why}.`;
   notice(refusal);
 });
-link.on("sent", (kind) => { // what is refused again is shown again
+link.on("sent", (kind) => { // A second refusal is shown again.
   if (!BY_ITSELF.includes(kind) && byId("notice").textContent === refusal) notice("");
 });
 page.moved = makeTabs(tablist, {

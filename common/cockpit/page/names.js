@@ -1,8 +1,8 @@
-/** The robots' names on the floor, each where nothing covers it. */
+/** The robots' names on the floor, where nothing covers them. */
 
 const HEIGHT = 16, GAP = 4; // of a name, and from its robot [pixel]
 const SIDES = [[1, 0], [0, 1], [0, -1], [-1, 0], [1, 1], [1, -1], [-1, 1], [-1, -1]];
-// In 14 rings around the robot; from the second on a line leads to the name.
+// In 14 rings around the robot; a line leads to a name in the second ring or beyond.
 const NARROW = 600; // Below this width [pixel] only the chosen robot's name has a line that leads to it.
 const PLACES = Array.from({ length: 14 }, (_, ring) => SIDES.map(([dx, dy]) => ({ ring, dx, dy }))).flat();
 
@@ -12,7 +12,7 @@ const around = (x, y, w, h) => ({ left: x - w, right: x + w, top: y - h, bottom:
 /**
  * robots: [{name, x, y, radius, width}], width: of the name; free: {left, top, right, bottom} of the
  * part of the picture that nothing covers. All in pixels.
- * Returns [{name, x, y, ring}]: the middle of each name. One that fits nowhere is at its robot's right.
+ * Returns [{name, x, y, ring}]: the middle of each name. A name that fits nowhere is right of its robot.
  */
 export function placeNames(robots, free) {
   const boxes = robots.map(({ x, y, radius }) => around(x, y, radius, radius));
@@ -49,7 +49,7 @@ export function drawNames({ pen, colour }, robots, free) {
     if (ring && isSeen) pen.lineTo(x, y);
   }
   pen.stroke();
-  // With an edge: walls and trails may be below.
+  // With an edge, as walls and trails may be below.
   Object.assign(pen, { strokeStyle: colour("--floor"), lineWidth: 4, fillStyle: colour("--text") });
   places.forEach(({ name, x, y, isSeen }, i) => {
     if (!isSeen) return;

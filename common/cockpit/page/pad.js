@@ -4,7 +4,7 @@ import { handsOfGamepad, isAtRest, REST } from "./f710.js";
 
 export class Pad {
   #index = null; // of the gamepad in use
-  #wasAtRest = false; // since it was plugged in; a stick that is held then moves nothing
+  #wasAtRest = false; // since it was plugged in; until then a held stick moves nothing
 
   /** onLost(why): the gamepad was unplugged. */
   constructor(onLost) {

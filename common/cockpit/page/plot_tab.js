@@ -1,16 +1,16 @@
-/** The tab Plot: any numeric field of any topic over time or against another one; and whole arrays. */
+/** The tab Plot: any numeric field of any topic over time or against another field, and whole arrays. */
 
 import { Chart } from "./chart.js";
 import { byId, element, offer, save, say } from "./dom.js";
 import { rowsAgainst, rowsOfArrays, Track, written } from "./samples.js";
 
-const MOST = 20; // fields at a time, as the server has it
-const LISTED = 200; // of the fields that are found
-const FIRST = 20; // of a chosen array's entries, which are offered before a search
+const MOST = 20; // fields at a time, as in the server
+const LISTED = 200; // of the matching fields
+const FIRST = 20; // entries of a chosen array that are offered without a search
 const MOST_ROWS = 4000; // against another field
-const KEEP_S = 600; // the longest window; of a fast topic less, see MOST of samples.js
+const KEEP_S = 600; // the longest window; shorter for a fast topic, see MOST in samples.js
 const DRAW_MS = 100;
-const SET_BACK_S = 1; // by so much and more
+const SET_BACK_S = 1; // by this much or more
 
 /** The index of the first of [[t, value], ...] since time was set back, as by a bag that loops, or -1. */
 function setBack(points, last) {
@@ -38,7 +38,7 @@ export class PlotTab {
       <button id="plot-png">Save PNG</button>
     </div>
     <div class="card chart"><div id="plot-chart" data-empty="Choose fields from the list."></div></div>
-    <p class="hint">Drag, or turn the wheel, to zoom, with Shift to pan; Whole range ends it. <output id="plot-at"></output></p>
+    <p class="hint">Drag or turn the wheel to zoom; hold Shift to pan; Whole range undoes it. <output id="plot-at"></output></p>
     <p class="row" id="plot-missing" role="status"></p>
     <div class="legend" id="plot-values" role="group" aria-label="Values"></div>
   </div>
@@ -50,7 +50,7 @@ export class PlotTab {
   static watches = { fields: [], field_list: false };
 
   #samples = {}; // field -> Track, times since #zero
-  #other = null; // another axis across than time, as the chart has it
+  #other = null; // the horizontal axis if it is not time, as the chart has it
   #zero = null; // time of the first sample [s]
   #all = [];
   #fresh = false;
@@ -61,7 +61,7 @@ export class PlotTab {
     this.page = page;
     this.chart = new Chart(byId("plot-chart"), () => this.#showValues(this.chart.points));
     link.on("fields", ({ fields }) => {
-      if (fields.join() === this.#all.join()) return; // a list in use is left alone
+      if (fields.join() === this.#all.join()) return; // The list is not rebuilt while it is in use.
       this.#all = fields;
       this.#list();
     });
@@ -93,7 +93,7 @@ export class PlotTab {
   }
 
   go(_path, query) {
-    const fields = query.getAll("f").filter((field) => /^[!-~]{1,200}$/.test(field)); // as the server takes it
+    const fields = query.getAll("f").filter((field) => /^[!-~]{1,200}$/.test(field)); // as the server accepts it
     const tracks = fields.slice(0, MOST).map((field) => [field, this.#samples[field] ?? new Track()]);
     this.#samples = Object.fromEntries(tracks);
     const last = Math.min(KEEP_S, Math.max(1, Math.round(Number(query.get("last")) || 30)));
@@ -117,7 +117,7 @@ export class PlotTab {
     }
     const wanted = known.filter((one) => !isArray(one));
     const begins = wanted.map(([field, points]) => setBack(points, this.#samples[field].newest + this.#zero));
-    if (begins.some((i) => i >= 0)) this.#clear(); // all earlier samples are of another time
+    if (begins.some((i) => i >= 0)) this.#clear(); // All earlier samples belong to another time.
     for (const [field, points] of wanted) {
       const track = this.#samples[field];
       for (const [t, value] of points.slice(Math.max(0, begins.shift()))) {
@@ -142,7 +142,7 @@ export class PlotTab {
     this.#showValues(this.#other ? this.chart.points : []);
   }
 
-  /** The axis across and its rows where that is not time. */
+  /** The horizontal axis and its rows if it is not time. */
   #across(from) {
     const all = Object.values(this.#samples);
     if (all.some(({ entries }) => entries?.length)) return { label: "index", rows: rowsOfArrays(all) };
@@ -153,7 +153,7 @@ export class PlotTab {
     return { label, rows, isEqual: byId("plot-equal").checked };
   }
 
-  /** Two coordinates of one thing have one unit: then a circle is drawn as a circle. */
+  /** Two coordinates of one thing have one unit, so a circle is drawn as a circle. */
   #against() {
     const label = byId("plot-x").value;
     const others = this.fields.filter((field) => field !== label);
@@ -162,7 +162,7 @@ export class PlotTab {
     byId("plot-equal").parentElement.hidden = !label;
   }
 
-  /** The values at the mouse, where a point is drawn that of the point; or the newest. */
+  /** The values at the mouse (those of a point if one is drawn there), or the newest. */
   #showValues(points) {
     const { pointed } = this.chart;
     const t = pointed ?? this.#newest;
@@ -220,7 +220,7 @@ export class PlotTab {
     this.page.moved();
   }
 
-  /** Show the last seconds, however the chart was zoomed. */
+  /** Show the last seconds, whatever the zoom was. */
   #showLast(seconds) {
     byId("plot-window").value = seconds;
     if (!byId("plot-window").value) byId("plot-window").append(new Option(`${seconds} s`, seconds, true, true));
@@ -243,7 +243,7 @@ export class PlotTab {
     this.#fresh = true;
   }
 
-  /** A row for each sample; the browser keeps each field outside of the page's own memory. */
+  /** A row for each sample; the browser keeps the fields outside the page's own memory. */
   #saveCsv() {
     const fields = Object.entries(this.#samples).map(([field, { times, values }]) =>
       new Blob(times.map((t, i) => `${t + this.#zero},${field},${values[i]}\n`)));

@@ -1,13 +1,13 @@
-/** What the form of the tab Topics publishes, and the signs of life that the server asks for meanwhile. */
+/** What the form of the tab Topics publishes, and the signs of life that the server requires meanwhile. */
 
-const SIGN_MS = 50; // between two signs, while this page publishes again and again, or drives by its form
+const SIGN_MS = 50; // between two signs, while this page publishes repeatedly or drives by its form
 
 export class Publishing {
   #timer = 0; // of signs of life, or 0
   #moves = false; // whether this page drives by its form, as the server says
   #n = 0; // of the newest sign
   #beat = 0; // the newest of the server
-  repeats = false; // whether a message is published again and again
+  repeats = false; // whether a message is published repeatedly
 
   /** onRest(): called when publishing has ended. */
   constructor(link, onRest) {
@@ -19,7 +19,7 @@ export class Publishing {
     document.addEventListener("visibilitychange", () => this.rest());
   }
 
-  /** fields: those of the message "publish"; with a period [s] again and again. Returns whether it was sent. */
+  /** fields: of the message "publish"; with a period [s] it repeats. Returns whether it was sent. */
   begin(fields) {
     const isSent = this.link.send("publish", fields);
     if (isSent && fields.period) {

@@ -79,8 +79,8 @@ export class RobotTab {
 
   #names = []; // of the robots
   #look = null; // the name of the chosen robot, once there is one
-  asked = null; // the robot that a person has chosen, or the address
-  #rows = new Map(); // name -> its row in the table of all; rows stay, as a click takes its time
+  asked = null; // the robot that a person or the address has chosen
+  #rows = new Map(); // name -> its row in the table; rows stay, as a click takes time
   #onFloor = ""; // the names of the robots with a place, as JSON
 
   /** link: the Link. watch(fields): what to ask the server for. page: see main.js. */
@@ -97,14 +97,14 @@ export class RobotTab {
     link.on("robots", ({ robots }) => this.#showRobots(robots));
     link.on("speed", (speed) => this.session.showSpeed(speed)); // while another tab is shown
     link.on("map", (map) => {
-      if (!this.floor.around.showMap(map)) return; // the view stays as it was chosen
+      if (!this.floor.around.showMap(map)) return; // The view stays as it was chosen.
       this.floor.showAll();
       if (this.#names.length < 2) this.floor.setFollow(true);
     });
     link.on("scan", (scan) => this.floor.showScan(scan));
     link.on("turtles", ({ pictures }) => this.#showTurtles(pictures));
     link.on("pad", (pad) => this.#showPad(pad));
-    link.on("drives", () => this.#showTeleop()); // after the session has taken it
+    link.on("drives", () => this.#showTeleop()); // after the session has processed it
     byId("zoom-in").onclick = () => this.floor.zoom(1.25);
     byId("zoom-out").onclick = () => this.floor.zoom(0.8);
     byId("show-all").onclick = () => this.floor.showAll();
@@ -134,7 +134,7 @@ export class RobotTab {
     else this.#offerRobots();
   }
 
-  /** A chosen robot stays chosen: one that has gone may come back. */
+  /** A chosen robot stays chosen, as it may return after it has exited. */
   #offerRobots() {
     const choices = this.#names.map((name) => [name, name || "TurtleBot"]);
     const isGone = this.#look !== null && !this.#names.includes(this.#look);
@@ -148,7 +148,7 @@ export class RobotTab {
     this.page.moved(true);
   }
 
-  /** Look at the robot that a person has chosen, or the address names. A driver sees the driven robot. */
+  /** Show the robot that a person or the address has chosen. A driver sees the driven robot. */
   goTo(name) {
     if (name === null || name === this.#look || this.session.yours || !/^[\w/]{0,200}$/.test(name)) return;
     this.asked = name;
@@ -212,7 +212,7 @@ export class RobotTab {
     }
   }
 
-  /** pictures: {node of a turtlesim: PNG in base64, or "" for the one that is shown}. */
+  /** pictures: {node of a turtlesim: PNG in base64, or "" if it is the one that is shown}. */
   #showTurtles(pictures) {
     const shown = new Map([...byId("turtles").children].map((one) => [one.dataset.node, one]));
     const figures = Object.entries(pictures).map(([node, png]) => {

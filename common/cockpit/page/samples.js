@@ -1,9 +1,9 @@
-/** Samples of numbers over time, without a page: kept, thinned for a chart, and in words. */
+/** Samples of numbers over time: kept, thinned for a chart, and as text. */
 
 export const MOST = 120000; // samples of a field: ten minutes at 200 Hz
-const DENSE = 4; // samples in a column of the chart, from which on only its extremes are drawn
+const DENSE = 4; // With this many samples a column of the chart shows its extremes only.
 
-/** The index of the first of these times, which rise, that is not before t. */
+/** The index of the first of these ascending times that is not before t. */
 export function firstAt(times, t) {
   let [low, high] = [0, times.length];
   while (low < high) {
@@ -18,7 +18,7 @@ export function firstAt(times, t) {
 export class Track {
   times = []; // [s]
   values = [];
-  entries = null; // the newest, of a field that is a whole array
+  entries = null; // the newest values of a whole array
 
   /** points: [[t, value], ...]. */
   constructor(points = []) {
@@ -34,7 +34,7 @@ export class Track {
     this.values.push(value);
   }
 
-  /** Forget what is before a time, and beyond MOST; many at once, as the others are moved. */
+  /** Forget samples before a time and beyond MOST; many at once, as the others have to be moved. */
   forget(oldest) {
     const first = Math.max(firstAt(this.times, oldest), this.times.length - MOST);
     if (first < 1000 && first < this.times.length) return;
@@ -74,9 +74,9 @@ function joined(tracks, spans) {
   return [...rows.values()].sort((a, b) => a[0] - b[0]);
 }
 
-/** width: of a column [s]; columns begin at its multiples, so that the curve moves and does not flicker. */
+/** width: of a column [s]; columns begin at its multiples, so that the curve moves without flickering. */
 function thinned(tracks, spans, width) {
-  const columns = new Map(); // number -> its two rows: what came first of the extremes, and second
+  const columns = new Map(); // number -> its two rows: the earlier and the later extreme
   const empty = tracks.map(() => null);
   tracks.forEach(({ times, values }, track) => {
     const [i, end] = [track + 1, Math.min(spans[track][1], times.length)];
@@ -110,7 +110,7 @@ export function rowsOfArrays(tracks) {
     [i, ...tracks.map(({ entries }, track) => (entries ? entries[i] ?? null : levels[track]))]);
 }
 
-/** A number as a person reads it: at most six digits, but seconds since 1970 with their thousandths. */
+/** A number for a person: at most six digits, except seconds since 1970, with thousandths. */
 export function written(value) {
   const size = Math.abs(value);
   return String(Number(size >= 1e5 && size < 1e15 ? value.toFixed(3) : value.toPrecision(6)));

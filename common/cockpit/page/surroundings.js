@@ -1,4 +1,4 @@
-/** What is around the robots: the map, what one robot's laser sees, pressed bumpers. */
+/** What is around the robots: the map, the scan of one robot, pressed bumpers. */
 
 const KINDS = [[1, "--wall"], [2, "--void"]]; // of the map's cells; 0 is free
 
@@ -8,29 +8,29 @@ export class Surroundings {
   #scan = { name: null, points: [] }; // [m], of that robot
   #covered = ""; // the corners of the newest map
 
-  /** map: without cells there is none. Returns whether it covers another part of the floor than the one before. */
+  /** map: without cells there is none. Returns whether it covers another part of the floor than before. */
   showMap(map) {
     this.#map = map.cells ? { ...map, bytes: Uint8Array.from(atob(map.cells), (c) => c.charCodeAt(0)) } : null;
-    this.#scan.name = null; // of another world, or a server that has ended
+    this.#scan.name = null; // It is of another world, or of a server that has exited.
     this.#pictures.clear();
     const [before, corners] = [this.#covered, this.corners().join()];
     this.#covered = corners || before;
     return this.#covered !== before;
   }
 
-  /** place: of the robot now; without one nothing is drawn. */
+  /** place: of the robot now; without it nothing is drawn. */
   showScan({ robot: name, points }, place = { x: NaN }) {
     const [c, s] = [Math.cos(place.yaw), Math.sin(place.yaw)];
     const onFloor = ([x, y]) => [place.x + c * x - s * y, place.y + s * x + c * y];
     this.#scan = { name, points: points.map(onFloor) };
   }
 
-  /** A robot with its place in the map, if there is one, in place of that of its odometry. */
+  /** A robot with its place in the map, if known, instead of that of its odometry. */
   placed(robot) {
     return this.#map ? { ...robot, ...robot.truth } : robot;
   }
 
-  /** The corners of the map [m], counterclockwise from its origin on; or none. */
+  /** The corners of the map [m], counterclockwise from its origin, or none. */
   corners() {
     if (!this.#map) return [];
     const { x, y, yaw, cell, rows, columns } = this.#map;
@@ -60,7 +60,7 @@ export class Surroundings {
     pen.restore();
   }
 
-  /** The highest row is on top; free cells are transparent, so that the grid is seen. */
+  /** The highest row is on top; free cells are transparent, so that the grid is visible. */
   #picture(colour) {
     const styles = KINDS.map(([, name]) => colour(name)).join();
     if (!this.#pictures.has(styles)) {

@@ -1,14 +1,14 @@
 /**
- * Tabs as https://www.w3.org/WAI/ARIA/apg/patterns/tabs/ has them, and the address of what they show:
- * ?robot=robot_7#topics/odom, #plot?f=/odom/pose/pose/position/x&last=30. A reload keeps it, Back goes back.
+ * Tabs as in https://www.w3.org/WAI/ARIA/apg/patterns/tabs/, and the address of what they show:
+ * ?robot=robot_7#topics/odom, #plot?f=/odom/pose/pose/position/x&last=30. A reload keeps it, and Back works.
  */
 
 const nameOf = (tab) => tab.getAttribute("aria-controls");
 
 /**
- * onChoose(name) is called with the name of the view that is shown: "robot", "graph" ...; go(name, path, query)
- * before it with what an address asks for; placeOf(name) is what follows the name there; robot() that of ?robot=.
- * Returns moved(back): write the address, as what is shown has changed; back: Back returns to what was before.
+ * onChoose(name) is called with the name of the view that is shown: "robot", "graph" ...; before it go(name, path,
+ * query) with what an address names. placeOf(name) returns what follows the name there; robot() the value of ?robot=.
+ * Returns moved(back), which writes the address after a change; back: whether Back returns to the view before.
  */
 export function makeTabs(tablist, { onChoose, go, placeOf, robot }) {
   const tabs = [...tablist.querySelectorAll("[role=tab]")];
@@ -56,7 +56,7 @@ export function makeTabs(tablist, { onChoose, go, placeOf, robot }) {
     handled = location.href;
     choose(tab, false);
   };
-  addEventListener("popstate", chooseByAddress); // also of what is typed in the address bar
+  addEventListener("popstate", chooseByAddress); // also for an address that is typed
   chooseByAddress();
   return moved;
 }

@@ -1,5 +1,5 @@
 /**
- * The tab Topics: how often messages come, the newest of one, and forms that publish one, once or again and again,
+ * The tab Topics: the rates of topics, the newest messages of one, and forms that publish a message once or repeatedly,
  * call a service, or set a parameter.
  */
 
@@ -7,12 +7,12 @@ import { appendBelow, brief, byId, byName, element, offer, row, say } from "./do
 import { neighbours } from "./graph_layout.js";
 import { Publishing } from "./publishing.js";
 
-const LISTED = 100; // of the names that are found
-const MOST_RATES = 40, LONGEST_RATES = 3000; // topics, and characters of their names, as the server takes them
-const LOOK_MS = 500; // between two looks at which topics are in sight
+const LISTED = 100; // of the matching names
+const MOST_RATES = 40, LONGEST_RATES = 3000; // topics, and characters of their names, as the server accepts them
+const LOOK_MS = 500; // between two checks of which topics are in sight
 const ECHOED = 100; // messages that are kept
 const SIGN_OF_COPY_MS = 2000;
-const LONGEST_VALUE = 2000; // characters of a field, as the server takes it
+const LONGEST_VALUE = 2000; // characters of a field, as the server accepts it
 const FORMS = { // of each kind: what the server is asked to describe, and what the form does
   topics: { what: "message", title: "Publish a message", act: "Publish" },
   services: { what: "service", title: "Call this service", act: "Call" },
@@ -100,7 +100,7 @@ export class TopicsTab {
     byId("topics-pause").onclick = () => this.#pause(!this.#paused);
     byId("topics-copy").onclick = () => {
       getSelection().selectAllChildren(byId("topics-echo"));
-      const isDone = document.execCommand("copy"); // navigator.clipboard is not there over http from elsewhere
+      const isDone = document.execCommand("copy"); // navigator.clipboard is missing over http from another machine
       say(byId("topics-copy"), isDone ? "Copied" : "Not copied");
       setTimeout(() => say(byId("topics-copy"), "Copy"), SIGN_OF_COPY_MS);
     };
@@ -114,7 +114,7 @@ export class TopicsTab {
 
   go(path, query) {
     byId("topics-kind").value = query.get("kind") in FORMS ? query.get("kind") : "topics";
-    this.#choose(/^\/[\w/]{1,199}$/.test(path) ? path : null); // as the server takes it
+    this.#choose(/^\/[\w/]{1,199}$/.test(path) ? path : null); // as the server accepts it
   }
 
   show(on) {
@@ -139,7 +139,7 @@ export class TopicsTab {
     return this.#kind === "topics";
   }
 
-  /** The topics whose rows are seen. */
+  /** The topics whose rows are visible. */
   get #inSight() {
     if (!byId("topics-measure").checked || !this.#isTopics) return [];
     const { top, bottom } = byId("topics-scroll").getBoundingClientRect();
@@ -177,7 +177,7 @@ export class TopicsTab {
     this.#describe();
   }
 
-  /** What is known of the chosen topic, also once it is there. */
+  /** What is known about the chosen topic, updated once it exists. */
   #showTopic(before, after) {
     const names = (nodes) => nodes[`topic ${this.#chosen}`]?.map((node) => brief(node.slice(5))).join(", ") ?? "none";
     this.#type = this.#graph.topics.find(({ name }) => name === this.#chosen)?.type ?? "";
@@ -185,7 +185,7 @@ export class TopicsTab {
       + ` Subscribers: ${names(after)}.`);
   }
 
-  /** Ask for the values of all parameters, when these are others than before. */
+  /** Ask for the values of all parameters, if their names have changed. */
   #askForValues() {
     const named = this.#graph.parameters.join();
     if (named !== this.#named && this.link.send("describe", { what: "values", name: "" })) this.#named = named;
@@ -272,7 +272,7 @@ export class TopicsTab {
     }
   }
 
-  /** Another tab or name: what is published again and again ends, and a motion goes on, as Stop is above all tabs. */
+  /** For another tab or name: stop repeating a message; a motion continues, as Stop is above all tabs. */
   #leave() {
     if (this.publishing.repeats) this.publishing.rest();
   }

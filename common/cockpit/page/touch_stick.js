@@ -1,4 +1,4 @@
-/** Two thumbs on glass: one holds LB, the other moves the stick. A mouse may do either. */
+/** Two thumbs on glass: one holds LB, the other moves the stick. A mouse can do either. */
 
 import { REST } from "./f710.js";
 
@@ -21,7 +21,7 @@ export class TouchStick {
     return { ...REST, left: this.#left, held: held.map((button) => button.dataset.button) };
   }
 
-  /** Let go of everything. */
+  /** Release everything. */
   clear() {
     this.#pointers.clear();
     this.#left = [0, 0];

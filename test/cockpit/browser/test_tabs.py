@@ -187,7 +187,7 @@ def test_log_shows_what_nodes_log_by_level_and_filter_and_sets_a_logger(world, p
     assert "/probe" in page.one("#log-lines").text
     page.one("#log-level").send_keys("ERROR")
     wait_for(lambda: page.one("#log-lines").text == "", "nothing that is an error")
-    page.wait_for_text("#log-empty", "passes the filter")
+    page.wait_for_text("#log-empty", "matches the filter")
     wait_for(lambda: "/observer" in page.text("#log-node"), "nodes")
     page.one("#log-node").send_keys("/observer")
     page.wait_for_text("#log-logger", "rosout")
