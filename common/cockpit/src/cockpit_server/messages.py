@@ -21,15 +21,11 @@ Handler = Callable[[ReceivedMessage], None]
 
 
 class Subscriptions(Protocol):
-    """The topics that the cockpit is subscribed to."""
+    """The topics that the cockpit is subscribed to: see ros/feeds.py."""
 
     def set_subscriptions(
         self, owner: Hashable, handlers: Mapping[str, Handler], every: bool
-    ) -> None:
-        """Subscribe an owner to the topics of {topic: handler}, and to no others.
-
-        every: whether it needs every message, or only the newest, at intervals.
-        """
+    ) -> None: ...
 
 
 def decoded(kind: Any, data: bytes, longest: float = float("inf"), as_arrays: bool = False) -> Any:

@@ -19,19 +19,12 @@ RIVAL_S = 1.0  # A joystick that published within this time takes precedence ove
 
 
 class JoystickTopics(Protocol):
-    """The topics joy of all robots."""
+    """The topics joy of all robots: see ros/joysticks.py."""
 
-    def advertise(self, robot: str | None) -> None:
-        """Advertise the topic of this robot and of no other."""
-
-    def send(self, robot: str, axes: Axes, buttons: Buttons) -> None:
-        """Publish a message for the robot that is advertised."""
-
-    def is_connected(self, robot: str) -> bool:
-        """Return whether all subscribers of the advertised robot's joystick are connected."""
-
-    def rival(self, robot: str, since: float) -> str:
-        """Return the other node that has published for a robot since a time [s], or ""."""
+    def advertise(self, robot: str | None) -> None: ...
+    def send(self, robot: str, axes: Axes, buttons: Buttons) -> None: ...
+    def is_connected(self, robot: str) -> bool: ...
+    def rival(self, robot: str, since: float) -> str: ...
 
 
 class Driving(TabSource):

@@ -127,7 +127,7 @@ def main() -> int:
 
 def restart(access: Access) -> NoReturn:
     """Replace this process, with the same tokens, as rospy cannot change its master."""
-    report("the ROS master has gone")
+    report("the ROS master has exited")
     if access.driver_token:
         os.environ[TOKENS] = f"{access.driver_token} {access.viewer_token}"
     os.execv(sys.executable, [sys.executable, *sys.argv])

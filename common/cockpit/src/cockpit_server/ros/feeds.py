@@ -67,7 +67,11 @@ class Feeds:
     def set_subscriptions(
         self, owner: Hashable, handlers: Mapping[str, Handler], every: bool
     ) -> None:
-        """See Subscriptions. The handlers of a topic are called by one thread at a time."""
+        """Subscribe an owner to the topics of {topic: handler}, and to no others.
+
+        The handlers of a topic are called by one thread at a time, with every message or only with
+        the newest, at intervals.
+        """
         if self._wants.get(owner) == (handlers, every):
             return
         self._wants[owner] = (handlers, every)

@@ -59,7 +59,7 @@ def field_value(name: str, slot_type: str, text: str) -> Any:
         return json.loads(text)
     except (ValueError, RecursionError):
         is_number = re.fullmatch(r"(u?int|float)\d+|byte|char", slot_type)
-        wanted = "a number" if is_number else "as 0.5, true or [1, 2]"
+        wanted = "a number" if is_number else "JSON, as 0.5, true or [1, 2]"
         raise ValueError(f"{name}: {slot_type} must be {wanted}") from None
 
 
@@ -69,11 +69,6 @@ def parameter_value(text: str) -> Any:
         return json.loads(text)
     except ValueError:
         return text
-
-
-def parameter_form(name: str, value: Any) -> dict[str, Any]:
-    written = json.dumps(value, default=str)[:LONGEST_ANSWER]
-    return form(name, [written], [("value", "JSON, or a text")])
 
 
 def parameter_values(tree: Any) -> dict[str, Any]:

@@ -35,9 +35,8 @@ class Publishers(Protocol):
     """The publishers of forms: see ros/tabs/outlets.py."""
 
     def message(self, topic: str, type_name: str, values: Mapping[str, str]) -> Any: ...
-    def send(self, topic: str, message: Any, now: float) -> None: ...
+    def send(self, topic: str, message: Any, now: float, is_due: bool = True) -> None: ...
     def send_rest(self, topic: str, message: Any) -> None: ...
-    def keep(self, topic: str, message: Any, now: float) -> None: ...
     def collect(self, subscribers: Column, now: float) -> None: ...
 
 
@@ -111,9 +110,7 @@ class Publishing(TabSource):
         except RefusedError:
             self.on_publish_end(page, now)
             raise
-        self._publishers.keep(held.form["topic"], message, now)
-        if due:
-            self._publishers.send(held.form["topic"], message, now)
+        self._publishers.send(held.form["topic"], message, now, due)
 
     def on_publish_end(self, page: Page, _now: float) -> None:
         held = self._held.pop(page.number, None)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import threading
 from io import BytesIO
 from typing import Any, Callable, ClassVar, Mapping
@@ -16,13 +17,14 @@ from cockpit_server.graph import GraphWatcher
 from cockpit_server.pages import Page, Soon, TabSource
 from cockpit_server.schema import full_name, one_of, text
 from cockpit_server.tabs import form_values
-from cockpit_server.tabs.form_values import TEXTS, form, one_line
+from cockpit_server.tabs.form_values import TEXTS, form, one_line, parameter_values
 from cockpit_server.tabs.logs import without_folders
 from node_kit.message_types import message_class
 from node_kit.ros.graph.services import call_service, kind_of
 
 CALL_S, RESET_S = 30.0, 5.0  # timeouts of services
 MOST_CALLS = 100  # calls that wait for an answer, with a thread each
+MASTER = "the master"  # as what has not answered yet
 
 
 def filled(kind: Any, texts: Mapping[str, str]) -> Any:
@@ -57,10 +59,9 @@ class Forms(TabSource):
         if what == "service":
             self._call(page, name, lambda: describe_service(name))
         elif what == "parameter":
-            self._ask_master(page, lambda: describe_parameter(name))
+            self._ask(page, MASTER, lambda: describe_parameter(name))
         elif what == "values":
-            get_all = lambda: form_values.parameter_values(rospy.get_param("/", {}))  # noqa: E731
-            self._ask_master(page, get_all)
+            self._ask(page, MASTER, lambda: parameter_values(rospy.get_param("/", {})))
         # Only names in the graph, as message_class() keeps every name in memory.
         elif name in self._graphs.graph.types.values() and message_class(name):
             kind = message_class(name)
@@ -75,15 +76,12 @@ class Forms(TabSource):
         self._driving.must_be_free(page)
         if "value" not in values:
             raise RefusedError('write a value, such as 0.5, [1, 2], a text, or "" for an empty one')
-        self._ask_master(page, lambda: set_parameter(parameter, values["value"]))
+        self._ask(page, MASTER, lambda: set_parameter(parameter, values["value"]))
 
     def on_reset(self, page: Page, _now: float, robot: str) -> None:
         self._driving.must_rest(page, robot)
         service = self._graphs.graph.reset_service(robot)
         self._ask(page, service, lambda: answer_of(service, {}, RESET_S))
-
-    def _ask_master(self, page: Page, ask: Callable[[], dict[str, Any]]) -> None:
-        self._ask(page, "the master", ask)
 
     def _call(self, page: Page, service: str, ask: Callable[[], dict[str, Any]]) -> None:
         self._driving.must_be_free(page)
@@ -126,7 +124,8 @@ def answer_of(name: str, values: Mapping[str, str], timeout_s: float) -> dict[st
 
 
 def describe_parameter(name: str) -> dict[str, Any]:
-    return form_values.parameter_form(name, rospy.get_param(name, None))
+    value = json.dumps(rospy.get_param(name, None), default=str)[: form_values.LONGEST_ANSWER]
+    return form(name, [value], [("value", "JSON, or a text")])
 
 
 def set_parameter(name: str, written: str) -> dict[str, Any]:

@@ -66,12 +66,13 @@ class Outlets:
             raise RefusedError(f"at most {MOST_PUBLISHERS} topics in {UNUSED_S:g} s")
         return filled(kind, values)
 
-    def send(self, topic: str, message: Any, now: float) -> None:
-        """Publish a message, by a new publisher if there is none."""
+    def send(self, topic: str, message: Any, now: float, is_due: bool = True) -> None:
+        """Publish a message, by a new publisher if needed; if it is not due, keep that open."""
         outlet = self._outlets.get((topic, message._type))
         if outlet:
             outlet.used_at = now
-            outlet.send(message)
+            if is_due:
+                outlet.send(message)
             return
         outlet = self._outlets[topic, message._type] = Outlet(now, now, message)
         later(outlet.open, topic, type(message))
@@ -81,10 +82,6 @@ class Outlets:
         if hasattr(message, "header"):
             message.header.stamp = rospy.Time.now()
         self._outlets[topic, message._type].send(message)
-
-    def keep(self, topic: str, message: Any, now: float) -> None:
-        """Keep the publisher of a message open, although it publishes nothing now."""
-        self._outlets[topic, message._type].used_at = now
 
     def collect(self, subscribers: Column, now: float) -> None:
         """Publish what has waited for subscribers, and close what is unused."""
