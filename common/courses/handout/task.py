@@ -26,7 +26,7 @@ Joy = Tuple[Tuple[float, ...], Tuple[int, ...]]  # (axes, buttons)
 
 @dataclass(frozen=True)
 class Words:
-    """A task's values in messages: by name, or, in hints, as they are."""
+    """Names of a task's values for messages; for hints, the values themselves."""
 
     joy: str
     cmd_vel: str

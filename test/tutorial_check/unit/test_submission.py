@@ -52,7 +52,7 @@ def drive(workspace) -> Drive:
 def test_a_recording_that_cannot_be_read_again_is_refused_before_it_is_made(order):
     with pytest.raises(CannotCheck) as error:
         Submission(order, Task({}), ask=None).recording(drive)
-    why = "Way.places: its type must name its content, such as Tuple[float, ...]"
+    why = "Way.places: its type must name its items, such as Tuple[float, ...]"
     assert str(error.value) == why
 
 

@@ -21,7 +21,7 @@ def _node(submission: Submission, script: str = "") -> Joy2TwistNode:
 
 
 def _connected(submission: Submission, script: str) -> Joy2TwistNode:
-    """Return the same if it subscribes to Joys. Raises Wrong."""
+    """Return the run of a program that subscribes to Joys. Raises Wrong."""
     node = _node(submission, script)
     expected = f"it subscribes to {node.names.joy}, sensor_msgs/Joy"
     must_pass(connections.CONNECTED, node, expected)

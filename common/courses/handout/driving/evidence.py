@@ -105,7 +105,7 @@ class TwistField:
 
     @property
     def is_right(self) -> bool:
-        """Whether it is a positive constant times its axis, and the task's constant, if any."""
+        """Whether it is its axis times a positive constant: the task's, if it names one."""
         factor = self.own_factor
         if factor is None or factor <= 0:
             return False

@@ -90,7 +90,7 @@ def delays(
     received: Sequence[tuple[float, str, Sequence[float]]],
     factor: float | None,
 ) -> list[float]:
-    """Return the delays [s] from Joys to their Twists, matched by order, else by value.
+    """Return the delay [s] from each Joy to its Twist, matched by order, or else by value.
 
     sent: times of rising_joys(). received: [(time, sender, six values)]. factor: of linear.x.
     """
@@ -110,7 +110,7 @@ def delays(
 
 
 def strays(moving: Sequence[bool]) -> int:
-    """Return how many Twists after the first moving one are zero; rising_joys() never rest."""
+    """Return how many Twists after the first moving one are zero; rising_joys() never stop."""
     return list(moving[moving.index(True) :]).count(False) if any(moving) else 0
 
 
@@ -121,7 +121,7 @@ def displayed(joys: Sequence[Joy], output: str) -> list[Joy]:
 
 
 def values_displayed(joys: Iterable[Joy], output: str, within: float = ROUNDED) -> int:
-    """Return how many axes of a Joy a line shows, for at least three Joys, to rule out chance."""
+    """Return how many axes of a Joy its line shows; it takes three Joys, to rule out chance."""
     counts = sorted(_axes_in_a_line(joys, output, within))
     return counts[-3] if counts[-3] > 1 else counts[len(counts) // 2]
 

@@ -13,7 +13,7 @@ STARTS = 10  # all at once
 
 @dataclass(frozen=True)
 class Loaded:
-    """Starts while Joys arrive."""
+    """Programs that were started while Joys arrived."""
 
     failed: bool  # in one of them a callback had no publisher yet
 

@@ -92,7 +92,7 @@ def graph(submission: Submission) -> str:
 
 
 def _pair(submission: Submission) -> Pair:
-    """Return the recording of two talkers; if a second recording has none, raise as C6 or C7."""
+    """Return the recording of two talkers; if a repeated one lacks it, raise as C6 or C7 do."""
     pair = _talk(submission).pair
     if not pair:
         talker(submission)

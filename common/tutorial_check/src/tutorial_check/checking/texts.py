@@ -36,6 +36,6 @@ class Lines:
     def must(
         self, is_right: object, words: str, expected: str, seen: object, hint: str = ""
     ) -> None:
-        """Raise Wrong, at the first of the words that the text has, unless it is right."""
+        """Raise Wrong unless it is right; its line is that of the first word that the text has."""
         if not is_right:
             raise Wrong(expected, str(seen), self.at(*words.split()), hint)

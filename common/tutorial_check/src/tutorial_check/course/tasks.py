@@ -35,7 +35,7 @@ class Task:
         return package
 
     def in_messages(self, package: str) -> str:
-        """Return the package's name in messages that are no hints."""
+        """Return the package's name in messages other than hints."""
         return package
 
     def fill(self, text: str) -> str:

@@ -79,14 +79,14 @@ def arguments_of(recorder: Callable[..., object], values: Sequence[object]) -> L
 
 
 def must_be_whole(recorded: type) -> None:
-    """Raise CannotCheck for a recording with a list or map whose annotation lacks its content."""
+    """Raise CannotCheck for a recording with a list or map whose annotation omits its items."""
     kinds: list[Any] = [recorded]
     for kind in kinds:
         for name, hint in get_type_hints(kind).items():
             parts = [hint]
             for part in parts:
                 if (get_origin(part) or part) in (list, tuple, dict) and not get_args(part):
-                    how = "its type must name its content, such as Tuple[float, ...]"
+                    how = "its type must name its items, such as Tuple[float, ...]"
                     raise CannotCheck(f"{kind.__name__}.{name}: {how}")
                 parts += get_args(part)
             kinds += [

@@ -56,7 +56,7 @@ def examine(
 
 @contextlib.contextmanager
 def _process() -> Any:
-    """Yield (the process, the connection to it); end it, with what it started, at the exit."""
+    """Yield (the process, the connection to it); at exit, end it and what it started."""
     ours, theirs = socket.socketpair()
     words = [sys.executable, "-s", "-m", "tutorial_check.examining.examination"]
     # In a session of its own: Ctrl-C ends us, and then the closed connection ends it.

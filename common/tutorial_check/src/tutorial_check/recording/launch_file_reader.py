@@ -45,7 +45,7 @@ def _device_of(node: Any, params: Any) -> str:
 
 
 def place_of_tag(file: str, tag: Element) -> tuple[str, int]:
-    """Return (file, line) of a tag, of which minidom knows only the position among the tags."""
+    """Return (file, line) of a tag; minidom knows only its position among the tags."""
     assert tag.ownerDocument
     lines: list[int] = []
     parser = expat.ParserCreate()

@@ -68,7 +68,7 @@ def _replies(order: Order, reader: int, lines: Iterable[str]) -> Iterator[Reply]
 
 
 def reply_to(question: Question, workspace: Workspace) -> Reply:
-    """Make a recording."""
+    """Return the reply to a question: a recording, or why there is none."""
     module, _, name = question.recorder.partition(":")
     try:
         recorder = getattr(importlib.import_module(module), name)

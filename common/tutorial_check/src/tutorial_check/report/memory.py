@@ -39,7 +39,7 @@ def read_state(file: Path) -> State:
 
 
 def write_state(file: Path, state: State) -> None:
-    """Write a file atomically, if it can be written."""
+    """Write a file atomically; ignore errors."""
     with contextlib.suppress(OSError):
         file.parent.mkdir(parents=True, exist_ok=True)
         # Hidden, because a process killed here leaves it behind, beside a class's reports.

@@ -43,7 +43,7 @@ def folder_until_end(prefix: str, user: int | None = None) -> tuple[str, subproc
 
 
 def prctl(option: int, value: int, more: object = 0) -> int:
-    """Make this system call; return 0 if it succeeds."""
+    """Make the system call prctl; return 0 if it succeeds."""
     return int(ctypes.CDLL(None).prctl(option, value, more, 0, 0))
 
 
@@ -66,7 +66,7 @@ def as_user(user: int | None) -> list[str]:
 
 
 def open_to(user: int, folder: str) -> None:
-    """Let a user read a folder of root's and add to it, but change nothing in it."""
+    """Let a user read a folder that root owns, and add to it, but change nothing in it."""
     for path in Path(folder).rglob("*"):
         path.chmod(path.stat().st_mode | (0o555 if path.is_dir() else 0o444))
     os.chown(folder, 0, user)

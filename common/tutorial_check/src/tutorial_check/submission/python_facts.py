@@ -39,7 +39,7 @@ class ClassFacts:
 
 
 class PythonFacts:
-    """The content of a file; only an error if Python cannot read it."""
+    """Facts about a file; if Python cannot read it, only the error."""
 
     def __init__(self, text: str) -> None:
         self.error, self.error_line = "", 0
@@ -129,7 +129,7 @@ class PythonFacts:
 
     @property
     def loose(self) -> dict[int, str]:
-        """{line that may have lost its indentation: the function above it}."""
+        """{line that may lack indentation: the function above it}."""
         functions: dict[int, str] = {}
         for block in self._of(ast.Module, ast.ClassDef):
             above = ""
