@@ -63,10 +63,8 @@ def service(submission):
 
 @check("W3", "package.xml: message_generation, message_runtime", "1", timeless=True)
 def manifest(submission):
-    depends, file = (
-        package_of(submission, PACKAGE).depends,
-        File(submission, PACKAGE, "package.xml"),
-    )
+    depends = package_of(submission, PACKAGE).depends
+    file = File(submission, PACKAGE, "package.xml")
     for name, kind in (("message_generation", "build"), ("message_runtime", "exec")):
         hint = f"<{kind}_depend>{name}</{kind}_depend>, and not in a comment"
         words = f"{name} message_ depend>"

@@ -67,7 +67,7 @@ JOINED = {
     "ends the master": (f"import os, {MASTER}.shutdown('/me', 'no more')", "C14", "has ended it"),
     "kills its group": ("import os\nos.killpg(0, 9)", "C14", "signal 9"),
     "prints a verdict": (f"print({FORGED!r} * 50)\n__import__('os')._exit(0)", "C14", ""),
-    "writes into the workspace": ("open('VICTIM', 'w')", "C14", "writes where it may not"),
+    "writes into the workspace": ("open('VICTIM', 'w')", "C14", "may write only in its home"),
     "forges what the checker receives": (FORGES_TWISTS, "C14 C15", "/joy"),
 }
 

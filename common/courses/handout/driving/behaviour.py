@@ -32,7 +32,6 @@ def _connected(submission: Submission, script: str) -> Joy2TwistNode:
 
 
 def displays(submission: Submission, script: str = "", few_are_enough: bool = False) -> Note | None:
-    """Check that every Joy is displayed."""
     node = _connected(submission, script)
     numbered = node.run.numbered
     if numbered.all_displayed or (numbered.displayed and few_are_enough):
@@ -73,7 +72,6 @@ def mapping(submission: Submission, script: str = "") -> Note | None:
 
 
 def rate(submission: Submission, script: str = "") -> Note | str | None:
-    """Check that it keeps up with the joystick."""
     expected = "at 50 Joys a second as many Twists, each within 50 ms"
     node = _node(submission, script)
     return answers.rate_of(node) if node.run.is_prompt else must_pass(answers.RATE, node, expected)

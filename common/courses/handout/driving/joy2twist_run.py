@@ -117,7 +117,6 @@ class Joy2TwistRun:
         return Evidence([*seen.samples], [*seen.first_samples], seen.at_rest, factors, task)
 
     def replies(self, task: JoystickTask = HANDOUT) -> Replies:
-        """Return the answers to the probes."""
         return Replies(self.evidence(task), self.probes.answers, self.needs_button)
 
     def silence(self, task: JoystickTask) -> Silence | None:

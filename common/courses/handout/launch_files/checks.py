@@ -105,12 +105,10 @@ def short_hyphens(player: BagPlayer) -> Wrong | None:
 
 
 def no_recording(player: BagPlayer) -> Wrong | None:
-    seen, hint = (
-        f"args: {player.node['args'] or 'none'}",
-        BAG_HINT.format(player.file.student_package),
-    )
-    is_played = bool(player.bag)
-    return None if is_played else Wrong("rosbag play with the recording", seen, player.where, hint)
+    if player.bag:
+        return None
+    seen = f"args: {player.node['args'] or 'none'}"
+    return Wrong("rosbag play with the recording", seen, player.where, player.hint)
 
 
 def relative_path(player: BagPlayer) -> Wrong | None:

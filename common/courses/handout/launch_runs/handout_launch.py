@@ -202,9 +202,8 @@ def lost_file(file: HandoutLaunch) -> Wrong | None:
         inside, name = match[1].strip("/"), Path(match[1]).name
         if not inside or (folder / inside).exists():
             continue
-        hint = (
-            copy_bag(file.submission) if name.endswith(".bag") else f"write {name} in YOUR package"
-        )
+        hint = f"write {name} in YOUR package"
+        hint = copy_bag(file.submission) if name.endswith(".bag") else hint
         there = sorted(path.relative_to(folder) for path in folder.rglob(name))
         hint = f"it is elsewhere: $(find {package})/{there[0]}" if there else hint
         hint += "; roslaunch would take another workspace's file without a warning"

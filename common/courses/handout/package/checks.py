@@ -117,10 +117,8 @@ def _wanted(submission: Submission, name: str) -> list[str]:
 
 def _package(submission: Submission, name: str) -> Package:
     """Return the package that the checks know by a name. Raises Wrong."""
-    expected, own = (
-        f"one package {submission.task.in_messages(name)} in src",
-        submission.task.name_of(name),
-    )
+    expected = f"one package {submission.task.in_messages(name)} in src"
+    own = submission.task.name_of(name)
     named = [package for package in submission.packages if package.name == own]
     for package in submission.packages:
         if package.error and own in (package.name, package.folder.name):
@@ -169,11 +167,8 @@ def _plain(name: str) -> str:
 
 def similar_package(lost: LostPackage) -> Wrong | None:
     packages = lost.submission.packages
-    named = {
-        _plain(word): package
-        for package in packages
-        for word in (package.name, package.folder.name)
-    }
+    words = ((word, p) for p in packages for word in (p.name, p.folder.name))
+    named = {_plain(word): package for word, package in words}
     for near in difflib.get_close_matches(_plain(lost.own), named, 1, 0.8):
         seen, where = f"a package called {named[near].name}", f"{named[near].inside}/package.xml"
         hint = f"its name must be exactly {lost.own}: lower case, with _ and without -;"

@@ -70,9 +70,8 @@ def remap_outside(case: Remapping) -> Wrong | None:
 def swapped(case: Remapping) -> Wrong | None:
     if not case.seen.bad or not any(f"/{to.strip('/')}" == case.own for _, to in case.remaps):
         return None
-    return case.wrong(
-        "from and to are swapped", hint=f"from is the name in the program: {case.remap}"
-    )
+    hint = f"from is the name in the program: {case.remap}"
+    return case.wrong("from and to are swapped", hint=hint)
 
 
 def published_elsewhere(case: Remapping) -> Wrong | None:

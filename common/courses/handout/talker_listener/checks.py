@@ -35,7 +35,6 @@ NO_SECOND = "a second talker publishes, or ends the first"
 
 
 def scripts(submission: Submission) -> list[Script]:
-    """Return talker and listener."""
     names = ("talker.py", "listener.py")
     paths = [find_script(submission, BEGINNER, name) for name in names]
     return [Script(submission, BEGINNER, path) for path in paths]

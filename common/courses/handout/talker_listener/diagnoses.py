@@ -56,7 +56,6 @@ class Talked:
 
     @property
     def publisher(self) -> str:
-        """FILE:LINE of its Publisher."""
         call = self.script.facts.first("Publisher")
         return self.script.at_line(call.line if call else 1)
 
@@ -153,7 +152,6 @@ class Listened:
 
     @property
     def subscriber(self) -> str:
-        """FILE:LINE of its Subscriber."""
         return self.script.at_call("Subscriber")
 
 

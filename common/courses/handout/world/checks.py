@@ -112,9 +112,8 @@ def never_moved(stop: Stop) -> Wrong | None:
     if has_moved(drive.path):
         return None
     expected = f"the robot drives towards the wall with _speed:={stop.speed}"
-    wrong = stop.script.crash(
-        drive.program, expected, "it publishes on cmd_vel for each LaserScan on scan"
-    )
+    hint = "it publishes on cmd_vel for each LaserScan on scan"
+    wrong = stop.script.crash(drive.program, expected, hint)
     kind = "geometry_msgs/Twist"
     return _elsewhere(wrong, "publishes on", CMD_VEL, kind, drive.publishers, drive.types)
 

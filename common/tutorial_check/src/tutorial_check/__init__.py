@@ -15,24 +15,18 @@ from tutorial_check.checking.launch_file import LaunchFile, find_launch, launch_
 from tutorial_check.checking.manifest_errors import must_be_unique, unreadable
 from tutorial_check.checking.package_files import File, Script
 from tutorial_check.checking.packages import must_be_launchable, package_of
-from tutorial_check.checking.programs import (
-    find_script,
-    must_be_one_program,
-    program_of,
-    recorded,
-)
+from tutorial_check.checking.programs import find_script, must_be_one_program, program_of, recorded
 from tutorial_check.checking.results import Note, Wrong, first_of, must_pass, wrong_of
 from tutorial_check.checking.script_faults import check_file
 from tutorial_check.checking.submission import Submission
 from tutorial_check.checking.texts import read_xml
 from tutorial_check.course.tasks import Task, Variant
-from tutorial_check.data.recordings import Built, Heard, HeardText, LaunchNode, Ran, Topics
+from tutorial_check.data.recordings import Heard, HeardText, LaunchNode, Ran, Topics
 from tutorial_check.errors import MASTER_GONE, CannotCheck, CutShort
 from tutorial_check.processes.runner import GRACE_S
 from tutorial_check.processes.started_program import Program
-from tutorial_check.recording.build import built, own_built
 from tutorial_check.recording.client import Client, FrameTransform, Seen, ServiceAnswer
-from tutorial_check.recording.launch_files import Launch, read_launch_files
+from tutorial_check.recording.launch_files import Launch
 from tutorial_check.recording.ros_session import SETTLE_S, START_S, RosSession
 from tutorial_check.recording.simulated_turtlebot import (
     BUMPER,
@@ -49,24 +43,22 @@ from tutorial_check.submission.packages import Package, packages_beside, underla
 from tutorial_check.submission.python_facts import ClassFacts, PythonFacts, shows, with_bases
 from tutorial_check.submission.python_text import flipped_anonymous, unmasked, without_name
 from tutorial_check.submission.student_files import put_file
-from tutorial_check.submission.submission_files import SubmissionFiles
 from tutorial_check.submission.tracebacks import first_traceback, last_lines
 
 if TYPE_CHECKING:  # its module loads ROS
     from tutorial_check.recording.virtual_gamepad import VirtualGamepad as VirtualGamepad
 
 __all__ = [
-    "BUMPER", "GAPS", "GRACE_S", "MASTER_GONE", "ODOM", "SETTLE_S", "START_S", "TRUTH", "Built",
+    "BUMPER", "GAPS", "GRACE_S", "MASTER_GONE", "ODOM", "SETTLE_S", "START_S", "TRUTH",
     "CannotCheck", "ClassFacts", "Client", "CutShort", "File", "FrameTransform", "Heard",
     "HeardText", "Launch", "LaunchFile", "LaunchNode", "Note", "Package", "PoseSample", "Program",
     "PythonFacts", "Ran", "RosSession", "Script", "Seen", "ServiceAnswer", "SimulatedTurtleBot",
-    "Submission", "SubmissionFiles", "Task", "Topics", "Variant", "Workspace", "Wrong", "attribute",
-    "build_error", "build_output", "built", "cause_of", "check", "check_file", "cmake_of", "crash",
-    "find_launch", "find_script", "first_of", "first_traceback", "flipped_anonymous", "has_moved",
-    "is_lacking", "is_stand_in", "last_lines", "launch_file", "line_of", "meant", "missing_in",
+    "Submission", "Task", "Topics", "Variant", "Workspace", "Wrong", "attribute", "build_error",
+    "build_output", "cause_of", "check", "check_file", "cmake_of", "crash", "find_launch",
+    "find_script", "first_of", "first_traceback", "flipped_anonymous", "has_moved", "is_lacking",
+    "is_stand_in", "last_lines", "launch_file", "line_of", "meant", "missing_in",
     "must_be_launchable", "must_be_one_program", "must_be_unique", "must_build", "must_pass",
-    "not_found", "own_built", "package_hint", "package_of", "packages_beside", "packages_of_ros",
-    "place_of", "program_of", "put_file", "read_launch_files", "read_xml", "recorded", "shows",
-    "traceback_of", "underlays", "unmasked", "unreadable", "with_bases", "with_import",
-    "without_name", "wrong_of",
+    "not_found", "package_hint", "package_of", "packages_beside", "packages_of_ros", "place_of",
+    "program_of", "put_file", "read_xml", "recorded", "shows", "traceback_of", "underlays",
+    "unmasked", "unreadable", "with_bases", "with_import", "without_name", "wrong_of",
 ]  # fmt: skip

@@ -74,7 +74,6 @@ def not_found(submission: Submission, name: str) -> tuple[str, str, str]:
 
 
 def _hint(text: str) -> str:
-    """Return what to do about an error."""
     hint = "".join(explained("catkin_make", text))
     return hint or "read the first error of catkin_make: it names file and line"
 
@@ -92,7 +91,6 @@ def _of_definition(submission: Submission, output: str) -> Wrong | None:
 
 
 def _of_package(submission: Submission, output: str) -> Wrong | None:
-    """Return the Wrong for a package that catkin does not find."""
     missing = missing_in(output)
     if not missing:
         return None
@@ -101,7 +99,6 @@ def _of_package(submission: Submission, output: str) -> Wrong | None:
 
 
 def _of_compiler(submission: Submission, output: str) -> Wrong | None:
-    """Return the Wrong for a compiler error."""
     error = COMPILER.search(output)
     if not error:
         return None
@@ -135,7 +132,6 @@ def _of_header(submission: Submission, message: str, target: str) -> str:
 
 
 def _of_linker(submission: Submission, output: str) -> Wrong | None:
-    """Return the Wrong for a linker error."""
     error = LINKER.search(output)
     if not error:
         return None

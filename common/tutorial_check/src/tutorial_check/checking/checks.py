@@ -137,7 +137,6 @@ class CheckRunner:
     """Runs each check at most once, and only if the checks that it needs hold."""
 
     def __init__(self, checks: Iterable[Check], submission: Submission) -> None:
-        """Take the checks, in order, and the submission for their functions."""
         self._checks = {check.id: check for check in checks}
         self._submission = submission
         self._done: dict[str, Result] = {}

@@ -26,7 +26,6 @@ class File(Lines):
         self.text = submission.text(package, path)
 
     def crash(self, ran: Ran, expected: str, hint: str = "") -> Wrong:
-        """Return the Wrong for a program that ended or failed, with its cause."""
         return crash(self.submission, self.package, ran, expected, hint)
 
     def must_run(self, ran: Ran, expected: str, hint: str = "", may_end: bool = False) -> None:

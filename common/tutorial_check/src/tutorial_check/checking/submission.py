@@ -69,7 +69,6 @@ class Submission(SubmissionFiles):
         return self._last.overloaded
 
     def forget_recordings(self) -> None:
-        """Forget the recordings, so that they are made again."""
         self._runs.clear()
 
     def as_sent(self, result: Result) -> Result:

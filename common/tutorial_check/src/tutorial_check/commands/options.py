@@ -90,7 +90,6 @@ def _command_of(words: Sequence[str]) -> str:
 
 
 def _parser_of(names: Iterable[str]) -> Parser:
-    """Return a parser with sets of options."""
     what = "Checks the exercises of the tutorial in your own workspace."
     titles = (f"{name} ({exercise.title})" for name, exercise in read_course().exercises.items())
     usage, epilog = f"{PROGRAM} [-h] [OPTION ...] [EXERCISE ...]", f"exercises: {', '.join(titles)}"
@@ -160,7 +159,6 @@ def _add_of_one(add: _Add) -> None:
 
 
 def _add_shared(add: _Add) -> None:
-    """Add the options that several commands share."""
     add("exercises", "exercises", nargs="*", metavar="EXERCISE", help="all, if none is given")
     what = "in place of the handout: wiki, or a folder with course.yaml and your own checks"
     add("course", "--course", type=path, default=str(HANDOUT), metavar="FOLDER", help=what)

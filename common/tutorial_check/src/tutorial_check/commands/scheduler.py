@@ -9,7 +9,6 @@ from tutorial_check.errors import CannotCheck
 
 
 def main() -> None:
-    """Become a scheduler, or exit with a line."""
     what = "A Dask scheduler, for ./tutorial check --all FOLDER --cluster."
     parser = Parser(prog="./tutorial scheduler", description=what)
     what = "address on which to listen (127.0.0.1)"

@@ -44,13 +44,9 @@ def solutions(course: Course) -> Iterator[tuple[str, str, list[Path]]]:
 def self_test(course: Course, underlay: str, jobs: int) -> int:
     """Check all solutions of a course, and print a line for each; return 0 if all are as named."""
     failed, every = 0, list(solutions(course))
-    exercises = {known.id: known.exercise for known in checks_of(course)}
+    exercises = {check.id: [check.exercise] for check in checks_of(course)}
     with ThreadPoolExecutor(jobs) as pool:
-        wanted = (([exercises[check]] if check in exercises else []) for _, check, _ in every)
-        tests = [
-            pool.submit(_examined, course, underlay, names, check, layers)
-            for names, (_, check, layers) in zip(wanted, every)
-        ]
+        tests = [pool.submit(_examined, course, underlay, exercises, *about) for about in every]
         for (name, check, _), test in zip(every, tests):
             outcomes = test.result()
             complaint = complaint_of(check, outcomes)
@@ -64,9 +60,10 @@ def self_test(course: Course, underlay: str, jobs: int) -> int:
 
 
 def _examined(
-    course: Course, underlay: str, exercises: list[str], check: str, layers: list[Path]
-) -> list[Outcome]:
-    """Check a solution in these exercises, or in all; a wrong one up to its check."""
+    course: Course, underlay: str, exercises: dict[str, list[str]],
+    _: str, check: str, layers: list[Path],
+) -> list[Outcome]:  # fmt: skip
+    """Check a solution: a right one in all exercises, a wrong one in that of its check."""
     with tempfile.TemporaryDirectory() as scratch:
         for layer in layers:
             try:
@@ -76,7 +73,7 @@ def _examined(
                     patch(Path(scratch), layer)
             except CannotCheck as why:
                 return [Outcome(check, trouble=str(why))]
-        wanted = tuple(exercises or course.exercises)
+        wanted = tuple(exercises.get(check, course.exercises))
         return examine(Order(Path(scratch), underlay, wanted, bool(check), False, course.folder))
 
 

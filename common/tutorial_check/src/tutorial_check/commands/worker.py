@@ -9,7 +9,6 @@ from tutorial_check.errors import CannotCheck
 
 
 def main() -> None:
-    """Become a worker, or exit with a line."""
     what = "A Dask worker, for ./tutorial check --all FOLDER --cluster."
     parser = Parser(prog="./tutorial worker", description=what)
     add = parser.add_argument

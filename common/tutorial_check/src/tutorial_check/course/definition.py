@@ -92,7 +92,6 @@ class Course:
 
 
 def package_of(course: Course) -> str:
-    """Return the name of the package of a course's modules."""
     name = re.sub(r"\W", "_", course.folder.name)
     return f"{COURSES}.{name}"
 
@@ -177,12 +176,9 @@ def load(course: Course) -> set[str]:
         modules = pkgutil.walk_packages([str(course.folder)], f"{package}.")
         return {importlib.import_module(module.name).__name__ for module in modules}
     except Exception as error:
-        is_old = (getattr(error, "name", None) or "").startswith(
-            ("tutorial_check.", "tutorial_course")
-        )
-        raise CannotCheck(
-            f"{_place(error, course.folder)}: {error}{RENAMED if is_old else ''}"
-        ) from None
+        name = getattr(error, "name", None) or ""
+        renamed = RENAMED if name.startswith(("tutorial_check", "tutorial_course")) else ""
+        raise CannotCheck(f"{_place(error, course.folder)}: {error}{renamed}") from None
 
 
 def _make_package(package: str, folder: Path) -> None:

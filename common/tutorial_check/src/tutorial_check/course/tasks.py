@@ -27,7 +27,6 @@ class Task:
     topics: Mapping[str, str] = MappingProxyType({})
 
     def __init__(self, values: Variant) -> None:
-        """values: the given ones."""
         self.values = values
 
     def name_of(self, package: str) -> str:
@@ -51,7 +50,6 @@ def task_of(course: Course) -> type[Task]:
 
 
 def read_variant(course: Course, file: str | Path) -> Variant:
-    """Return the Variant of a file. Raises CannotCheck."""
     values = read_yaml(file)
     known = ", ".join(course.variants) or "none in this course"
     if not isinstance(values, dict):

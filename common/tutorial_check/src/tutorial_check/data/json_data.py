@@ -89,6 +89,5 @@ def must_be_whole(recorded: type) -> None:
                     how = "its type must name its items, such as Tuple[float, ...]"
                     raise CannotCheck(f"{kind.__name__}.{name}: {how}")
                 parts += get_args(part)
-            kinds += [
-                part for part in parts if dataclasses.is_dataclass(part) and part not in kinds
-            ]
+            inner = filter(dataclasses.is_dataclass, parts)
+            kinds += [part for part in inner if part not in kinds]

@@ -23,7 +23,6 @@ class Ran:
 
     @property
     def ended(self) -> bool:
-        """Whether it ended by itself."""
         return self.code is not None
 
 

@@ -131,7 +131,6 @@ class Client:
         return self._ros.meet(program) and has_met()
 
     def parameter(self, name: str) -> object:
-        """Return the value of a parameter, or None."""
         return self._tell("parameter", name)
 
     def lookup(

@@ -60,9 +60,8 @@ def message_of(kind: type[genpy.Message], values: object) -> genpy.Message:
         message._check_types()
     except (AttributeError, TypeError, ValueError, *REFUSED) as error:
         fields = ", ".join(message.__slots__) or "none"
-        raise CallerError(
-            f"{kind._type}: {values} does not fit: {error} (fields: {fields})"
-        ) from None
+        why = f"{values} does not fit: {error} (fields: {fields})"
+        raise CallerError(f"{kind._type}: {why}") from None
     return message
 
 
@@ -86,17 +85,11 @@ class ClientNode:
             return _fields_of(class_of(kind))
         except CallerError:
             cls = class_of(kind, of_service=True)
-        return [
-            *_fields_of(cls._request_class),
-            "---",
-            *_fields_of(cls._response_class),
-        ]
+        return [*_fields_of(cls._request_class), "---", *_fields_of(cls._response_class)]
 
     def services(self) -> list[str]:
-        services = rosgraph.Master(NAME).getSystemState()[2]
-        return sorted(
-            name for name, _ in services if not name.endswith(("loggers", "logger_level"))
-        )
+        names = (name for name, _ in rosgraph.Master(NAME).getSystemState()[2])
+        return sorted(name for name in names if not name.endswith(("loggers", "logger_level")))
 
     def ask(self, service: str, kind: str, values: object) -> tuple[object, str]:
         """Call a service; return (response, "") or (None, why there is none)."""
@@ -170,7 +163,6 @@ class ClientNode:
         return sorted(f"{about['parent']} -> {child}" for child, about in (known or {}).items())
 
     def answer(self, text: str) -> None:
-        """Reply to a line."""
         asked = json.loads(text)
         answer = {"id": asked["id"]}
         try:

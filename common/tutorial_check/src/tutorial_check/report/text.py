@@ -45,10 +45,8 @@ def text_of(outcomes: Sequence[Outcome]) -> str:
     """Return the complete report without colours."""
     lines = []
     for outcome in outcomes:
-        lines += [
-            heading(outcome),
-            *(line for result in outcome.results for line in lines_of(result)),
-        ]
+        lines.append(heading(outcome))
+        lines += (line for result in outcome.results for line in lines_of(result))
     return "\n".join([*lines, summary(outcomes)]) + "\n"
 
 

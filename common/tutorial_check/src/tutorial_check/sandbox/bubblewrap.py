@@ -27,12 +27,8 @@ NAMESPACES = ("--unshare-ipc", "--unshare-net", "--unshare-pid", "--unshare-uts"
 AS_ROOT = ("--cap-drop", "ALL", "--cap-add", "CAP_SETGID", "--cap-add", "CAP_SETUID")
 SIZES_MB = {"/dev/shm": 64, "/tmp": 64, "/var/tmp": 64, "/dev/input": 1}  # the last for a joystick
 # Replaces --perms before a command. Arguments: folders, --, the command.
-OPENED = (
-    "sh",
-    "-c",
-    'while [ "$1" != -- ]; do chmod 1777 "$1"; shift; done; shift; exec "$@"',
-    "sh",
-)
+OPEN = 'while [ "$1" != -- ]; do chmod 1777 "$1"; shift; done; shift; exec "$@"'
+OPENED = ("sh", "-c", OPEN, "sh")
 _one_at_a_time = threading.Lock()
 
 

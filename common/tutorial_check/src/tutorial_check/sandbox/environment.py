@@ -8,13 +8,10 @@ from pathlib import Path
 from typing import Iterable, Mapping
 
 # What a program sees of the system, read-only.
-ETC = (
-    "alternatives catkin group host.conf hosts ld.so.cache localtime nsswitch.conf passwd"
-    " python3 ros"
-)
+ETC = "alternatives catkin group host.conf hosts ld.so.cache localtime nsswitch.conf passwd"
 SYSTEM = (
     *("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32", "/opt/ros"),
-    *(f"/etc/{name}" for name in ETC.split()),
+    *(f"/etc/{name}" for name in (*ETC.split(), "python3", "ros")),
 )
 OWN = ("home", "tmp", "ws")  # folders of a worker that the student's programs may write
 

@@ -196,12 +196,10 @@ class PythonFacts:
         return next(iter(self.calls.get(name, [])), None)
 
     def lines(self, *names: str) -> list[int]:
-        """Return the lines of calls of these names."""
         return [call.line for name in names for call in self.calls.get(name, [])]
 
     @property
     def without_callback(self) -> Call | None:
-        """The first Subscriber without a callback."""
         calls = self.calls.get("Subscriber", [])
         return next((c for c in calls if len(c.words) == 2 and "callback" not in c.names), None)
 

@@ -31,7 +31,6 @@ class SubmissionFiles:
     """The files of one workspace."""
 
     def __init__(self, order: Order, task: Task) -> None:
-        """task: the student's."""
         self.order, self.folder, self.layout = order, order.folder, order.layout
         self.task: Any = task  # the course's own
         self.source = self.folder / "ws" / "src"
@@ -63,7 +62,6 @@ class SubmissionFiles:
 
     @cached_property
     def course(self) -> Course:
-        """The course of its checks."""
         return read_course(self.order.course)
 
     @cached_property
@@ -73,7 +71,6 @@ class SubmissionFiles:
 
     @cached_property
     def packages(self) -> list[Package]:
-        """The packages, in the order of their paths."""
         return packages_below(self.source)
 
     def has(self, name: str) -> bool:
