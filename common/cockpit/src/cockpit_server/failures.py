@@ -8,7 +8,7 @@ MOST_REPORTED = 100  # subjects; a page may ask for any number of topics that do
 
 
 class Guard:
-    """Calls actions that may fail, and reports the first failure of each subject."""
+    """A caller of actions that may fail, which reports the first failure of each subject."""
 
     def __init__(self, report: Callable[[str], None]) -> None:
         self._report = report

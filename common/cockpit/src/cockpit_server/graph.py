@@ -109,7 +109,7 @@ class Graph:
 
 
 class GraphWatcher(Protocol):
-    """Keeps the newest Graph."""
+    """An object with the newest Graph."""
 
     graph: Graph
 

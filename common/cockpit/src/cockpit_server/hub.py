@@ -27,7 +27,7 @@ class HubClock(Protocol):
 
 
 class Hub:
-    """Passes messages of the open pages to sources, and what these show to the pages."""
+    """The exchange between the open pages and the sources of their tabs."""
 
     def __init__(
         self, pages: dict[int, Page], driving: Driving, sources: Sequence[TabSource],
@@ -72,7 +72,7 @@ class Hub:
         self._driving.gone(page)
 
     def wait_s(self, page: Page) -> float:
-        """Return how long [s] the next message of a page waits, by the cost of earlier ones."""
+        """Return how long [s] the next message of a page waits, after the cost of earlier ones."""
         if self._driving.is_driver(page):
             return 0.0
         return self._messages.wait_s(self._clock.monotonic())

@@ -67,7 +67,7 @@ INPUT: dict[str, Check] = {
 
 
 class Schema:
-    """All messages that the sources of tabs declare, and the message watch."""
+    """All messages that pages may send: those that sources declare, and watch."""
 
     def __init__(self, sources: Sequence[Any]) -> None:
         watches = {name: pair for source in sources for name, pair in source.watches.items()}

@@ -65,7 +65,7 @@ def is_neutral(axes: Axes, buttons: Buttons) -> bool:
 
 
 class DriverSession:
-    """The session of the one driver. A page is any number; a robot is a name."""
+    """The session of the one driver. Pages are numbers, robots are names."""
 
     def __init__(
         self, send: Callable[[str, Axes, Buttons], None], lost: Callable[[int, str], None]
@@ -168,7 +168,7 @@ class DriverSession:
         self._beats.pop(number - KEPT_BEATS, None)
 
     def input(self, page: int, message: PageInput, now: float, may_arm: bool = True) -> None:
-        """Process an input; it is dropped if it is old or not the driver's.
+        """Process an input, unless it is old or not the driver's.
 
         may_arm: whether all subscribers of this joystick will receive the released state.
         """

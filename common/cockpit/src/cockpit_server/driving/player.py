@@ -9,7 +9,7 @@ Message = Tuple[float, Any, Any]
 
 
 class Player:
-    """Plays [(time since the start [s], axes, buttons)]; now is [s] of one clock everywhere."""
+    """A recording that plays: messages (time since the start [s], axes, buttons)."""
 
     def __init__(
         self, messages: Sequence[Message], duration: float, rate: float, loop: bool

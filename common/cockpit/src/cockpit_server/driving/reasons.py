@@ -97,7 +97,7 @@ def by_page(about: About, robot: str, is_own: bool) -> str:
 
 
 def by_form(name: str, is_own: bool, topic: str) -> str:
-    """Return a sentence for a page: it drives by its form, or the page of this name does."""
+    """Return a sentence for a page: that it drives by a form, or that the named page does."""
     return sentence(f"{'you drive' if is_own else f'{name} drives'} by a form, on {topic}")
 
 

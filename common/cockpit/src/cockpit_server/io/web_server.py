@@ -45,7 +45,7 @@ POLICY = (
 
 
 class _Checked(RequestHandler):
-    """Answers requests that come from this page and name this machine, and delays a flood."""
+    """Requests that must come from this page and name this machine; a flood of them is delayed."""
 
     def set_default_headers(self) -> None:
         for name, value in HEADERS.items():
@@ -195,7 +195,7 @@ class _Socket(_Checked, WebSocketHandler):
 
 
 class _Server(HTTPServer):
-    """Bounds the connections: a new one replaces the oldest one that is not a page's."""
+    """A server with a limit: a new connection replaces the oldest one that is not a page's."""
 
     def initialize(self, application: Application, **more: Any) -> None:  # type: ignore[override]
         super().initialize(application, **more)
@@ -211,7 +211,7 @@ class _Server(HTTPServer):
 
 
 def folder_of_charts() -> Path:
-    """Return the folder of dygraphs: Debian's, or else that of what ./tutorial has fetched."""
+    """Return the folder of dygraphs: Debian's, or the one that ./tutorial has fetched."""
     fetched = Path(os.environ.get("TUTORIAL_RESULTS", ""), FETCHED)
     return OF_DEBIAN if OF_DEBIAN.exists() else fetched
 

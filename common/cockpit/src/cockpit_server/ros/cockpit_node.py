@@ -42,7 +42,7 @@ SWITCH_S = 0.0005
 
 
 class Cockpit:
-    """Shows the robots of a master to browsers, and lets one of them drive.
+    """The node that shows the robots of a master to browsers, and lets one page drive.
 
     Subscribes: what pages show: odom (nav_msgs/Odometry), joy (sensor_msgs/Joy), scan
         (sensor_msgs/LaserScan), base_pose_ground_truth (nav_msgs/Odometry) and

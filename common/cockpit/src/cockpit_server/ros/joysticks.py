@@ -32,7 +32,7 @@ def shown(data: bytes) -> dict[str, Any] | None:
 
 
 class Joysticks(TabSource):
-    """Publishes sensor_msgs/Joy for the driven robot; subscribes to it and to those in sight."""
+    """The publisher of the driven robot's joystick, and the newest messages of those in sight."""
 
     watches: ClassVar = {"look": (or_null(text), None)}
 

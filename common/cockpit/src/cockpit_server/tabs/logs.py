@@ -54,7 +54,7 @@ def doctor_line(line: str) -> dict[str, str]:
 
 
 class Logs(TabSource):
-    """Keeps lines as bytes, and decodes them when a page shows the log."""
+    """The newest lines as bytes, which are decoded when a page shows the log."""
 
     watches: ClassVar = {"log": (switch, False)}
 

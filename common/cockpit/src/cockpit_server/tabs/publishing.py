@@ -51,7 +51,7 @@ class Held:
 
 
 class Publishing(TabSource):
-    """Publishes for pages that may drive, unless another page does; a page holds one message."""
+    """One message for each page that may drive, unless another page does."""
 
     messages: ClassVar = {
         "publish": {

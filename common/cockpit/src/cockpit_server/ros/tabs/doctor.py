@@ -20,7 +20,7 @@ FRESH_S = 10.0  # a viewer receives lines of this age without a new run
 
 
 class Doctor(TabSource):
-    """Runs the doctor when a page asks for it, once at a time, and sends its lines to all pages."""
+    """The doctor, which runs when a page asks for it, once at a time, and its lines for pages."""
 
     messages: ClassVar = {"doctor": {}}
 

@@ -42,7 +42,7 @@ def filled(kind: Any, texts: Mapping[str, str]) -> Any:
 
 
 class Forms(TabSource):
-    """Calls services and sets parameters for pages that may drive, unless another page does."""
+    """Services and parameters for pages that may drive, unless another page does."""
 
     messages: ClassVar = {
         "describe": {"what": one_of("message", "service", "parameter", "values"), "name": text},

@@ -29,7 +29,7 @@ def newer(samples: deque[Sample], known: int) -> list[list[Any]]:
 
 
 class Plots(TabSource):
-    """Subscribes to what pages draw, and keeps the newest samples."""
+    """The newest samples of the fields that pages draw."""
 
     watches: ClassVar = {"fields": (list_of(text, MOST_FIELDS), ()), "field_list": (switch, False)}
 

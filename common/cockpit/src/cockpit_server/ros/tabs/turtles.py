@@ -18,7 +18,7 @@ LONGEST_PICTURE = 1_000_000  # characters of base64
 
 
 class Turtles(TabSource):
-    """Requests pictures of the nodes that publish turtles, while a page shows them."""
+    """The pictures of the nodes that publish turtles, requested while a page shows them."""
 
     watches: ClassVar = {"turtles": (switch, False)}
 
