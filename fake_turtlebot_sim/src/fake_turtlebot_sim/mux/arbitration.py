@@ -81,7 +81,7 @@ class BacklogFilter:
 
 
 class Arbiter:
-    """Rules on each command of each input."""
+    """Decides on each command of each input."""
 
     def __init__(self, inputs: Iterable[Any]) -> None:
         """Take parameters.Inputs, whose names and priorities differ."""

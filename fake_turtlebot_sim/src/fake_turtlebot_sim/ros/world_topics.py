@@ -57,7 +57,7 @@ class WorldTopics:
         return scanners + ([(p.world_frame, p.map_frame, ORIGIN)] if p.robots else [])
 
     def before_move(self) -> None:
-        """Let the robots meet, if ~robots_meet."""
+        """Let the robots meet, if ~robots_meet is true."""
         if self._parameters.robots_meet:
             meet(self._robots, self._parameters.meeting_reach())
 

@@ -99,7 +99,7 @@ def ramp_time(
 
 
 def between(velocity: Velocity, target: Velocity, share: float) -> Velocity:
-    """Return the velocity a share (0 to 1) of the way to the target."""
+    """Return the velocity at a share (0 to 1) of the way to the target."""
     return (
         velocity[0] + (target[0] - velocity[0]) * share,
         velocity[1] + (target[1] - velocity[1]) * share,

@@ -70,8 +70,8 @@ class Grid:
     def free_place(self, radius: float) -> Pose:
         """Return the centre of the cell nearest to (0, 0) around which a disc [m] has room.
 
-        The disc covers only known cells; if no such place exists, only the cell at its centre is
-        known. Raises ValueError if no place has room.
+        The disc covers only known cells; if no such place exists, only the cell at its centre must
+        be known. Raises ValueError if no place has room.
         """
         is_free = (self.cells >= 0) & (self.cells < OCCUPIED)
         reach, (rows, columns) = int(radius / self.resolution + 0.5), self.cells.shape

@@ -23,7 +23,7 @@ from node_kit.parameters.declaration import (
 
 MOST_ROBOTS = 1000
 
-# tf2 knows no leading slash.
+# tf2 allows no leading slash.
 _FRAME = text(
     "a name without blanks and leading slash", lambda value: re.fullmatch(r"[^/\s]\S*", value)
 )

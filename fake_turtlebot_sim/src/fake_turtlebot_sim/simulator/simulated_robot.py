@@ -98,7 +98,7 @@ class SimulatedRobot:
         self.place(start_pose)
 
     def command(self, velocity: Velocity, now_ns: int) -> CommandResult:
-        """Obey the velocity (v [m/s], w [rad/s]) from now on; return the CommandResult on it."""
+        """Obey the velocity (v [m/s], w [rad/s]) from now on; return the CommandResult."""
         if not all(map(isfinite, velocity)):
             return CommandResult.REJECTED  # without restarting the timeout
         if not self._has_power:

@@ -47,12 +47,12 @@ class World:
 
     @cached_property
     def segments(self) -> tuple[Obstacle, ...]:
-        """The segments of the walls."""
+        """The walls as segments."""
         return _pieces(self.walls)
 
     @cached_property
     def edges(self) -> tuple[Obstacle, ...]:
-        """The segments of the edges of the cliffs."""
+        """The edges of the cliffs as segments."""
         return _pieces((*line, line[0]) for line in self.cliffs)
 
     @cached_property

@@ -80,7 +80,7 @@ def read_grid(path: Path) -> Grid:
 
 
 def _parsed(path: Path) -> tuple[Any, Any]:
-    """Return (node, value) of the YAML in a file, or None for both. Raises WorldError."""
+    """Return (node, value) of the YAML in a file, None for an empty one. Raises WorldError."""
     try:
         check_file(path, LARGEST_WORLD)
         text = path.read_text(encoding="utf-8")

@@ -113,7 +113,7 @@ def wall_side(x1: float, y1: float, x2: float, y2: float) -> list[Point]:
 
 
 def bumper_markers(pressed: Three, frame: str) -> list[Marker]:
-    """Return a red arc for each pressed bumper, and a deletion for each other one."""
+    """Return a red arc for each pressed bumper, and a deletion for each of the others."""
     markers = []
     ends = (SIDE_RAD, CENTER_RAD, -CENTER_RAD, -SIDE_RAD)
     for number, (is_pressed, begin, end) in enumerate(zip(pressed, ends, ends[1:])):

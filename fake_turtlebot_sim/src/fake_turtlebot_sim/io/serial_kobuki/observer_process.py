@@ -21,7 +21,7 @@ class ObserverProcess:
     """The observer's process, and a pipe in each direction."""
 
     def __init__(self, arguments: Sequence[str]) -> None:
-        """Start it with the arguments of this program's command line."""
+        """Start the process with the arguments of this program's command line."""
         to_read, down = os.pipe()
         self._up, to_write = os.pipe()
         environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
@@ -59,11 +59,11 @@ class ObserverProcess:
 
     @property
     def was_asked_to_end(self) -> bool:
-        """Return whether it has exited because a master or another node asked it to."""
+        """Return whether the process has exited because a master or another node asked it to."""
         return self._process.wait() == 0
 
     def close(self) -> None:
-        """End its input, at which it exits."""
+        """End the input of the process, which then exits."""
         os.close(self._down)
         with suppress(subprocess.TimeoutExpired):
             self._process.wait(2.0)

@@ -22,7 +22,7 @@ UNPLUGGED_S = 2.0  # with ~unplug_after
 
 
 class Clock:
-    """The time since the start, and whether this process was suspended, as no robot ever is."""
+    """The time since the start, and whether this process was suspended."""
 
     def __init__(self) -> None:
         self._begin_ns = self._looked_ns = time.monotonic_ns()

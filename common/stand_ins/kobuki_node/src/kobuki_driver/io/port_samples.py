@@ -29,7 +29,7 @@ def samples() -> list[Sample]:
 
 
 def sample(path: str) -> Sample:
-    """Return the Sample of a second at a port; ask a robot for its version."""
+    """Listen at a port for a second and return the Sample; ask a robot for its version."""
     is_usb = os.path.realpath(path).startswith(CONVERTERS)  # not a pseudo terminal
     has_rule = not is_usb or Path(FOLDER, NAME).exists()
     sampler = Sampler()
