@@ -6,8 +6,8 @@ import shutil
 import pytest
 
 from tutorial_testing.claims import claim
+from tutorial_tools.graph_dot import dot_text
 from tutorial_tools.ros import draw_graph
-from tutorial_tools.ros.draw_graph import dot_text
 
 pytestmark = claim("The graph has what talks, frames for machines, any name, four formats")
 TALK = (

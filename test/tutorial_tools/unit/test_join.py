@@ -4,9 +4,10 @@ import pytest
 
 from node_kit.rules.answer import Answer
 from tutorial_testing.claims import claim
+from tutorial_tools.classroom import check_robot
 from tutorial_tools.errors import JoinError
 from tutorial_tools.ros import join
-from tutorial_tools.ros.join import check_host, check_master, check_robot
+from tutorial_tools.ros.join import check_host, check_master
 
 pytestmark = claim("join refuses a host, a master and a robot in one line each")
 URI, OWN = "http://10.0.0.1:11311", "10.0.0.2"
@@ -64,18 +65,16 @@ def test_a_master_that_is_refused(answers, given, line):
         *((state, "robot_1", "does not answer as one of ROS") for state in NONSENSE),
     ],
 )
-def test_a_robot_that_is_refused(answers, state, name, line):
-    answers(state)
+def test_a_robot_that_is_refused(state, name, line):
     with pytest.raises(JoinError, match=line):
-        check_robot(URI, name)
+        check_robot(URI, state, name)
 
 
 def test_a_host_a_master_and_a_robot_that_are_free(answers):
     assert check_host("127.0.0.1:11999") == ("http://127.0.0.1:11999", "127.0.0.1")
     answers("6a5f-01")
     check_master(URI, OWN)
-    answers(STATE)
-    check_robot(URI, "robot_1")
+    check_robot(URI, STATE, "robot_1")
 
 
 @claim("A mistake in join's arguments is reported before the master is asked")

@@ -6,7 +6,8 @@ import pytest
 
 from tutorial_testing.claims import claim
 from tutorial_testing.processes import REPOSITORY
-from tutorial_tools.ros.rqt_bag import curves, main, svg
+from tutorial_tools.joystick_chart import curves, svg
+from tutorial_tools.ros.rqt_bag import main
 
 pytestmark = claim("rqt_bag draws what moves, and a damaged bag is one line")
 WHOLE = (REPOSITORY / "common/gamepad/bag/joy.bag").read_bytes()

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import re
 import sys
-from typing import Any
 
 import rospkg
 
@@ -13,21 +12,15 @@ from launch_kit.arguments import written_out
 from launch_kit.ros.launch_tree import checked
 from node_kit.ros.graph.ros_api import way_out
 from node_kit.rules.answer import Answer
+from tutorial_tools.classroom import START, check_robot, host_and_port
 from tutorial_tools.command.subcommands import fail, parser_of
-from tutorial_tools.doctor.facts import some
 from tutorial_tools.errors import JoinError
 from tutorial_tools.ros.doctor.network import addresses, call, is_called_back, is_here
-
-DEFAULT_PORT = 11311
-START = "has the teacher started classroom.launch?"
 
 
 def check_host(host: str) -> tuple[str, str]:
     """Return (the master's URI, this machine's address on the way there). Raises JoinError."""
-    found = re.fullmatch(r"([\w.-]+)(?::(\d{1,5}))?", host, re.ASCII)
-    if not found:
-        raise JoinError(f"{host}: must be a machine's name or address, such as 192.168.1.5[:11311]")
-    name, port = found[1], int(found[2] or DEFAULT_PORT)
+    name, port = host_and_port(host)
     known = addresses(name)
     if not known:
         raise JoinError(f"{name} cannot be looked up: write its address, or add it to /etc/hosts")
@@ -50,30 +43,6 @@ def check_master(uri: str, own: str) -> None:
         raise JoinError(f"the master {uri} has a /run_id that is no name: {ascii(value)[:60]}")
 
 
-def _topics(part: Any) -> dict[str, list[str]]:
-    """Return {topic: its nodes} of what a master answers. Raises ValueError, TypeError."""
-    for topic, nodes in part:
-        if not all(isinstance(name, str) and name.isprintable() for name in (topic, *nodes)):
-            raise ValueError
-    return dict(part)
-
-
-def check_robot(uri: str, name: str) -> None:
-    """Raise JoinError unless a robot of that name waits for a driver."""
-    _, state = call(uri, "getSystemState")
-    try:
-        publishers, subscribers, _ = map(_topics, state) if state is not None else ({}, {}, {})
-    except (TypeError, ValueError):
-        raise JoinError(f"the master {uri} does not answer as one of ROS") from None
-    robots = [topic.split("/")[1] for topic in subscribers if re.fullmatch(r"/\w+/cmd_vel", topic)]
-    if name not in robots:
-        there = f"there are {some(robots)}" if robots else f"no classroom runs there: {START}"
-        raise JoinError(f"{name} is not there; {there}")
-    drivers = publishers.get(f"/{name}/cmd_vel")
-    if drivers:
-        raise JoinError(f"{name} is driven already, by {some(drivers)}; take another robot")
-
-
 def main() -> None:
     """Check, then become roslaunch."""
     options = parser_of("join").parse_args()
@@ -85,7 +54,7 @@ def main() -> None:
             raise ValueError(f"name:={name}: the name is {options.name} already")
         uri, own = check_host(options.host)
         check_master(uri, own)
-        check_robot(uri, options.name)
+        check_robot(uri, call(uri, "getSystemState")[1], options.name)
     except ValueError as error:
         fail(f"join: {error}")
     except JoinError as error:
