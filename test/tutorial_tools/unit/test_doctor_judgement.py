@@ -9,7 +9,7 @@ import pytest
 
 from node_kit.rules.answer import Answer
 from tutorial_testing.claims import claim
-from tutorial_tools.doctor import connections, ends, judgement, links, transforms
+from tutorial_tools.doctor import connections, drive_chain, judgement, transforms, unmatched_topics
 from tutorial_tools.doctor.facts import Facts, Joystick, Mux, MuxInput, Node, Offset, Transform
 from tutorial_tools.doctor.judgement import judge
 
@@ -223,7 +223,7 @@ def test_no_way_leads_through_a_dead_node():
 @claim("Its README lists what is looked at")
 def test_the_readme_lists_what_is_looked_at():
     package = Path(judgement.__file__).resolve().parents[3]
-    modules = (judgement, connections, transforms, links, ends)
+    modules = (judgement, drive_chain, transforms, connections, unmatched_topics)
     source = "".join(Path(module.__file__).read_text() for module in modules)
     looked_at = set(re.findall(r'\b(?:ok|wrong|unknown)\("(\w+)"', source))
     section = (package / "README.md").read_text().split("## When nothing moves")[1].split("##")[0]

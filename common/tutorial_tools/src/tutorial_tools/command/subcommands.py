@@ -70,7 +70,7 @@ common/doc/TUTORIAL.md leads through it, section by section."""
 COMPLETION = """\
 _tutorial() {
     local IFS=$'\\n'
-    COMPREPLY=($("${COMP_SUBCOMMANDS[0]}" completion "${COMP_SUBCOMMANDS[@]:1:COMP_CWORD}" 2>/dev/null))
+    COMPREPLY=($("${COMP_WORDS[0]}" completion "${COMP_WORDS[@]:1:COMP_CWORD}" 2>/dev/null))
 }
 complete -o default -F _tutorial tutorial ./tutorial"""
 

@@ -1,4 +1,4 @@
-"""What the doctor has seen (collect.py), and a finding (judgement.py, way.py): data (pure)."""
+"""What the doctor examined (ros/doctor/collect.py), and what it reports of it: data."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def natural(name: str) -> list[tuple[int, str]]:
 
 
 def some(names: Iterable[str], between: str = ", ") -> str:
-    """Return names in their natural order; of many the first ones, and how many more."""
+    """Return names in their natural order; if there are many, the first ones and a count."""
     names = sorted(names, key=natural)
     more = [f"{len(names) - MOST_NAMES} more"] if len(names) > MOST_NAMES + 1 else []
     shown = names[:MOST_NAMES] if more else names
@@ -30,7 +30,7 @@ def some(names: Iterable[str], between: str = ", ") -> str:
 JOY = "sensor_msgs/Joy"
 TWIST = "geometry_msgs/Twist"
 OK, WRONG, UNKNOWN = "ok", "wrong", "unknown"
-DEAD = (Answer.REFUSED, Answer.STRANGE)  # a node exited, or another program has its port
+DEAD = (Answer.REFUSED, Answer.STRANGE)  # the node has exited, or another program has its port
 
 
 class Finding(NamedTuple):
@@ -42,7 +42,7 @@ class Finding(NamedTuple):
     todo: str = ""  # what to do
 
     def line(self) -> str:
-        """Return the finding as it is shown."""
+        """Return the finding as a line of output."""
         todo = f": {self.todo}" if self.todo else ""
         return f"{self.level:7}  {self.about:11}  {self.seen}{todo}"
 
@@ -53,15 +53,15 @@ unknown = partial(Finding, UNKNOWN)  # the doctor cannot judge this
 
 
 class Node(NamedTuple):
-    """A node as the master has it, and as it answers here."""
+    """A node as the master and the node itself describe it."""
 
     uri: str
     host: str
     answer: Answer
-    here: bool | None = True  # whether it runs on this machine; None: its name is not found
-    # Of every connection on which it sends: topic, and the name of the node that receives.
+    here: bool | None = True  # whether it runs on this machine; None: unknown address
+    # For every outgoing connection: its topic, and the name of the receiving node.
     links: list[tuple[str, str]] = []  # noqa: RUF012 (never changed)
-    sends: dict[str, str] = {}  # noqa: RUF012  by topic: the type, as the node itself has it
+    sends: dict[str, str] = {}  # noqa: RUF012  by topic: the type that the node uses
     takes: dict[str, str] = {}  # noqa: RUF012
 
 
@@ -70,11 +70,11 @@ class Stray(NamedTuple):
 
     name: str
     pid: int
-    master_uri: str = ""  # the one that it uses, if that is another one
+    master_uri: str = ""  # of its own master, if that is another one
 
 
 class Offset(NamedTuple):
-    """How much a host's clock is ahead of ours [s], by the stamps on a topic."""
+    """How far a host's clock is ahead of ours [s], by the stamps on a topic."""
 
     seconds: float
     topic: str
@@ -96,14 +96,14 @@ class Mux(NamedTuple):
 
 
 class Joystick(NamedTuple):
-    """A device file: why it cannot be opened (errno), or None."""
+    """A device file; error: the errno with which opening it fails, or None."""
 
     path: str
     error: int | None = None
 
 
 class Transform(NamedTuple):
-    """A frame as a node publishes it, and how old its stamp is at arrival [s]."""
+    """A transform that a node publishes, and how old its stamp is at arrival [s]."""
 
     node: str
     parent: str
@@ -113,7 +113,7 @@ class Transform(NamedTuple):
 
 @dataclass(frozen=True)
 class Facts:
-    """All that was seen. The defaults: a machine on which all is well and idle."""
+    """What was examined. The defaults describe an idle machine without faults."""
 
     # This machine. own_variable is "ROS_IP", "ROS_HOSTNAME" or "" (neither is set).
     master_uri: str = "http://localhost:11311"
@@ -121,7 +121,7 @@ class Facts:
     master_host: str = "localhost"
     master_here: bool = True
     own_variable: str = ""
-    own_name: str = "localhost"  # what the nodes of this machine say where they are
+    own_name: str = "localhost"  # the host name under which this machine's nodes register
     own_addresses: list[str] = field(default_factory=lambda: ["127.0.0.1"])
     own_is_here: bool = True  # whether that is this machine
     way_out: str = ""  # our address on the way to the master, if it is on another machine
@@ -135,14 +135,14 @@ class Facts:
     container: bool = False
     wsl: bool = False
     environment: list[tuple[str, str]] = field(default_factory=list)  # what is wrong, what to do
-    # The graph: by topic the names of nodes, and its type.
+    # The graph. publishers, subscribers: the names of nodes, by topic; types: also by topic.
     nodes: dict[str, Node] = field(default_factory=dict)
     publishers: dict[str, list[str]] = field(default_factory=dict)
     subscribers: dict[str, list[str]] = field(default_factory=dict)
     types: dict[str, str] = field(default_factory=dict)
     strays: list[Stray] = field(default_factory=list)
-    # Of senders that are not connected to a receiver of their type: (node, topic): md5 of the
-    # definition with which the node was built, and of that which this terminal has ("": none).
+    # For senders that are not connected to a receiver of their type, by topic and node: the md5 of
+    # the definition with which the node was built, and of this terminal's definition ("": none).
     definitions: dict[tuple[str, str], tuple[str, str]] = field(default_factory=dict)
     use_sim_time: bool = False
     clock_ticks: bool = False
@@ -161,20 +161,20 @@ class Facts:
 
     def kinds(self, topic: str, inwards: bool) -> dict[str, str]:
         """Return {node: type} of the receivers of a topic, or of its senders."""
-        found = {}
+        types = {}
         for name in (self.subscribers if inwards else self.publishers).get(topic, []):
             node = self.nodes.get(name)
             own = (node.takes if inwards else node.sends) if node else {}
-            # The master has one type for each topic: that of the last sender.
-            found[name] = own.get(topic) or self.types.get(topic, "")
-        return found
+            # The master has one type per topic: the last sender's.
+            types[name] = own.get(topic) or self.types.get(topic, "")
+        return types
 
     def users(self, topic: str, kind: str, inwards: bool) -> list[str]:
         """Return the receivers of a topic that want a type, or its senders."""
         return sorted(name for name, own in self.kinds(topic, inwards).items() if own == kind)
 
     def topics(self, kind: str) -> list[str]:
-        """Return the topics of a type that are in use; the master forgets no type."""
+        """Return the topics of a type that are in use; the master also lists past ones."""
         ends = (True, False)
         return [t for t in self.used() if any(self.users(t, kind, inwards) for inwards in ends)]
 
@@ -183,23 +183,23 @@ class Facts:
         return {name for name, node in self.nodes.items() if node.answer in DEAD}
 
     def senders(self, topic: str) -> list[str]:
-        """Return the publishers of a topic that live."""
+        """Return the publishers of a topic that have not died."""
         return sorted(set(self.publishers.get(topic, [])) - self.dead())
 
     def receivers(self, topic: str) -> list[str]:
-        """Return the subscribers of a topic that live."""
+        """Return the subscribers of a topic that have not died."""
         return sorted(set(self.subscribers.get(topic, [])) - self.dead())
 
     def converters(self) -> dict[str, tuple[list[str], list[str]]]:
-        """Return {node that turns a joystick into velocities: (its joys, its velocities)}."""
-        found: dict[str, tuple[list[str], list[str]]] = {}
+        """Return {node that turns a joystick into velocities: (its inputs, its outputs)}."""
+        nodes: dict[str, tuple[list[str], list[str]]] = {}
         for joy in self.topics(JOY):
             for node in self.users(joy, JOY, inwards=True):
                 sends = [t for t in self.topics(TWIST) if node in self.users(t, TWIST, False)]
                 if sends:
-                    inputs, _ = found.setdefault(node, ([], sends))
+                    inputs, _ = nodes.setdefault(node, ([], sends))
                     inputs.append(joy)
-        return found
+        return nodes
 
     def driven(self) -> list[str]:
         """Return the topics on which velocities go from a sender to a receiver."""
@@ -207,5 +207,5 @@ class Facts:
         return [t for t in every if self.users(t, TWIST, True) and self.living(t, TWIST)]
 
     def living(self, topic: str, kind: str) -> list[str]:
-        """Return the senders of a topic that live and send a type."""
+        """Return the senders of a topic that have not died and send a type."""
         return sorted({*self.users(topic, kind, inwards=False)} - self.dead())

@@ -1,4 +1,4 @@
-"""What the facts mean when nothing moves: a list of findings (pure)."""
+"""What the facts mean when nothing moves: a list of findings."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from collections.abc import Iterator
 
 from gamepad.driver.device_choice import explain
 from node_kit.rules.answer import Answer
-from tutorial_tools.doctor.connections import muxes, needs_driver, rivals, states, topics
-from tutorial_tools.doctor.ends import ends, is_empty
+from tutorial_tools.doctor.connections import types, unconnected
+from tutorial_tools.doctor.drive_chain import muxes, needs_driver, rivals, states, topics
 from tutorial_tools.doctor.facts import (
     DEAD,
     JOY,
@@ -21,35 +21,45 @@ from tutorial_tools.doctor.facts import (
     wrong,
 )
 from tutorial_tools.doctor.kobuki import kobukis
-from tutorial_tools.doctor.links import types, unconnected
 from tutorial_tools.doctor.transforms import transforms
+from tutorial_tools.doctor.unmatched_topics import is_empty, unmatched_topics
 
-# Clocks may differ by this much [s]: a tenth of a second of old transforms, or of a joystick
-# message that is refused for its age, goes unnoticed.
+# Clocks may differ by this much [s]: transforms that are a tenth of a second old do no harm, nor
+# are joystick messages of this age refused.
 CLOCK_TOLERANCE_S = 0.1
 RESTART = "and restart its nodes"
 
 
 def judge(facts: Facts) -> list[Finding]:
-    """Return all findings, in the order in which one would look for a cause."""
+    """Return all findings, in the order in which a person would look for the cause."""
     findings = [*environment(facts), *overlay(facts), *master(facts), *address(facts)]
     findings += strays(facts)
     if facts.master is Answer.WELL:
-        for check in (nodes, clocks, types, topics, unconnected, ends, muxes, rivals, states):
+        for check in (
+            nodes,
+            clocks,
+            types,
+            topics,
+            unconnected,
+            unmatched_topics,
+            muxes,
+            rivals,
+            states,
+        ):
             findings += check(facts)
         findings += transforms(facts)
     return [*findings, *joysticks(facts), *kobukis(facts)]
 
 
 def environment(facts: Facts) -> Iterator[Finding]:
-    """Judge what this terminal and the workspace have that keeps ROS 1 from starting."""
+    """Judge whether this terminal or the workspace keeps ROS 1 from starting."""
     yield from (wrong("environment", seen, todo) for seen, todo in facts.environment)
     if not facts.environment:
         yield ok("environment", "Python, em and the workspace are those of ROS 1 alone")
 
 
 def overlay(facts: Facts) -> Iterator[Finding]:
-    """Judge whose joy2twist would run."""
+    """Judge which joy2twist would run."""
     path, workspace = facts.joy2twist, facts.workspace
     for broken, why in facts.broken_manifests:
         todo = "fix that line or the one before; until then no ROS program starts"
@@ -121,7 +131,7 @@ def address(facts: Facts) -> Iterator[Finding]:
 
 
 def nodes(facts: Facts) -> Iterator[Finding]:
-    """Judge whether every node that is registered can be reached from here."""
+    """Judge whether every registered node can be reached from here."""
     alone = facts.master_here and all(node.here is not False for node in facts.nodes.values())
     export = f"on its machine export ROS_IP {RESTART}"
     bad = {name: node for name, node in facts.nodes.items() if node.answer is not Answer.WELL}
@@ -129,7 +139,7 @@ def nodes(facts: Facts) -> Iterator[Finding]:
         at = f"{name} at {node.uri}"
         local = node.host == "localhost" or node.host.startswith("127.")
         if local and not alone:
-            # Seen from another machine, this address belongs to another program.
+            # From another machine, this address leads to another program.
             bad[name] = node
             yield wrong("nodes", f"{at} can be reached from its own machine only", export)
         elif node.answer is Answer.UNKNOWN_NAME:
@@ -147,7 +157,7 @@ def nodes(facts: Facts) -> Iterator[Finding]:
 
 
 def strays(facts: Facts) -> Iterator[Finding]:
-    """Judge whether the nodes that run on this machine are registered with this master."""
+    """Judge whether the nodes on this machine are registered with this master."""
     lost = some(f"{stray.name} (process {stray.pid})" for stray in lost_nodes(facts))
     if lost:
         gone = "unknown to the master, which was restarted meanwhile"
@@ -161,12 +171,12 @@ def strays(facts: Facts) -> Iterator[Finding]:
 
 
 def lost_nodes(facts: Facts) -> list[Stray]:
-    """Return the nodes of this master that it does not know."""
+    """Return the nodes that use this master, which does not know them."""
     return [stray for stray in facts.strays if not stray.master_uri]
 
 
 def clocks(facts: Facts) -> Iterator[Finding]:
-    """Judge whether the clocks of the other machines agree with ours; or simulated time runs."""
+    """Judge whether the other machines' clocks agree with ours, or whether simulated time runs."""
     if facts.use_sim_time:
         yield ok("clocks", "/use_sim_time: all follow /clock")
         if not facts.clock_ticks:

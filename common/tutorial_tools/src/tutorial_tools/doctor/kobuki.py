@@ -1,4 +1,4 @@
-"""Judge the serial port of a real Kobuki and what comes from it (pure)."""
+"""Judge the serial port of a real Kobuki and what comes from it."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ TOO_FEW = 40  # packets within a second, of 50
 
 
 def kobukis(facts: Facts) -> Iterator[Finding]:
-    """Judge each driver that runs, or else each port; without these there is no line."""
+    """Judge the running drivers, or else the ports; return nothing if there are none."""
     for name, (is_alive, battery) in sorted(facts.bases.items()):
         if is_alive:
             yield ok(ABOUT, f"{name} drives a real one; its battery: {battery}")
@@ -66,7 +66,7 @@ def _charge(battery: Battery) -> str:
 
 
 def _said(line: str) -> str:
-    """Return the driver's line as one of the doctor, who does not wait."""
+    """Return the driver's line without its promise to wait."""
     for words in (f"; {port_advice.WAITING}", f" {port_advice.WAITING.capitalize()}"):
         line = line.replace(words, "")
     return line.rstrip(".")

@@ -28,7 +28,7 @@ def ask_master() -> tuple[Any, dict[str, str]]:
     nodes = {node for part in state for _, nodes in part for node in nodes}
     answers = {node: call(uri, "lookupNode", node) for node in nodes}
     # Without those that have exited meanwhile.
-    return state, {node: urlsplit(uri).hostname for node, (_, uri) in answers.items() if uri}
+    return state, {node: urlsplit(own).hostname for node, (_, own) in answers.items() if own}
 
 
 def picture(text: str, kind: str) -> bytes:

@@ -1,4 +1,4 @@
-"""Looks at this machine, the master and the nodes, and fills in Facts."""
+"""Examine this machine, the master and the nodes, and return Facts."""
 
 from __future__ import annotations
 
@@ -15,7 +15,6 @@ from typing import Any
 import rosgraph
 import rospkg
 from diagnostic_msgs.msg import DiagnosticStatus
-from kobuki_msgs.msg import SensorState
 from std_msgs.msg import String
 
 from gamepad.driver.container import in_container
@@ -26,9 +25,19 @@ from node_kit.manifests import broken_manifests
 from node_kit.message_types import message_class
 from node_kit.ros.graph.ros_api import TIMEOUT_S, way_out
 from node_kit.rules.answer import Answer
-from tutorial_tools.doctor.facts import JOY, Facts, Joystick, Mux, MuxInput, Node
-from tutorial_tools.doctor.links import cuts
-from tutorial_tools.doctor.transforms import TOPICS as TRANSFORM_TOPICS
+from tutorial_tools.doctor.connections import cuts
+from tutorial_tools.doctor.facts import Facts, Joystick, Mux, MuxInput, Node
+from tutorial_tools.doctor.requests import (
+    BRIDGE,
+    CLOCK,
+    DIAGNOSTICS,
+    active_topics,
+    for_clocks,
+    joystick_nodes,
+    kobuki_nodes,
+    reporters,
+    requests,
+)
 from tutorial_tools.hidden_stand_ins import hidden_stand_ins
 from tutorial_tools.io.environment import environment
 from tutorial_tools.paths import REPOSITORY, SHARE
@@ -44,20 +53,12 @@ from tutorial_tools.ros.doctor.messages import (
 )  # fmt: skip
 from tutorial_tools.ros.doctor.network import addresses, call, is_here
 
-# Frequent messages that begin with a Header: sequence number, stamp as two uint32 (s, ns).
-STAMPED = (
-    "diagnostic_msgs/DiagnosticArray", "nav_msgs/Odometry", "sensor_msgs/JointState", JOY,
-    "sensor_msgs/LaserScan",
-)  # fmt: skip
-STAMPED_TOPICS = 6  # per host
-STAMPED_MESSAGES = 20  # per topic; the fastest one counts
-BRIDGE = "/ros2_bridge"  # the node of ros2_bridge
 CONNECT_S = 2.0  # Nodes that have just started take this long to connect.
 LISTEN_S = 2.5  # /diagnostics comes once a second
 
 
 def collect() -> Facts:
-    """Return the Facts within some 15 s, even if the network is broken."""
+    """Return the Facts within about 15 s, even if the network is broken."""
     uri = rosgraph.get_master_uri()
     facts = {"master_uri": uri, "called_back": None, **this_machine()}
     try:
@@ -66,12 +67,12 @@ def collect() -> Facts:
         host = ""
     if not host or not uri.startswith("http://"):
         return Facts(**facts, master=Answer.MALFORMED)
-    found = addresses(host)
-    facts.update(master_host=host, master_here=all(map(is_here, found)))
-    if not found:
+    known_addresses = addresses(host)
+    facts.update(master_host=host, master_here=all(map(is_here, known_addresses)))
+    if not known_addresses:
         return Facts(**facts, master=Answer.UNKNOWN_NAME)
     if not facts["master_here"]:
-        facts["way_out"] = way_out(found[0])
+        facts["way_out"] = way_out(known_addresses[0])
     facts["master"], _ = call(uri, "getPid")
     if facts["master"] not in (Answer.WELL, Answer.REFUSED):
         return Facts(**facts)  # Each further call would wait for its timeout.
@@ -85,15 +86,15 @@ def collect() -> Facts:
 
 
 def this_machine() -> dict[str, Any]:
-    """Return what can be seen without a network."""
+    """Return what needs no network."""
     set_variables = [name for name in ("ROS_HOSTNAME", "ROS_IP") if os.environ.get(name)]
-    with contextlib.redirect_stderr(io.StringIO()):  # it comments on a variable that is empty
+    with contextlib.redirect_stderr(io.StringIO()):  # it warns of an empty variable
         own_name = rosgraph.network.get_host_name()
     own_addresses = addresses(own_name)
     folders = os.environ.get("ROS_PACKAGE_PATH", "").split(":")
     own = [folder for folder in folders if folder and not folder.startswith(("/usr/", "/opt/"))]
     joy2twist, workspace = "", os.environ.get("TUTORIAL_IN", "")
-    with contextlib.suppress(Exception):  # not found, or an error of a broken package.xml
+    with contextlib.suppress(Exception):  # not found, or a package.xml is broken
         joy2twist = os.path.realpath(rospkg.RosPack().get_path("joy2twist"))
     return {
         "own_variable": set_variables[0] if set_variables else "",
@@ -125,7 +126,7 @@ def kobukis() -> list[Sample]:
 def joystick(path: str) -> Joystick:
     """Return whether a device can be opened."""
     try:
-        # Not a FIFO: virtual_joystick has one reader, and to open it is to read it.
+        # Not a FIFO of virtual_joystick: opening it would take it from its only reader.
         if not stat.S_ISFIFO(os.stat(path).st_mode):
             os.close(os.open(path, os.O_RDONLY | os.O_NONBLOCK))
     except OSError as error:
@@ -134,7 +135,7 @@ def joystick(path: str) -> Joystick:
 
 
 def graph(uri: str, joysticks: list[Joystick]) -> dict[str, Any]:
-    """Return what the master and the nodes answer, by the names of Facts; add their joysticks."""
+    """Return what the master and the nodes answer, as fields of Facts; add their joysticks."""
     publishers, subscribers, services = call(uri, "getSystemState")[1] or ([], [], [])
     state = [*publishers, *subscribers, *services]
     names = {name for _, users in state for name in users if name != network.CALLER}
@@ -148,7 +149,9 @@ def graph(uri: str, joysticks: list[Joystick]) -> dict[str, Any]:
     }
     facts.update(settled(uri, Facts(**facts)))
     known = Facts(**facts)
-    devices = [parameter(uri, f"{node}/dev") for node in drivers(known) if known.nodes[node].here]
+    devices = [
+        parameter(uri, f"{node}/dev") for node in joystick_nodes(known) if known.nodes[node].here
+    ]
     there = {joystick.path for joystick in joysticks}
     paths = {device for device in devices if isinstance(device, str)}
     joysticks += [joystick(path) for path in sorted(paths - there)]
@@ -156,14 +159,14 @@ def graph(uri: str, joysticks: list[Joystick]) -> dict[str, Any]:
 
 
 def settled(uri: str, facts: Facts) -> dict[str, Any]:
-    """Return the nodes, once those that have just started are connected, and the definitions."""
+    """Wait for new nodes to connect; return the nodes and the definitions, as fields of Facts."""
     end = time.monotonic() + CONNECT_S
     while cuts(facts) and time.monotonic() < end:
-        time.sleep(0.2)  # between two questions
+        time.sleep(0.2)
         names = {name for cut in cuts(facts) for name in (cut.sender, cut.receiver)}
         seen = network.at_once(lambda name: look_at(uri, name), names, 2 * TIMEOUT_S + 1)
         rest = {name: node for name, node in facts.nodes.items() if name not in names}
-        now = {name: node for name, node in seen.items() if node}  # the others have left
+        now = {name: node for name, node in seen.items() if node}  # the others have exited
         facts = replace(facts, nodes={**rest, **now})
     definitions = {}
     for topic, sender, _ in cuts(facts):
@@ -173,14 +176,8 @@ def settled(uri: str, facts: Facts) -> dict[str, Any]:
     return {"nodes": facts.nodes, "definitions": definitions}
 
 
-def drivers(facts: Facts) -> set[str]:
-    """Return the nodes that publish joysticks."""
-    names = {name for joy in facts.topics(JOY) for name in facts.publishers.get(joy, [])}
-    return names & set(facts.nodes)
-
-
 def look_at(uri: str, name: str) -> Node | None:
-    """Return the Node of a name, or None if it has just left."""
+    """Return the Node of a name, or None if it has just exited."""
     answer, node_uri = call(uri, "lookupNode", name)
     if answer is not Answer.WELL:
         return None
@@ -188,15 +185,15 @@ def look_at(uri: str, name: str) -> Node | None:
         host, _ = rosgraph.network.parse_http_host_and_port(node_uri)
     except ValueError:
         return Node(node_uri, "?", Answer.STRANGE, None)
-    found = addresses(host)
-    if not found:
+    known_addresses = addresses(host)
+    if not known_addresses:
         return Node(node_uri, host, Answer.UNKNOWN_NAME, None)
     answer, links = call(node_uri, "getBusInfo")  # id, peer, direction, transport, topic
-    # Those on which it sends: rospy lists what it receives before it is connected.
+    # Only outgoing links: rospy lists incoming ones before they are connected.
     ends = [(link[4], link[1]) for link in links or [] if link[2] != "i"]
     columns = ("getPublications", "getSubscriptions") if answer is Answer.WELL else ()
     sends, takes = [dict(call(node_uri, column)[1] or []) for column in columns] or ({}, {})
-    return Node(node_uri, host, answer, all(map(is_here, found)), ends, sends, takes)
+    return Node(node_uri, host, answer, all(map(is_here, known_addresses)), ends, sends, takes)
 
 
 def parameter(uri: str, name: str) -> Any:
@@ -205,38 +202,24 @@ def parameter(uri: str, name: str) -> Any:
 
 
 def heard(uri: str, facts: Facts) -> dict[str, Any]:
-    """Return what arrives on topics: clocks, simulated time, multiplexers, states."""
-    active = [topic for topic in facts.topics(String._type) if topic.endswith("/active")]
-    far: dict[str, list[tuple[str, str, int]]] = {}  # host: (node, topic, number of messages)
-    stamped = [topic for kind in STAMPED for topic in facts.topics(kind)]
-    well = {name: node for name, node in facts.nodes.items() if node.answer is Answer.WELL}
-    for name, node in well.items():
-        if node.here is False:
-            sent = [topic for topic in stamped if name in facts.publishers.get(topic, [])]
-            far.setdefault(node.host, []).extend((name, t, STAMPED_MESSAGES) for t in sent)
-    far = {host: jobs[:STAMPED_TOPICS] for host, jobs in far.items()}
-    bases = {name for topic in facts.topics(SensorState._type) for name in facts.senders(topic)}
-    speakers = {*facts.converters(), *drivers(facts), *bases, *({BRIDGE} & set(well))}
-    jobs = [job for several in far.values() for job in several]
-    jobs += [(name, "/diagnostics", 1) for name in speakers]
-    for topic in (*active, "/clock"):
-        jobs += [(name, topic, 1) for name in facts.publishers.get(topic, [])[:1]]
-    for topic in TRANSFORM_TOPICS:
-        jobs += [(name, topic, STAMPED_MESSAGES) for name in facts.senders(topic)]
+    """Return what arrives on topics, as fields of Facts."""
     came = network.at_once(
-        lambda job: network.listen(well[job[0]].uri, job[1], LISTEN_S, job[2]),
-        [job for job in jobs if job[0] in well],
+        lambda request: network.listen(
+            facts.nodes[request.node].uri, request.topic, LISTEN_S, request.most
+        ),
+        requests(facts),
         LISTEN_S + TIMEOUT_S,
     )
-    of = {(name, topic): messages for (name, topic, _), messages in came.items()}
+    of = {(request.node, request.topic): messages for request, messages in came.items()}
     on = {topic: messages for (_, topic), messages in of.items()}
-    said = {name: statuses(of.get((name, "/diagnostics"), [])) for name in speakers}
+    said = {name: statuses(of.get((name, DIAGNOSTICS), [])) for name in reporters(facts)}
+    active = active_topics(facts)
     names = [topic[: -len("/active")] for topic in active if facts.publishers.get(topic)]
     return {
-        "clock_ticks": bool(on.get("/clock")),
+        "clock_ticks": bool(on.get(CLOCK)),
         "clocks": {
-            host: nearest([offset(topic, of.get((name, topic), [])) for name, topic, _ in several])
-            for host, several in far.items()
+            host: nearest([offset(topic, of.get((name, topic), [])) for name, topic, _ in needed])
+            for host, needed in for_clocks(facts).items()
         },
         "transforms": transforms_in(of),
         "muxes": {name: mux(uri, name, on.get(f"{name}/active", [])) for name in names},
@@ -246,13 +229,13 @@ def heard(uri: str, facts: Facts) -> dict[str, Any]:
             for status in said[name]
             if status.name == f"{name.strip('/')}: joystick"
         },
-        "bases": dict(filter(None, (base(name, said[name]) for name in bases))),
+        "bases": dict(filter(None, (base(name, said[name]) for name in kobuki_nodes(facts)))),
         "bridge": [
             (status.level == DiagnosticStatus.OK, status.message) for status in said.get(BRIDGE, [])
         ],
         "silent_s": {
             name: float(pair.value)
-            for name in drivers(facts)
+            for name in joystick_nodes(facts)
             for status in said[name]
             for pair in status.values
             if pair.key == SILENT_FOR and pair.value.replace(".", "", 1).isdigit()
@@ -261,7 +244,7 @@ def heard(uri: str, facts: Facts) -> dict[str, Any]:
 
 
 def mux(uri: str, name: str, messages: Messages) -> Mux:
-    """Return a Mux, by its latched topic and, where they are on the server, its parameters."""
+    """Return a Mux from its latched topic and, if the server has them, its parameters."""
     said = [decode(String, data) for _, data in messages]
     inputs = []
     with contextlib.suppress(TypeError, KeyError):  # a multiplexer of another kind

@@ -1,7 +1,7 @@
-"""Judge the topics that have senders alone, or receivers alone (pure).
+"""Judge the topics that have only senders or only receivers.
 
-Most are as they should be: a robot reports more than is watched, and takes more commands than are
-sent. What may be a mistake is one line for senders and one for receivers.
+Most of them are no mistake: a robot reports more than is watched, and takes more commands than are
+sent. The rest is at most one line for senders and one for receivers.
 """
 
 from __future__ import annotations
@@ -12,30 +12,30 @@ from collections.abc import Iterator
 
 from tutorial_tools.doctor.facts import JOY, TWIST, Facts, Finding, some, unknown, wrong
 
-# Nodes whose topics are their user's choice: they draw, record, play or carry what is there.
+# Nodes that show, record, play or carry whatever topics there are.
 TOOLS = re.compile(
     r".*/(rosout|rviz\w*|rqt\w*|\w*cockpit\w*|rosbridge\w*|rosapi\w*|foxglove_bridge|ros2_bridge"
     r"|rosbag\w*|record_\d+|play_\d+)"
 )
 PLAYERS = re.compile(r".*/(rosbag\w*|play_\d+)")
-# Types that report: nobody needs to listen.
+# Types of reports, which need no receiver.
 REPORTS = re.compile(
     r"(rosgraph_msgs|diagnostic_msgs|tf2?_msgs|nav_msgs|map_msgs|sensor_msgs|stereo_msgs|turtlesim"
     r"|visualization_msgs|kobuki_msgs|arbotix_msgs|dynamic_reconfigure|bond|smart_battery_msgs)/.*"
     r"|actionlib_msgs/GoalStatusArray|.*Action(Result|Feedback)"
 )
-# Of a multiplexer, and of a driver.
+# Topics of reports: of a multiplexer, and of a driver.
 REPORTING = re.compile(r".*/(active|debug/.*)")
-# Topics and types that wait: nobody needs to send.
+# Topics and types of optional commands, which need no sender.
 WAITS = re.compile(
     r".*/(commands/.*|input/.*|initialpose|goal|cancel|clicked_point|reset\w*|enable|disable"
     r"|press)"
 )
 WAITING = re.compile(r"actionlib_msgs/GoalID|.*ActionGoal|(rosgraph_msgs|tf2?_msgs|bond)/.*")
-ALIKE = 0.8  # The least likeness of a name and its misspelling.
+ALIKE = 0.8  # A name and its misspelling are at least so similar.
 
 
-def ends(facts: Facts) -> Iterator[Finding]:
+def unmatched_topics(facts: Facts) -> Iterator[Finding]:
     """Judge the topics that lack one end."""
     sent, wanted = _open(facts, inwards=False), _open(facts, inwards=True)
     theirs = {topic for _, sends in facts.converters().values() for topic in sends}
@@ -46,7 +46,10 @@ def ends(facts: Facts) -> Iterator[Finding]:
         yield wrong("topics", f"{seen}, which {nodes[1]} wants", todo)
         del sent[topic]
         wanted.pop(other, None)
-    quiet = {*theirs, *(() if facts.driven() else facts.topics(JOY))}  # way.py reports these
+    quiet = {
+        *theirs,
+        *(() if facts.driven() else facts.topics(JOY)),
+    }  # drive_chain.py reports these
     loud = {t: nodes for t, nodes in sent.items() if t not in quiet and not _reports(facts, t)}
     missed = {t: nodes for t, nodes in wanted.items() if not _waits(facts, t)}
     if loud:
@@ -58,7 +61,7 @@ def ends(facts: Facts) -> Iterator[Finding]:
 
 
 def pairs(facts: Facts) -> list[tuple[str, str]]:
-    """Return [(topic without receivers, topic without senders)] that probably mean each other."""
+    """Return [(topic without receivers, topic without senders)] that were probably meant as one."""
     sent, wanted = _open(facts, inwards=False), _open(facts, inwards=True)
     theirs = {topic for _, sends in facts.converters().values() for topic in sends}
     likely = []
@@ -66,7 +69,7 @@ def pairs(facts: Facts) -> list[tuple[str, str]]:
         kind = _kind(facts, topic)
         others = [other for other in sorted(wanted) if not {*wanted[other]} & {*sent[topic]}]
         same = [other for other in others if kind and _kind(facts, other) == kind]
-        # The other inputs of a multiplexer are not for people.
+        # A multiplexer's other inputs are for programs.
         same = [other for other in same if other.endswith("/input/teleop")] or same
         near = max(same, key=lambda other: _likeness(topic, other), default="")
         alike = near and (kind == TWIST or _likeness(topic, near) >= ALIKE)
@@ -82,17 +85,17 @@ def plays_a_bag(facts: Facts) -> list[str]:
 
 
 def is_empty(facts: Facts) -> bool:
-    """Return whether no node does anything."""
+    """Return whether only tools run, and none plays a recording."""
     return all(map(is_tool, facts.nodes)) and not plays_a_bag(facts)
 
 
 def is_tool(name: str) -> bool:
-    """Return whether a node has no part in what the others do."""
+    """Return whether a node only observes or records."""
     return bool(TOOLS.fullmatch(name))
 
 
 def _open(facts: Facts, inwards: bool) -> dict[str, list[str]]:
-    """Return {topic without another end: its nodes that are no tools}."""
+    """Return {topic that lacks the other end: its nodes except tools}."""
     near, far = facts.receivers, facts.senders
     if not inwards:
         near, far = far, near
@@ -112,8 +115,8 @@ def _reports(facts: Facts, topic: str) -> bool:
 
 def _waits(facts: Facts, topic: str) -> bool:
     kind = _kind(facts, topic)
-    is_of_way = kind in (JOY, TWIST)  # way.py reports these
-    return is_of_way or bool(WAITS.fullmatch(topic) or WAITING.fullmatch(kind))
+    in_chain = kind in (JOY, TWIST)  # drive_chain.py reports these
+    return in_chain or bool(WAITS.fullmatch(topic) or WAITING.fullmatch(kind))
 
 
 def _likeness(topic: str, other: str) -> float:
