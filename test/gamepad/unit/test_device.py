@@ -7,7 +7,6 @@ from types import SimpleNamespace
 
 import pytest
 
-from gamepad.driver.container import INITIAL, in_container
 from gamepad.driver.parameters import load
 from gamepad.errors import DeviceError
 from gamepad.io.device import Finder
@@ -55,22 +54,3 @@ def test_a_plain_file_is_read_once_until_it_changes(tmp_path):
         device.close()
         with pytest.raises(DeviceError, match="read to its end"):
             finder.open()
-
-
-@pytest.mark.parametrize(
-    ("marked", "own", "container"),
-    [
-        (True, "pid", True),
-        (True, "none", False),  # a virtual machine made from a container's image
-        (True, "all", True),  # a kernel without namespaces
-        (False, "pid", False),  # a sandbox, such as the checker's
-    ],
-)
-def test_a_container_has_a_mark_and_a_namespace_of_its_own(tmp_path, marked, own, container):
-    folder = tmp_path / "proc" / "self" / "ns"
-    folder.mkdir(parents=True)
-    for kind, number in INITIAL.items() if own != "all" else ():
-        (folder / kind).symlink_to(f"{kind}:[{4026532000 if kind == own else number}]")
-    if marked:
-        (tmp_path / ".dockerenv").touch()
-    assert in_container(str(tmp_path)) is container

@@ -10,11 +10,11 @@ import os
 import stat
 from pathlib import Path
 
-from gamepad.driver.container import in_container
 from gamepad.driver.device_choice import check_trust, choose_by_name, explain
 from gamepad.errors import DeviceError
 from gamepad.gamepads import trigger_axes
 from gamepad.js_event import EVENT_BYTES
+from node_kit.io.machine import in_container, in_wsl
 
 # linux/joystick.h
 _JSIOCGAXES = 0x80016A11  # number of axes (u8)
@@ -153,5 +153,4 @@ def _open(path: str) -> JoystickDevice:
     try:
         return JoystickDevice(path)
     except OSError as error:
-        wsl = "microsoft" in os.uname().release.lower()
-        raise DeviceError(explain(path, error.errno or 0, in_container(), wsl)) from None
+        raise DeviceError(explain(path, error.errno or 0, in_container(), in_wsl())) from None

@@ -16,6 +16,7 @@ import sys
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
+from node_kit.io.machine import in_container
 from node_kit.manifests import broken_manifests, manifests
 from tutorial_tools.command.build_errors import first_errors
 from tutorial_tools.command.requirements import names_of
@@ -143,7 +144,7 @@ def _of_another(student: Path) -> str:
     if owner is None or owner.st_uid == os.geteuid():
         return ""
     why = f"belongs to user {owner.st_uid}, and you are {os.geteuid()}: choose a folder of yours"
-    if Path("/.dockerenv").exists():  # Docker's own, in each of its containers
+    if in_container():
         why += f", or, before docker compose: export STUDENT={owner.st_uid}:{owner.st_gid}"
     return why
 

@@ -17,10 +17,10 @@ import rospkg
 from diagnostic_msgs.msg import DiagnosticStatus
 from std_msgs.msg import String
 
-from gamepad.driver.container import in_container
 from gamepad.driver.report import SILENT_FOR
 from kobuki_driver.choice import USUAL_PORT
 from kobuki_driver.link.sample import Sample
+from node_kit.io.machine import in_container, in_wsl
 from node_kit.manifests import broken_manifests
 from node_kit.message_types import message_class
 from node_kit.ros.graph.ros_api import TIMEOUT_S, way_out
@@ -109,7 +109,7 @@ def this_machine() -> dict[str, Any]:
         "joy2twist": joy2twist,
         "container": in_container(),
         "environment": environment(workspace),
-        "wsl": "microsoft" in os.uname().release.lower(),
+        "wsl": in_wsl(),
     }
 
 

@@ -1,4 +1,4 @@
-"""Whether this runs in a container."""
+"""What kind of machine this is: a container, Linux in Windows."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ INITIAL = {"cgroup": 0xEFFFFFFB, "pid": 0xEFFFFFFC, "uts": 0xEFFFFFFE, "ipc": 0x
 
 
 def in_container(root: str = "/") -> bool:
-    """Whether an engine's mark is there, and a namespace is not the machine's own.
+    """Return whether an engine's mark is there, and a namespace is not the machine's own.
 
     The mark alone is no proof: a virtual machine made from a container's image keeps it.
     """
@@ -22,3 +22,8 @@ def in_container(root: str = "/") -> bool:
         return any(os.readlink(folder / kind) != f"{kind}:[{n}]" for kind, n in INITIAL.items())
     except OSError:
         return True  # a kernel without one of them
+
+
+def in_wsl() -> bool:
+    """Return whether this is the Windows Subsystem for Linux, whose kernel has Microsoft's name."""
+    return "microsoft" in os.uname().release.lower()
