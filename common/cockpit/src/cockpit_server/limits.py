@@ -28,7 +28,7 @@ REQUESTS_DEBT_S = MOST_CONNECTIONS * REQUEST_S
 
 
 class Budget:
-    """Time that refills at SHARE, up to burst_s; costs are known afterwards, so there may be debt."""
+    """Time that refills at SHARE, up to burst_s. Costs are known afterwards: there may be debt."""
 
     def __init__(self, burst_s: float, cost_s: float, most_debt_s: float = inf) -> None:
         """most_debt_s: the limit for the cost of all actions that wait."""
