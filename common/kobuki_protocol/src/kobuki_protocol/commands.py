@@ -101,7 +101,7 @@ class Outputs(PackedPart):
 
 @dataclass(frozen=True)
 class SetController:
-    """The gains that the Kobuki shall use; firmware 1.2 and newer obeys."""
+    """The gains for the Kobuki; firmware 1.2 and newer obeys."""
 
     ID: ClassVar[int] = 13
     wanted: Controller

@@ -106,7 +106,7 @@ def _end_of_packet(data: bytearray, start: int) -> int:
 
 
 def _end_of_parts(data: bytearray, position: int, stop: int) -> int:
-    """Return the end of the last part that has begun: stop if the parts fill the payload.
+    """Return the end of the last part that has started: stop if the parts fill the payload.
 
     It is less if bytes are missing, and more if the parts do not fit.
     """

@@ -41,7 +41,7 @@ HERE = PublishingNode()
 
 
 class BacklogFilter:
-    """Tells the commands that a broken network delayed from those of a slow publisher.
+    """Distinguishes commands delayed by a broken network from those of a slow publisher.
 
     While a cable is unplugged, TCP keeps what is sent and delivers all of it once the cable is
     back. A Twist has no stamp, but several such commands arrive at once, after a silence of more

@@ -100,7 +100,7 @@ def damaged(path: str, count: int) -> str:
 
 
 def online(path: str) -> str:
-    """Return the line for a robot whose packets have begun to come."""
+    """Return the line for a robot whose packets come."""
     return (
         f"the Kobuki at {path} is online. Just switched on? Leave it still for 3 s and send "
         "nothing: its gyro starts, and the heading is wrong if it moves"

@@ -14,6 +14,7 @@ from kobuki_protocol.identity import (
     UniqueId,
 )
 
+FIRMWARE_PAGE = "https://kobuki.readthedocs.io/en/devel/firmware.html"
 ASK_S = 0.1  # between two requests, within PATIENCE_S
 PATIENCE_S = 2.0  # without an answer for this long, the firmware counts as supported
 ASK_LATER_S = 5.0  # between two requests after that
@@ -81,11 +82,11 @@ class Identification:
                 else "look for a newer driver"
             )
             return (
-                f"firmware {self.firmware}: this driver supports only {SUPPORTED_MAJOR}.x, and does "
-                f"not drive the robot; {what} (https://kobuki.readthedocs.io/en/devel/firmware.html)"
+                f"firmware {self.firmware}: this driver supports only {SUPPORTED_MAJOR}.x, and "
+                f"does not drive the robot; {what} ({FIRMWARE_PAGE})"
             )
         newer = ".".join(map(str, RECOMMENDED))
         return (
             f"firmware {self.firmware} is supported; {newer} or newer is recommended "
-            "(https://kobuki.readthedocs.io/en/devel/firmware.html)"
+            f"({FIRMWARE_PAGE})"
         )

@@ -59,7 +59,7 @@ def _drive(port: str) -> int:
 
 
 def _simulate() -> int:
-    from fake_turtlebot_sim.ros.fake_turtlebot_node import main as simulate  # noqa: PLC0415 (one of two)
+    from fake_turtlebot_sim.ros.fake_turtlebot_node import main as simulate  # noqa: PLC0415
 
     _forget(set(declared(KobukiParameters)) - set(declared(SimulatorParameters)))
     return simulate()
