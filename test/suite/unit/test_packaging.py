@@ -5,6 +5,7 @@ import re
 import subprocess
 import sys
 import sysconfig
+from collections import Counter
 from importlib.util import find_spec
 from pathlib import Path
 from xml.etree import ElementTree
@@ -48,6 +49,7 @@ FOLDERS = (*(f"{root}/src" for root in ROOTS), "test/support")
 SOURCES = [path for folder in FOLDERS for path in REPOSITORY.glob(f"{folder}/**/*.py")]
 SCRIPTS = [*REPOSITORY.glob("*/scripts/*"), *REPOSITORY.glob("common/*/scripts/*")]
 SCRIPTS = [path for path in SCRIPTS if path.is_file()]
+MOST_VAGUE_NAMES = 150  # variables and parameters
 # Import name -> the name in package.xml, where they differ.
 DEBIAN = {
     "cockpit_server": "cockpit", "joy_to_twist": "joy2twist", "kobuki_driver": "kobuki_node",
@@ -92,6 +94,17 @@ def test_a_file_is_read_in_five_minutes_and_a_script_only_starts_its_program(pat
     is_start = path in SCRIPTS and path.parts[-3] != "beginner_tutorials"
     most = 20 if is_start else 300
     assert len(path.read_text(encoding="utf-8").splitlines()) <= most
+
+
+def test_class_names_are_unique_and_variables_are_nouns():
+    """NewJoy2Twist is the handout's class, once for ROS 1 and once for ROS 2."""
+    paths = [*SOURCES, *REPOSITORY.glob("*/scripts/**/*.py")]
+    nodes = [node for path in paths for node in ast.walk(ast.parse(path.read_text("utf-8")))]
+    classes = Counter(node.name for node in nodes if isinstance(node, ast.ClassDef))
+    shared = {name for name, count in classes.items() if count > 1 and name[0] != "_"}
+    assert shared <= {"NewJoy2Twist"}
+    names = [getattr(node, "id", getattr(node, "arg", "")) for node in nodes]
+    assert sum(name in ("one", "each", "found") for name in names) <= MOST_VAGUE_NAMES
 
 
 def test_no_class_of_the_checker_has_more_than_twelve_attributes():
