@@ -45,8 +45,15 @@ def folders(kinds, package="*"):
     return [path.relative_to(TESTS.parent) for path in paths]
 
 
+def within(argument, kinds):
+    """Return the folders of some kinds in a folder such as test/gamepad, or else the argument."""
+    folder = Path(argument)
+    return folders(kinds, folder.name) if folder.parent == Path("test") else [argument]
+
+
 def tests(kinds, given, *options, package="*", cache=""):
     """Run pytest on the folders of some kinds, or on what is named in them; it notes what fails."""
+    given = [path for argument in given for path in within(argument, kinds)]
     is_named = any(Path(argument).parts[:1] == ("test",) for argument in given)
     where = [] if is_named else folders(kinds, package)
     noted = ["-o", f"cache_dir={CACHES / (cache or kinds)}"]

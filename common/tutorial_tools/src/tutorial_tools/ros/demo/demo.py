@@ -25,7 +25,7 @@ from node_kit.ros.graph.ros_api import accepts, call
 from node_kit.rules.answer import Answer
 from tutorial_tools.command.subcommands import fail, parser_of
 from tutorial_tools.ros.cockpit_page import address
-from tutorial_tools.ros.demo.running_launch import ENDING, TOPICS, DemoError, Launch
+from tutorial_tools.ros.demo.running_launch import ENDING, TOPICS, DemoError, DemoLaunch
 
 PAGE_TIMEOUT_S = 5.0  # tornado and rospy load on a slow and busy machine, too
 WITHOUT_SCREEN = "there is no screen (DISPLAY is not set), so RViz is left out; to see it drive, "
@@ -95,7 +95,7 @@ def main() -> None:
         with_rviz = values["rviz"].lower() in ("true", "1")
         check_master(nodes)
         command = ["roslaunch", launch_file, *arguments]
-        with claim_master(), Launch(command, nodes) as launch:
+        with claim_master(), DemoLaunch(command, nodes) as launch:
             launch.wait_for_odometry()
             print(f"demo: first /odom after {time.monotonic() - began_s:.1f} s", flush=True)
             given = any(argument.startswith("rviz:=") for argument in options.arguments)

@@ -30,7 +30,7 @@ class DemoError(Exception):
     """What keeps the demonstration from starting or from driving, in one line for the user."""
 
 
-class Launch:
+class DemoLaunch:
     """A launch that runs, with a DriveReport of it; leaving the context ends it as Ctrl-C does."""
 
     def __init__(self, command: list[str], nodes: Iterable[str]) -> None:
@@ -41,7 +41,7 @@ class Launch:
         # In a session of its own: Ctrl-C in a terminal must not reach it before it is complete.
         self._process = subprocess.Popen(command, start_new_session=True)
 
-    def __enter__(self) -> Launch:
+    def __enter__(self) -> DemoLaunch:
         return self
 
     def __exit__(self, *_: object) -> None:
