@@ -19,7 +19,7 @@ BRIDGE = "/ros2_bridge"  # the node of ros2_bridge
 DIAGNOSTICS, CLOCK = "/diagnostics", "/clock"
 
 
-class Request(NamedTuple):
+class TopicRequest(NamedTuple):
     """The messages that are needed from a node."""
 
     node: str
@@ -27,26 +27,26 @@ class Request(NamedTuple):
     most: int = 1  # messages
 
 
-def requests(facts: Facts) -> list[Request]:
+def requests(facts: Facts) -> list[TopicRequest]:
     """Return all that is needed from the nodes that answer."""
     needed = [request for host in for_clocks(facts).values() for request in host]
-    needed += [Request(name, DIAGNOSTICS) for name in reporters(facts)]
+    needed += [TopicRequest(name, DIAGNOSTICS) for name in reporters(facts)]
     for topic in (*active_topics(facts), CLOCK):
-        needed += [Request(name, topic) for name in facts.publishers.get(topic, [])[:1]]
+        needed += [TopicRequest(name, topic) for name in facts.publishers.get(topic, [])[:1]]
     for topic in TRANSFORM_TOPICS:
-        needed += [Request(name, topic, STAMPED_MESSAGES) for name in facts.senders(topic)]
+        needed += [TopicRequest(name, topic, STAMPED_MESSAGES) for name in facts.senders(topic)]
     return [request for request in needed if _answers(facts, request.node)]
 
 
-def for_clocks(facts: Facts) -> dict[str, list[Request]]:
+def for_clocks(facts: Facts) -> dict[str, list[TopicRequest]]:
     """Return by host the requests that show its clock; only for other machines."""
     stamped = [topic for kind in STAMPED for topic in facts.topics(kind)]
-    needed: dict[str, list[Request]] = {}
+    needed: dict[str, list[TopicRequest]] = {}
     for name, node in facts.nodes.items():
         if _answers(facts, name) and node.here is False:
             sent = [topic for topic in stamped if name in facts.publishers.get(topic, [])]
             host = needed.setdefault(node.host, [])
-            host += [Request(name, topic, STAMPED_MESSAGES) for topic in sent]
+            host += [TopicRequest(name, topic, STAMPED_MESSAGES) for topic in sent]
     return {host: of_host[:STAMPED_TOPICS] for host, of_host in needed.items()}
 
 
