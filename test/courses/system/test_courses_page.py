@@ -52,13 +52,10 @@ def test_a_right_program_passes(report):
     assert code == 0 and "ok     G1  it greets by the name in ~name" in text, text
 
 
-@pytest.mark.parametrize(
-    ("changed", "words"),
-    [
-        (PROGRAM.replace("+ name", "+ 'you'"), ("hello you", "greeter.py:5", "~name")),
-        (PROGRAM.replace("rospy.spin", "rospy.spni"), ("greeter.py:8", "has no attribute 'spni'")),
-    ],
-)
+@pytest.mark.parametrize(("changed", "words"), [
+    (PROGRAM.replace("+ name", "+ 'you'"), ("hello you", "greeter.py:5", "~name")),
+    (PROGRAM.replace("rospy.spin", "rospy.spni"), ("greeter.py:8", "has no attribute 'spni'")),
+])  # fmt: skip
 def test_a_wrong_one_has_its_line(report, changed, words):
     code, text = report(changed)
     assert code == 1 and all(word in text for word in words), text

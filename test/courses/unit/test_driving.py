@@ -62,48 +62,39 @@ def node(text, connections=None, stray_zeros=0, verdict=None, **numbered):
     return recorded
 
 
-@pytest.mark.parametrize(
-    ("diagnoses", "recorded", "seen", "where"),
-    [
-        (c.NOT_CONNECTED, node(PROGRAM, ODD_NODES), "PUBLISHES on /joy (T)", f"{SCRIPT}:5"),
-        (a.DISPLAYED, node(PROGRAM, displayed=3), "3 of 20 were displayed", ""),
-        (a.NOT_DISPLAYED, node("rospy.Publisher()\nrospy.logdebug(1)"), "level debug", ""),
-        (c.TOPICS, node(PROGRAM, connected(kind="T")), "/cmd_vel carries T", f"{SCRIPT}:4"),
-        (c.TOPICS, node("", connected(("/a", "/b"))), "several do: /a, /b", SCRIPT),
-        (c.TOPICS, node(PROGRAM), "the Publisher is made in the callback", f"{SCRIPT}:4"),
-        (c.NO_TOPIC, node(PROGRAM, connected(topic="/cmd_vel_mux/a")), "_mux/a", f"{SCRIPT}:4"),
-        (a.ONCE, node(LOOP, stray_zeros=3), "zeros come between the answers", f"{SCRIPT}:3"),
-    ],
-)
+@pytest.mark.parametrize(("diagnoses", "recorded", "seen", "where"), [
+    (c.NOT_CONNECTED, node(PROGRAM, ODD_NODES), "PUBLISHES on /joy (T)", f"{SCRIPT}:5"),
+    (a.DISPLAYED, node(PROGRAM, displayed=3), "3 of 20 were displayed", ""),
+    (a.NOT_DISPLAYED, node("rospy.Publisher()\nrospy.logdebug(1)"), "level debug", ""),
+    (c.TOPICS, node(PROGRAM, connected(kind="T")), "/cmd_vel carries T", f"{SCRIPT}:4"),
+    (c.TOPICS, node("", connected(("/a", "/b"))), "several do: /a, /b", SCRIPT),
+    (c.TOPICS, node(PROGRAM), "the Publisher is made in the callback", f"{SCRIPT}:4"),
+    (c.NO_TOPIC, node(PROGRAM, connected(topic="/cmd_vel_mux/a")), "_mux/a", f"{SCRIPT}:4"),
+    (a.ONCE, node(LOOP, stray_zeros=3), "zeros come between the answers", f"{SCRIPT}:3"),
+])  # fmt: skip
 def test_recorded_facts_have_a_diagnosis(diagnoses, recorded, seen, where):
     verdict = first_of(diagnoses, recorded)
     assert seen in verdict.seen and verdict.where == where
 
 
-@pytest.mark.parametrize(
-    ("diagnoses", "recorded"),
-    [
-        (c.CONNECTED, node(NO_CALLBACK, displayed=3)),
-        (c.TOPICS, node(LATCHED)),
-        (a.ONCE, node(LOOP, stray_zeros=2)),  # the machine stuttered
-        (a.ONCE, node(LOOP, twists=answers_with(ZERO), has_clock=True)),  # before the first Joy
-        (a.ONCE, node(LOOP, twists=[ZERO], has_clock=True, verdict=ALL_ZERO)),
-        (a.RIGHT_RULE, node(LOOP)),
-    ],
-)
+@pytest.mark.parametrize(("diagnoses", "recorded"), [
+    (c.CONNECTED, node(NO_CALLBACK, displayed=3)),
+    (c.TOPICS, node(LATCHED)),
+    (a.ONCE, node(LOOP, stray_zeros=2)),  # the machine stuttered
+    (a.ONCE, node(LOOP, twists=answers_with(ZERO), has_clock=True)),  # before the first Joy
+    (a.ONCE, node(LOOP, twists=[ZERO], has_clock=True, verdict=ALL_ZERO)),
+    (a.RIGHT_RULE, node(LOOP)),
+])  # fmt: skip
 def test_recorded_facts_that_are_right_have_none(diagnoses, recorded):
     assert first_of(diagnoses, recorded) is None
 
 
-@pytest.mark.parametrize(
-    ("twists", "expected"),
-    [
-        ([], (1, False)),  # there was no second pass
-        ([*answers_with(), ZERO], (1, False)),  # a late one of before
-        (answers_with(ZERO, ZERO), (3, True)),
-        (sorted(2 * ANSWERS)[1:], (2, False)),  # each of the second ones late
-        ([*answers_with(), *10 * [ZERO]], (1, False)),  # by now and then
-    ],
-)
+@pytest.mark.parametrize(("twists", "expected"), [
+    ([], (1, False)),  # there was no second pass
+    ([*answers_with(), ZERO], (1, False)),  # a late one of before
+    (answers_with(ZERO, ZERO), (3, True)),
+    (sorted(2 * ANSWERS)[1:], (2, False)),  # each of the second ones late
+    ([*answers_with(), *10 * [ZERO]], (1, False)),  # by now and then
+])  # fmt: skip
 def test_how_often_each_twist_comes(twists, expected):
     assert repetition(ANSWERS, twists) == expected

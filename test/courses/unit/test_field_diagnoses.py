@@ -32,19 +32,16 @@ def evidence(text):
     return Evidence([(axes, (x, y, 0.0, 0.0, 0.0, z)) for axes, (x, z, y, *_) in values])
 
 
-@pytest.mark.parametrize(
-    ("text", "wrong", "remark"),
-    [
-        ("a[1], a[0]", "", ""),
-        ("0.5 * a[1], 2.0 * a[0]", "", "linear.x = 0.50 * axes[1], angular.z = 2.00 * axes[0]"),
-        ("a[1] if a[1] > 0 else 0.5 * a[1], a[0]", "", "linear.x is a curve"),
-        ("max(0.0, a[1]) ** 2, a[0]", "linear.x is 0 wherever axes[1] is below", ""),
-        ("round(a[1], 1), a[0]", "linear.x has steps, as 0.30, 0.40, 0.50", ""),
-        ("a[1] - 0.5 * a[3], a[0]", "linear.x = 1.00 * axes[1] - 0.50 * axes[3]: two axes", ""),
-        ("a[1], 0.0, a[0]", "linear.y follows axes[0], angular.z stays 0", ""),
-        ("a[1], -INF if a[0] < 0 else a[0]", "angular.z is -inf, which is no number", ""),
-    ],
-)
+@pytest.mark.parametrize(("text", "wrong", "remark"), [
+    ("a[1], a[0]", "", ""),
+    ("0.5 * a[1], 2.0 * a[0]", "", "linear.x = 0.50 * axes[1], angular.z = 2.00 * axes[0]"),
+    ("a[1] if a[1] > 0 else 0.5 * a[1], a[0]", "", "linear.x is a curve"),
+    ("max(0.0, a[1]) ** 2, a[0]", "linear.x is 0 wherever axes[1] is below", ""),
+    ("round(a[1], 1), a[0]", "linear.x has steps, as 0.30, 0.40, 0.50", ""),
+    ("a[1] - 0.5 * a[3], a[0]", "linear.x = 1.00 * axes[1] - 0.50 * axes[3]: two axes", ""),
+    ("a[1], 0.0, a[0]", "linear.y follows axes[0], angular.z stays 0", ""),
+    ("a[1], -INF if a[0] < 0 else a[0]", "angular.z is -inf, which is no number", ""),
+])  # fmt: skip
 def test_the_rule_is_found_and_named(text, wrong, remark):
     verdict = rule_verdict(evidence(text))
     kind = Wrong if wrong else Note if remark else type(None)
@@ -54,16 +51,13 @@ def test_the_rule_is_found_and_named(text, wrong, remark):
     assert evidence(text).is_right == (not wrong)
 
 
-@pytest.mark.parametrize(
-    ("text", "wrong"),
-    [
-        ("a[1], a[0]", ""),
-        ("a[1], a[0] or 0.3", "angular.z is 0.30 when axes[0] is 0.00"),
-        ("a[1] if a[0] else 0.0, a[0]", "linear.x is 0 when axes[1] alone is moved"),
-        ("a[1] if abs(a[1]) > 0.03 else NAN, a[0]", "linear.x is nan"),
-        ("a[1] if b[4] else 0.0, a[0]", "the robot drives with LB released"),
-    ],
-)
+@pytest.mark.parametrize(("text", "wrong"), [
+    ("a[1], a[0]", ""),
+    ("a[1], a[0] or 0.3", "angular.z is 0.30 when axes[0] is 0.00"),
+    ("a[1] if a[0] else 0.0, a[0]", "linear.x is 0 when axes[1] alone is moved"),
+    ("a[1] if abs(a[1]) > 0.03 else NAN, a[0]", "linear.x is nan"),
+    ("a[1] if b[4] else 0.0, a[0]", "the robot drives with LB released"),
+])  # fmt: skip
 def test_the_recorder_and_the_diagnoses_of_probes_agree(text, wrong):
     convert = eval(f"lambda a, b: ({text})", {"NAN": NAN})
     answers = []
@@ -76,14 +70,11 @@ def test_the_recorder_and_the_diagnoses_of_probes_agree(text, wrong):
     assert replies.is_right == (not wrong)
 
 
-@pytest.mark.parametrize(
-    ("sent", "received", "factor", "found"),
-    [
-        ([1.0, 1.1], [(1.0, NAN), (1.0, INF), (1.5, 0.3)], 1.0, [0.5]),  # no number answers no Joy
-        ([1.0, 3.0], [(1.1, 0.305)], 1.0, []),  # the value of a Joy yet to come
-        ([1.0, 2.0], [(1.5, 0.01), (2.25, 0.02)], None, [0.5, 0.25]),
-    ],
-)
+@pytest.mark.parametrize(("sent", "received", "factor", "found"), [
+    ([1.0, 1.1], [(1.0, NAN), (1.0, INF), (1.5, 0.3)], 1.0, [0.5]),  # no number answers no Joy
+    ([1.0, 3.0], [(1.1, 0.305)], 1.0, []),  # the value of a Joy yet to come
+    ([1.0, 2.0], [(1.5, 0.01), (2.25, 0.02)], None, [0.5, 0.25]),
+])  # fmt: skip
 def test_which_twist_answers_which_joy(sent, received, factor, found):
     assert delays(sent, [(when, "", (value, 0.0)) for when, value in received], factor) == found
 

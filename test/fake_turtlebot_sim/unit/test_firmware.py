@@ -53,14 +53,11 @@ def test_a_robot_at_rest_sends_these_bytes():
     )
 
 
-@pytest.mark.parametrize(
-    ("command", "velocity"),
-    [
-        (STRAIGHT_ON, (0.1, 0.0)),
-        (ON_THE_SPOT, (0.0, 57 / 115)),
-        (ARC, (0.6 * 357 / 715, 357 / 715)),
-    ],
-)
+@pytest.mark.parametrize(("command", "velocity"), [
+    (STRAIGHT_ON, (0.1, 0.0)),
+    (ON_THE_SPOT, (0.0, 57 / 115)),
+    (ARC, (0.6 * 357 / 715, 357 / 715)),
+])  # fmt: skip
 def test_a_base_control_drives_until_its_timeout(command, velocity):
     firmware = kobuki()
     firmware.receive(command, 100 * MS)

@@ -52,40 +52,37 @@ BLUE_CYAN_WHITE = bytes((255, 0, 0, 255, 128, 0, 254, 254, 254))  # B, G, R
 CLEAR_SOLID = bytes((100, 100, 100, 0, 100, 100, 100, 255))  # B, G, R, A
 
 
-@pytest.mark.parametrize(
-    ("image", "given", "values"),
-    [
-        (PICTURE, {}, [100, -1, 0]),
-        (PICTURE, {"negate": 1}, [0, -1, 100]),
-        (PICTURE, {"mode": "scale"}, [100, 66, 0]),
-        (Image.fromarray(GREY.astype(np.uint16) << 8 | 255), {}, [100, -1, 0]),
-        (COLOURS, {"mode": "scale"}, [-1, 66]),
-        (CLEAR, {"mode": "scale"}, [100, 0, 66]),
-        (INDEXED, {}, [100, 100]),  # the number of the colour, as SDL gives it
-        (b"P5 4 1 255\n" + bytes([0, 100, 255, 200]), {"mode": "raw", **PNM}, [0, 100, -1, -56]),
-        (b"P2 3 1 255\n0 50 # a comment\n100\n", {"mode": "raw", **PNM}, [0, 50, 100]),
-        (b"P2 1 2 255 0 254 ", PNM, [0, 100]),  # the lowest row first
-        (b"P6 1 1 255\n\0\xff\0", PNM, [100]),
-        # What follows was measured: map_server's rules over the pixels of SDL_image 1.2.12.
-        (ONE_BIT, BMP, [100] * 8),  # the number of the colour, 0 or 1
-        (ONE_BIT, PBM, [100] * 8),
-        (b"P1 4 1\n0110\n", {**PBM, "negate": 1}, [0] * 4),
-        (b"P1 4 1\n0 1 1 0\n", {**PBM, **RAW}, [0, 1, 1, 0]),
-        (bmp(4, b"\x0f\xf0", 4), {**BMP, **RAW}, [0, 15, 15, 0]),
-        (bmp(8, bytes((0, 205, 254)), 3), BMP, [100, -1, 0]),
-        (bmp(16, b"\x64\xff", 1), {**BMP, **SCALED}, [24]),
-        (bmp(24, BLUE_CYAN_WHITE, 3), {**BMP, **SCALED}, [100, -1, 0]),  # R counts as alpha
-        (bmp(24, BLUE_CYAN_WHITE, 3), BMP, [100, -1, 0]),
-        (bmp(32, CLEAR_SOLID, 2), BMP, [100, -1]),  # alpha is averaged, too
-        (bmp(32, CLEAR_SOLID, 2), {**BMP, **SCALED}, [-1, 89]),
-        (bmp(32, CLEAR_SOLID, 2), {**BMP, **RAW}, [100, 100]),
-        (bmp(32, CLEAR_SOLID, 2, 3, struct.pack("<IIII", 255 << 16, 255 << 8, 255, 0)),
-         {**BMP, **RAW}, [75, -118]),
-        (b"P5 4 1 127\n\0\x28\x7f\x40", {**PNM, **RAW}, [0, 80, -1, -128]),
-        (b"P2 3 1 100\n0 50 100\n", {**PNM, **RAW}, [0, 127, -1]),  # cut off: not -128
-        (b"P5 3 1 15\n\0\x07\x0f", {**PNM, **SCALED}, [100, 73, 0]),
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize(("image", "given", "values"), [
+    (PICTURE, {}, [100, -1, 0]),
+    (PICTURE, {"negate": 1}, [0, -1, 100]),
+    (PICTURE, {"mode": "scale"}, [100, 66, 0]),
+    (Image.fromarray(GREY.astype(np.uint16) << 8 | 255), {}, [100, -1, 0]),
+    (COLOURS, {"mode": "scale"}, [-1, 66]),
+    (CLEAR, {"mode": "scale"}, [100, 0, 66]),
+    (INDEXED, {}, [100, 100]),  # the number of the colour, as SDL gives it
+    (b"P5 4 1 255\n" + bytes([0, 100, 255, 200]), {"mode": "raw", **PNM}, [0, 100, -1, -56]),
+    (b"P2 3 1 255\n0 50 # a comment\n100\n", {"mode": "raw", **PNM}, [0, 50, 100]),
+    (b"P2 1 2 255 0 254 ", PNM, [0, 100]),  # the lowest row first
+    (b"P6 1 1 255\n\0\xff\0", PNM, [100]),
+    # What follows was measured: map_server's rules over the pixels of SDL_image 1.2.12.
+    (ONE_BIT, BMP, [100] * 8),  # the number of the colour, 0 or 1
+    (ONE_BIT, PBM, [100] * 8),
+    (b"P1 4 1\n0110\n", {**PBM, "negate": 1}, [0] * 4),
+    (b"P1 4 1\n0 1 1 0\n", {**PBM, **RAW}, [0, 1, 1, 0]),
+    (bmp(4, b"\x0f\xf0", 4), {**BMP, **RAW}, [0, 15, 15, 0]),
+    (bmp(8, bytes((0, 205, 254)), 3), BMP, [100, -1, 0]),
+    (bmp(16, b"\x64\xff", 1), {**BMP, **SCALED}, [24]),
+    (bmp(24, BLUE_CYAN_WHITE, 3), {**BMP, **SCALED}, [100, -1, 0]),  # R counts as alpha
+    (bmp(24, BLUE_CYAN_WHITE, 3), BMP, [100, -1, 0]),
+    (bmp(32, CLEAR_SOLID, 2), BMP, [100, -1]),  # alpha is averaged, too
+    (bmp(32, CLEAR_SOLID, 2), {**BMP, **SCALED}, [-1, 89]),
+    (bmp(32, CLEAR_SOLID, 2), {**BMP, **RAW}, [100, 100]),
+    (bmp(32, CLEAR_SOLID, 2, 3, struct.pack("<IIII", 255 << 16, 255 << 8, 255, 0)),
+     {**BMP, **RAW}, [75, -118]),
+    (b"P5 4 1 127\n\0\x28\x7f\x40", {**PNM, **RAW}, [0, 80, -1, -128]),
+    (b"P2 3 1 100\n0 50 100\n", {**PNM, **RAW}, [0, 127, -1]),  # cut off: not -128
+    (b"P5 3 1 15\n\0\x07\x0f", {**PNM, **SCALED}, [100, 73, 0]),
+])  # fmt: skip
 def test_cells_are_those_of_map_server(tmp_path, image, given, values):
     about = {**ABOUT, **given}
     if isinstance(image, bytes):
@@ -95,17 +92,14 @@ def test_cells_are_those_of_map_server(tmp_path, image, given, values):
     assert read_map(tmp_path / "map.yaml", about).cells.ravel().tolist() == values
 
 
-@pytest.mark.parametrize(
-    ("image", "transparency", "values"),
-    [
-        (HOLED, 205, [-1, -1, 0, -1]),  # gray and alpha, averaged
-        (HOLED.point(lambda shade: shade // 16 * 17), 204, [-1, -1, 0, -1]),
-        (COLOURS, (170, 170, 0), [-1, -1]),  # It has no effect in RGB.
-        (INDEXED, b"\xff\0", [100, 100]),
-        (INDEXED, b"\xff\xff", [100, 100]),
-        (INDEXED, b"\xff\x80", [0, 100]),  # half of a colour: RGBA
-    ],
-)
+@pytest.mark.parametrize(("image", "transparency", "values"), [
+    (HOLED, 205, [-1, -1, 0, -1]),  # gray and alpha, averaged
+    (HOLED.point(lambda shade: shade // 16 * 17), 204, [-1, -1, 0, -1]),
+    (COLOURS, (170, 170, 0), [-1, -1]),  # It has no effect in RGB.
+    (INDEXED, b"\xff\0", [100, 100]),
+    (INDEXED, b"\xff\xff", [100, 100]),
+    (INDEXED, b"\xff\x80", [0, 100]),  # half of a colour: RGBA
+])  # fmt: skip
 def test_transparency_of_a_png_counts_as_in_sdl_image(tmp_path, image, transparency, values):
     image.save(tmp_path / "map.png", transparency=transparency)
     assert read_map(tmp_path / "map.yaml", ABOUT).cells.ravel().tolist() == values
@@ -165,15 +159,12 @@ def building():
     return shades[::-1]
 
 
-@pytest.mark.parametrize(
-    ("given", "place"),
-    [
-        ({"origin": [-1.5, -1.5, 0]}, (0, 0)),
-        ({"origin": [-2.07, -1.525, 0]}, (-0.245, 0)),  # (0, 0) is in the wall
-        ({"origin": [0, 0, 0]}, (1.275, 1.275)),  # or beyond it, where nothing is known
-        ({"origin": [0, 0, 1.5707963267948966]}, (-1.275, 1.275)),
-    ],
-)
+@pytest.mark.parametrize(("given", "place"), [
+    ({"origin": [-1.5, -1.5, 0]}, (0, 0)),
+    ({"origin": [-2.07, -1.525, 0]}, (-0.245, 0)),  # (0, 0) is in the wall
+    ({"origin": [0, 0, 0]}, (1.275, 1.275)),  # or beyond it, where nothing is known
+    ({"origin": [0, 0, 1.5707963267948966]}, (-1.275, 1.275)),
+])  # fmt: skip
 def test_a_robot_starts_where_it_has_room(tmp_path, given, place):
     assert start_of(write_map(tmp_path, building(), **given)) == pytest.approx((*place, 0.0))
 

@@ -27,15 +27,12 @@ def packet(one, now_ns=0, pressed=(False, False, False)):
     return messages.sensor_state(kobuki.sensors(now_ns, one, pressed), None)
 
 
-@pytest.mark.parametrize(
-    ("velocity", "seconds", "left_m", "right_m", "voltage"),
-    [
-        ((0.7, 0.0), 10, 7.0, 7.0, (100, 100)),  # 82071 ticks: beyond 16 bits
-        ((-0.35, 0.0), 1, -0.35, -0.35, (-50, -50)),  # backwards through zero
-        ((0.0, pi), 2, -0.23 * pi, 0.23 * pi, (-52, 52)),
-        ((0.0, 0.0), 1, 0.0, 0.0, (0, 0)),
-    ],
-)
+@pytest.mark.parametrize(("velocity", "seconds", "left_m", "right_m", "voltage"), [
+    ((0.7, 0.0), 10, 7.0, 7.0, (100, 100)),  # 82071 ticks: beyond 16 bits
+    ((-0.35, 0.0), 1, -0.35, -0.35, (-50, -50)),  # backwards through zero
+    ((0.0, pi), 2, -0.23 * pi, 0.23 * pi, (-52, 52)),
+    ((0.0, 0.0), 1, 0.0, 0.0, (0, 0)),
+])  # fmt: skip
 def test_the_encoders_count_ticks_in_16_bits(velocity, seconds, left_m, right_m, voltage):
     one = robot()
     one.command(velocity, 0)

@@ -36,22 +36,19 @@ def test_a_turtlebots_own_file_works_as_it_is():
     assert hash(parse_mux_parameters(with_teleop(priority=0, timeout=60.0)))  # all of it is frozen
 
 
-@pytest.mark.parametrize(
-    ("given", "parts"),
-    [
-        ({}, ["~subscribers: missing", "input/teleop"]),
-        ({"subscribers": TELEOP}, ["~subscribers: {'name': 'teleop'", "list of inputs"]),
-        ({"subscribers": ["teleop"]}, ["entry 1: 'teleop'", "must be as in"]),
-        (with_teleop(name="navi"), ["name: 'navi'", "twice"]),
-        (with_teleop(priority=5), ["priority: 5", "twice"]),
-        (with_teleop(name="idle"), ["entry 1: name: 'idle'", "no input is active"]),
-        (with_teleop(topic="input teleop"), ["entry 1: topic: 'input teleop'"]),
-        (with_teleop(priority=-1), ["entry 1: priority: -1", "whole number"]),
-        ({"subscribers": [TELEOP], "publisher": ""}, ["~publisher: ''", "name of a topic"]),
-        (with_teleop(topic="output"), ["~publisher: 'output'", "topic of an input"]),
-        (with_teleop(timeout=0.01), ["entry 1: timeout: 0.01", "from 0.02 to 60 s"]),
-    ],
-)
+@pytest.mark.parametrize(("given", "parts"), [
+    ({}, ["~subscribers: missing", "input/teleop"]),
+    ({"subscribers": TELEOP}, ["~subscribers: {'name': 'teleop'", "list of inputs"]),
+    ({"subscribers": ["teleop"]}, ["entry 1: 'teleop'", "must be as in"]),
+    (with_teleop(name="navi"), ["name: 'navi'", "twice"]),
+    (with_teleop(priority=5), ["priority: 5", "twice"]),
+    (with_teleop(name="idle"), ["entry 1: name: 'idle'", "no input is active"]),
+    (with_teleop(topic="input teleop"), ["entry 1: topic: 'input teleop'"]),
+    (with_teleop(priority=-1), ["entry 1: priority: -1", "whole number"]),
+    ({"subscribers": [TELEOP], "publisher": ""}, ["~publisher: ''", "name of a topic"]),
+    (with_teleop(topic="output"), ["~publisher: 'output'", "topic of an input"]),
+    (with_teleop(timeout=0.01), ["entry 1: timeout: 0.01", "from 0.02 to 60 s"]),
+])  # fmt: skip
 def test_a_mistake_is_named_with_its_value_and_what_is_allowed(given, parts):
     with pytest.raises(ValueError) as caught:
         parse_mux_parameters(given)

@@ -35,25 +35,22 @@ def test_nothing_given_is_a_turtlebot_2():
     assert parameters.start_poses() == {"": (0.0, 0.0, 0.0)}
 
 
-@pytest.mark.parametrize(
-    ("given", "parts"),
-    [
-        ({"odom_frame": "/odom"}, ["~odom_frame: '/odom'", "leading slash"]),
-        ({"base_frame": "odom"}, ["~base_frame: 'odom'", "differ from ~odom_frame"]),
-        ({"left_wheel_joint": "a", "right_wheel_joint": "a"}, ["~right_wheel_joint: 'a'"]),
-        ({"world": "moon"}, ["~world: 'moon': no world of this package", "take maze, "]),
-        ({"world": "maze", "robots": 500}, ["~world: 'maze': the world has room for"]),
-        ({"world": "maze", "robots": {"ada": [1, 1, 0]}}, ["start: in the world's file or x:="]),
-        ({"scan_no_return": "0"}, ["~scan_no_return: '0': must be inf or nan"]),
-        ({"scan_range_min": 11.0}, ["~scan_range_min: must be less than ~scan_range_max"]),
-        ({"scan_range_min": 10.0}, ["~scan_range_min: must be less than ~scan_range_max"]),
-        ({"robots": 0}, ["~robots: 0", "1 to 1000", "[ada, bob]", "{ada: [0, 0, 0]"]),
-        ({"robots": ["ada"] * 1001}, ["~robots: ['ada'", "1 to 1000"]),
-        ({"robots": ["ada", "bob", "ada"]}, ["~robots: [", "'ada': is listed twice"]),
-        ({"robots": {"ada": [1e7, 0, 0]}}, ["~robots: {", "ada: [10000000.0", "up to 1e6"]),
-        ({"robots": {"bob": [0, 0]}}, ["bob: [0, 0]: must be [x in m, y in m, yaw in rad]"]),
-    ],
-)
+@pytest.mark.parametrize(("given", "parts"), [
+    ({"odom_frame": "/odom"}, ["~odom_frame: '/odom'", "leading slash"]),
+    ({"base_frame": "odom"}, ["~base_frame: 'odom'", "differ from ~odom_frame"]),
+    ({"left_wheel_joint": "a", "right_wheel_joint": "a"}, ["~right_wheel_joint: 'a'"]),
+    ({"world": "moon"}, ["~world: 'moon': no world of this package", "take maze, "]),
+    ({"world": "maze", "robots": 500}, ["~world: 'maze': the world has room for"]),
+    ({"world": "maze", "robots": {"ada": [1, 1, 0]}}, ["start: in the world's file or x:="]),
+    ({"scan_no_return": "0"}, ["~scan_no_return: '0': must be inf or nan"]),
+    ({"scan_range_min": 11.0}, ["~scan_range_min: must be less than ~scan_range_max"]),
+    ({"scan_range_min": 10.0}, ["~scan_range_min: must be less than ~scan_range_max"]),
+    ({"robots": 0}, ["~robots: 0", "1 to 1000", "[ada, bob]", "{ada: [0, 0, 0]"]),
+    ({"robots": ["ada"] * 1001}, ["~robots: ['ada'", "1 to 1000"]),
+    ({"robots": ["ada", "bob", "ada"]}, ["~robots: [", "'ada': is listed twice"]),
+    ({"robots": {"ada": [1e7, 0, 0]}}, ["~robots: {", "ada: [10000000.0", "up to 1e6"]),
+    ({"robots": {"bob": [0, 0]}}, ["bob: [0, 0]: must be [x in m, y in m, yaw in rad]"]),
+])  # fmt: skip
 def test_a_mistake_is_named_with_its_value_and_what_is_allowed(given, parts):
     with pytest.raises(ValueError) as caught:
         parse_parameters(given)

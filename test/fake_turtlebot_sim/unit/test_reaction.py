@@ -13,14 +13,11 @@ BACK = (-0.1, 0.0)
 
 @claim("A bumped robot backs off and turns away")
 @pytest.mark.parametrize("kind", ["bumper", "cliff"])
-@pytest.mark.parametrize(
-    ("sensors", "velocity"),
-    [
-        ([LEFT], (-0.1, -0.4)), ([RIGHT], (-0.1, 0.4)), ([CENTER], BACK),
-        ([LEFT, CENTER], BACK), ([RIGHT, CENTER], BACK),
-        ([RIGHT, LEFT], (-0.1, -0.4)),  # the left one wins, as on the Kobuki
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize(("sensors", "velocity"), [
+    ([LEFT], (-0.1, -0.4)), ([RIGHT], (-0.1, 0.4)), ([CENTER], BACK),
+    ([LEFT, CENTER], BACK), ([RIGHT, CENTER], BACK),
+    ([RIGHT, LEFT], (-0.1, -0.4)),  # the left one wins, as on the Kobuki
+])  # fmt: skip
 def test_it_backs_off_and_turns_away(kind, sensors, velocity):
     reaction = Reaction(parse_parameters({}).time_to_extend_bump_cliff_events)
     assert reaction.velocity(0.0) is None

@@ -96,22 +96,19 @@ def test_a_joystick_in_a_room_drives_to_the_wall(run):
     assert frames == {("odom", "base_footprint"), ("map", "odom")}
 
 
-@pytest.mark.parametrize(
-    ("words", "said"),
-    [
-        ("none.bag out.bag", "no such file"),
-        (". out.bag", "a folder, not a file"),
-        ("commands.bag out.bag --topic /other", "no topic /other of"),
-        ("two.bag out.bag", "(/a, /b); choose one with --topic"),
-        ("cut.bag out.bag", "not a complete ROS 1 bag"),
-        ("late.bag out.bag", "is silent for 1.0 h: damaged"),
-        ("commands.bag none/out.bag", "no such folder"),
-        ("commands.bag precious.bag", "--force overwrites it"),
-        ("commands.bag out.bag --config robots:3", "one robot"),
-        ("commands.bag out.bag --config [", "not YAML"),
-        ("commands.bag out.bag --config 5", "name: value"),
-    ],
-)
+@pytest.mark.parametrize(("words", "said"), [
+    ("none.bag out.bag", "no such file"),
+    (". out.bag", "a folder, not a file"),
+    ("commands.bag out.bag --topic /other", "no topic /other of"),
+    ("two.bag out.bag", "(/a, /b); choose one with --topic"),
+    ("cut.bag out.bag", "not a complete ROS 1 bag"),
+    ("late.bag out.bag", "is silent for 1.0 h: damaged"),
+    ("commands.bag none/out.bag", "no such folder"),
+    ("commands.bag precious.bag", "--force overwrites it"),
+    ("commands.bag out.bag --config robots:3", "one robot"),
+    ("commands.bag out.bag --config [", "not YAML"),
+    ("commands.bag out.bag --config 5", "name: value"),
+])  # fmt: skip
 def test_a_mistake_is_one_line_and_leaves_nothing_behind(run, capsys, words, said):
     write_bag("two.bag", {"/a": QUARTER, "/b": QUARTER})
     write_bag("late.bag", {"/cmd_vel": [*QUARTER, (3_600_000, twist(0, 0))]})

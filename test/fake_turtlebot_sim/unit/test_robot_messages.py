@@ -84,14 +84,11 @@ def test_a_pose_on_the_plane_is_read_back(yaw, length):
     assert pose == pytest.approx((1.0, 2.0, yaw), abs=1e-9)
 
 
-@pytest.mark.parametrize(
-    ("message", "part"),
-    [
-        (pose_message(frame="map"), "frame 'map'; give it in odom or world"),
-        (pose_message(x=inf), "finite"),
-        (pose_message(length=0.0), "heading"),
-    ],
-)
+@pytest.mark.parametrize(("message", "part"), [
+    (pose_message(frame="map"), "frame 'map'; give it in odom or world"),
+    (pose_message(x=inf), "finite"),
+    (pose_message(length=0.0), "heading"),
+])  # fmt: skip
 def test_what_is_no_pose_on_the_plane_is_refused(message, part):
     with pytest.raises(ValueError, match=part):
         pose_on_plane(message, ["odom", "world"])

@@ -22,17 +22,14 @@ def test_version_battery_and_charger_are_built_in():
     assert str(parse_parameters({}).equipment().firmware) == "1.2.0"
 
 
-@pytest.mark.parametrize(
-    ("given", "words"),
-    [
-        ({"drop": 2}, "~drop: 2: must be a number from 0 to 1"),
-        ({"stall": 10}, "~stall: 10: must be a number from 0 to 9 s"),
-        ({"other_firmware": "2"}, "~other_firmware: '2': must be empty, or major.minor.patch"),
-        ({"charger": "sun"}, "~charger: 'sun': must be none, dock or adapter"),
-        ({"wrold": "room"}, "did you mean ~world"),
-        ({"world": "room", "initial_x": 4.0}, "inside a wall"),
-    ],
-)
+@pytest.mark.parametrize(("given", "words"), [
+    ({"drop": 2}, "~drop: 2: must be a number from 0 to 1"),
+    ({"stall": 10}, "~stall: 10: must be a number from 0 to 9 s"),
+    ({"other_firmware": "2"}, "~other_firmware: '2': must be empty, or major.minor.patch"),
+    ({"charger": "sun"}, "~charger: 'sun': must be none, dock or adapter"),
+    ({"wrold": "room"}, "did you mean ~world"),
+    ({"world": "room", "initial_x": 4.0}, "inside a wall"),
+])  # fmt: skip
 def test_a_mistake_is_one_line(given, words):
     with pytest.raises(ValueError, match=r"^[^\n]*$") as caught:
         parse_parameters(given)

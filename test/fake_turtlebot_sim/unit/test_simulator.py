@@ -89,13 +89,10 @@ def test_a_robot_with_errors_touches_with_its_true_body():
     assert sin(robot.contact) != 0.0  # its heading has gone astray, the wall has not
 
 
-@pytest.mark.parametrize(
-    ("degrees", "pressed"),
-    [
-        (90, "L"), (45, "L"), (31, "L"), (30, "C"), (0, "C"), (-30, "C"), (-31, "R"), (-90, "R"),
-        (91, ""), (-120, ""), (180, ""),
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize(("degrees", "pressed"), [
+    (90, "L"), (45, "L"), (31, "L"), (30, "C"), (0, "C"), (-30, "C"), (-31, "R"), (-90, "R"),
+    (91, ""), (-120, ""), (180, ""),
+])  # fmt: skip
 def test_the_bumpers_have_the_sectors_of_the_kobuki(degrees, pressed):
     felt = bumpers(degrees * pi / 180)
     assert "".join(name for name, is_on in zip("LCR", felt) if is_on) == pressed

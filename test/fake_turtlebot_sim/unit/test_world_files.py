@@ -49,25 +49,22 @@ def test_a_world_of_ours(tmp_path):
     assert world.is_cliff(2.9, 2.5) and not world.is_cliff(2.1, 2.9) and not world.is_cliff(1, 1)
 
 
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
-        ("walls: [[[0, 0]]]", "line 1: walls: must be a list of polylines"),
-        ("posts:\n- {x: 1, y: 1, radius: 1}\n- {x: 1, y: 1, radius: -1}", "line 3: posts: must be"),
-        ("start: {x: 1, y: 2, yaw: 90}", "line 1: start: must be"),
-        ("posts: []\ncolour: red", "line 2: colour: is unknown"),
-        ("walls: [", ": not YAML"),
-        ("walls: {}\nwalls: []", "line 1: walls: is listed twice"),
-        ("- 1", "must be a map of walls, posts"),
-        ("walls: &a [*a]", "line 1: *NAME, or more than 20 lists"),
-        ("walls: [[[0, 0], [10001, 0]]]", "up to 10000 m"),
-        (f"posts: {[{'x': 1, 'y': 1, 'radius': 1}] * 2001}", "2001 are too many: at most 2000"),
-        (f"{MAP}mode: binary", "mode: must be trinary, scale, raw or left out"),
-        (f"{MAP}resolution: 0", "resolution: 0: must be a number from 0.001 to 100"),
-        (MAP.replace("resolution", "resolutoin"), "resolution: is missing; a map needs it"),
-        (f"{MAP}image: /dev/zero", "/dev/zero: cannot be read as an image: not a plain file"),
-    ],
-)
+@pytest.mark.parametrize(("text", "said"), [
+    ("walls: [[[0, 0]]]", "line 1: walls: must be a list of polylines"),
+    ("posts:\n- {x: 1, y: 1, radius: 1}\n- {x: 1, y: 1, radius: -1}", "line 3: posts: must be"),
+    ("start: {x: 1, y: 2, yaw: 90}", "line 1: start: must be"),
+    ("posts: []\ncolour: red", "line 2: colour: is unknown"),
+    ("walls: [", ": not YAML"),
+    ("walls: {}\nwalls: []", "line 1: walls: is listed twice"),
+    ("- 1", "must be a map of walls, posts"),
+    ("walls: &a [*a]", "line 1: *NAME, or more than 20 lists"),
+    ("walls: [[[0, 0], [10001, 0]]]", "up to 10000 m"),
+    (f"posts: {[{'x': 1, 'y': 1, 'radius': 1}] * 2001}", "2001 are too many: at most 2000"),
+    (f"{MAP}mode: binary", "mode: must be trinary, scale, raw or left out"),
+    (f"{MAP}resolution: 0", "resolution: 0: must be a number from 0.001 to 100"),
+    (MAP.replace("resolution", "resolutoin"), "resolution: is missing; a map needs it"),
+    (f"{MAP}image: /dev/zero", "/dev/zero: cannot be read as an image: not a plain file"),
+])  # fmt: skip
 def test_a_mistake_is_one_line(tmp_path, text, said):
     with pytest.raises(WorldError) as error:
         world_of(tmp_path, text)
@@ -81,27 +78,24 @@ def png(shade):
     return data.getvalue()
 
 
-@pytest.mark.parametrize(
-    ("data", "said"),
-    [
-        (b"GIF89a", "no PGM, PNG or BMP"),
-        (b"P2 3 1 255\n0 50 -1\n", "its shades must be numbers from 0 to 255"),
-        (b"P2 3 1 255\n", "its shades must be numbers"),
-        (b"P2 3 1 255\n0 50\n", "cut short"),
-        (b"P2 3 1 255\n0 50 100", "needs an end of line after the last number"),
-        (b"P1 3 1\n01\n", "cut short"),
-        (b"P5 3 1 255\n\0\0", "cut short"),
-        (b"P5 3 1\n", "its header is malformed"),
-        (b"P5 2 1 256\n" + bytes(4), "256 shades: .* does not load on the robot .*; convert it"),
-        (b"P5 2 1 65535\n" + bytes(4), "65535 shades: .*convert OLD.pgm -depth 8 NEW.pgm"),
-        (png(np.uint16(255)), "map_server reads the higher 8 of its 16 bits"),
-        (png(np.uint8(0))[:30], "cut short"),
-        (b"BM" + bytes(40), "none"),
-        (b"P5 20 10 255\n" + bytes(200), "extends farther than 10000 m"),
-        (b"P5 4096 4097 255\n", "more than 16777216 cells"),
-        (png(np.uint8(0)), "needs Pillow: apt install python3-pil"),  # where that is missing
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize(("data", "said"), [
+    (b"GIF89a", "no PGM, PNG or BMP"),
+    (b"P2 3 1 255\n0 50 -1\n", "its shades must be numbers from 0 to 255"),
+    (b"P2 3 1 255\n", "its shades must be numbers"),
+    (b"P2 3 1 255\n0 50\n", "cut short"),
+    (b"P2 3 1 255\n0 50 100", "needs an end of line after the last number"),
+    (b"P1 3 1\n01\n", "cut short"),
+    (b"P5 3 1 255\n\0\0", "cut short"),
+    (b"P5 3 1\n", "its header is malformed"),
+    (b"P5 2 1 256\n" + bytes(4), "256 shades: .* does not load on the robot .*; convert it"),
+    (b"P5 2 1 65535\n" + bytes(4), "65535 shades: .*convert OLD.pgm -depth 8 NEW.pgm"),
+    (png(np.uint16(255)), "map_server reads the higher 8 of its 16 bits"),
+    (png(np.uint8(0))[:30], "cut short"),
+    (b"BM" + bytes(40), "none"),
+    (b"P5 20 10 255\n" + bytes(200), "extends farther than 10000 m"),
+    (b"P5 4096 4097 255\n", "more than 16777216 cells"),
+    (png(np.uint8(0)), "needs Pillow: apt install python3-pil"),  # where that is missing
+])  # fmt: skip
 def test_an_image_that_is_no_map_is_one_line(tmp_path, monkeypatch, data, said):
     monkeypatch.setitem(sys.modules, "PIL", None if "Pillow" in said else PIL)
     (tmp_path / "map.pgm").write_bytes(data)

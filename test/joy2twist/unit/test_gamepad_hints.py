@@ -13,18 +13,15 @@ def six(**values):
 MODE, SWITCH, EIGHT = "press MODE", "8 axes and not 6: check the D/X switch", (0.0,) * 8
 
 
-@pytest.mark.parametrize(
-    ("about", "messages", "given", "hint"),
-    [
-        ("another number of axes, once", [EIGHT] * 3, {"gamepad_axes": 6}, SWITCH),
-        ("a stick on axes 4 and 5", [six(), six(a5=0.4)], {}, MODE),
-        ("worn sticks", [six(a4=0.1, a5=-0.1), six(a1=0.1)], {}, None),
-        ("whole steps, as a D-pad gives", [six(), six(a4=1.0), six(a5=-1.0), six()], {}, MODE),
-        ("the stick has moved before", [six(a1=0.5), six(a5=0.4)], {}, None),
-        ("axes 4 and 5 in use", [six(a5=0.4)], {"axis_linear": 5, "axis_angular": 4}, None),
-        ("no such LED on other pads", [(0.0,) * 5 + (0.5, 0.0, 0.0)], {}, None),
-    ],
-)
+@pytest.mark.parametrize(("about", "messages", "given", "hint"), [
+    ("another number of axes, once", [EIGHT] * 3, {"gamepad_axes": 6}, SWITCH),
+    ("a stick on axes 4 and 5", [six(), six(a5=0.4)], {}, MODE),
+    ("worn sticks", [six(a4=0.1, a5=-0.1), six(a1=0.1)], {}, None),
+    ("whole steps, as a D-pad gives", [six(), six(a4=1.0), six(a5=-1.0), six()], {}, MODE),
+    ("the stick has moved before", [six(a1=0.5), six(a5=0.4)], {}, None),
+    ("axes 4 and 5 in use", [six(a5=0.4)], {"axis_linear": 5, "axis_angular": 4}, None),
+    ("no such LED on other pads", [(0.0,) * 5 + (0.5, 0.0, 0.0)], {}, None),
+])  # fmt: skip
 def test_a_gamepad_in_another_mode_is_reported_once(about, messages, given, hint):
     looker = GamepadHints(load(given))
     found = [line for line in (looker.hint(axes, ()) for axes in messages) if line]

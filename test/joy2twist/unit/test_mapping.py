@@ -28,62 +28,53 @@ CAR = {"inverted_reverse": True}
 
 
 @claim("The tutorial's node: each ...", because="every axis and button")
-@pytest.mark.parametrize(
-    ("about", "given", "axes", "buttons", "expected"),
-    [
-        ("tutorial", {}, AXES[:2], (), (0.4, 0, 0, 0, 0, 0.3)),
-        ("differential", DIFFERENTIAL, AXES, (1, 0), (0.4, 0, 0, 0, 0, 0.9)),
-        ("six axes", SIX_AXES, AXES, (1,), (0.4, 2.0, 1.2, 2.1, 1.6, 0.3)),
-        ("not enabled", DIFFERENTIAL, AXES, (0, 0), None),
-        ("turbo over enable", DIFFERENTIAL, AXES, (1, 1), (0.8, 0, 0, 0, 0, 0.9)),
-        ("angular turbo", {**DIFFERENTIAL, "scale_angular_turbo": 5.0}, AXES, (0, 1),
-         (0.8, 0, 0, 0, 0, 1.5)),
-        ("turbo from a map", TURBO_MAP, AXES, (0, 1), (0.8, 4.0, 1.2, 2.1, 1.6, 0.3)),
-        ("enable not required, turbo", NOT_REQUIRED, AXES, (0, 1), (0.8, 0, 0, 0, 0, 0.9)),
-        # As teleop_twist_joy has it: a button that the gamepad lacks is not pressed.
-        ("no turbo button", DIFFERENTIAL, AXES, (1,), (0.4, 0, 0, 0, 0, 0.9)),
-        ("no turbo button, not held", DIFFERENTIAL, AXES, (0,), None),
-        ("turbo is the only dead-man, and button 0", TURBO, AXES, (1, 0), (0.4, 0, 0, 0, 0, 0.3)),
-        ("no other button drives then", TURBO, AXES, (0, 1), None),
-        ("on the spot", CAR, (0.3, 0.0), (), (0, 0, 0, 0, 0, 0.3)),
-        ("like a car", CAR, (0.3, -0.4), (), (-0.4, 0, 0, 0, 0, -0.3)),
-        ("a car goes ahead", CAR, (0.3, 0.4), (), (0.4, 0, 0, 0, 0, 0.3)),
-        ("a curve", {"axis_curve": 2.0}, (0.3, -0.4), (), (-0.16, 0, 0, 0, 0, 0.09)),
-        ("no linear axis", {"axis_linear": -1}, (0.5, 0.4), (), (0, 0, 0, 0, 0, 0.5)),
-        ("as far as it goes", {"max_linear_speed": 2.0}, (0.0, 1e6), (), (2.0, 0, 0, 0, 0, 0)),
-        ("no axis at all", {"axis_linear": -1, "axis_angular": -1}, (), (), ZERO),
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize(("about", "given", "axes", "buttons", "expected"), [
+    ("tutorial", {}, AXES[:2], (), (0.4, 0, 0, 0, 0, 0.3)),
+    ("differential", DIFFERENTIAL, AXES, (1, 0), (0.4, 0, 0, 0, 0, 0.9)),
+    ("six axes", SIX_AXES, AXES, (1,), (0.4, 2.0, 1.2, 2.1, 1.6, 0.3)),
+    ("not enabled", DIFFERENTIAL, AXES, (0, 0), None),
+    ("turbo over enable", DIFFERENTIAL, AXES, (1, 1), (0.8, 0, 0, 0, 0, 0.9)),
+    ("angular turbo", {**DIFFERENTIAL, "scale_angular_turbo": 5.0}, AXES, (0, 1),
+     (0.8, 0, 0, 0, 0, 1.5)),
+    ("turbo from a map", TURBO_MAP, AXES, (0, 1), (0.8, 4.0, 1.2, 2.1, 1.6, 0.3)),
+    ("enable not required, turbo", NOT_REQUIRED, AXES, (0, 1), (0.8, 0, 0, 0, 0, 0.9)),
+    # As teleop_twist_joy has it: a button that the gamepad lacks is not pressed.
+    ("no turbo button", DIFFERENTIAL, AXES, (1,), (0.4, 0, 0, 0, 0, 0.9)),
+    ("no turbo button, not held", DIFFERENTIAL, AXES, (0,), None),
+    ("turbo is the only dead-man, and button 0", TURBO, AXES, (1, 0), (0.4, 0, 0, 0, 0, 0.3)),
+    ("no other button drives then", TURBO, AXES, (0, 1), None),
+    ("on the spot", CAR, (0.3, 0.0), (), (0, 0, 0, 0, 0, 0.3)),
+    ("like a car", CAR, (0.3, -0.4), (), (-0.4, 0, 0, 0, 0, -0.3)),
+    ("a car goes ahead", CAR, (0.3, 0.4), (), (0.4, 0, 0, 0, 0, 0.3)),
+    ("a curve", {"axis_curve": 2.0}, (0.3, -0.4), (), (-0.16, 0, 0, 0, 0, 0.09)),
+    ("no linear axis", {"axis_linear": -1}, (0.5, 0.4), (), (0, 0, 0, 0, 0, 0.5)),
+    ("as far as it goes", {"max_linear_speed": 2.0}, (0.0, 1e6), (), (2.0, 0, 0, 0, 0, 0)),
+    ("no axis at all", {"axis_linear": -1, "axis_angular": -1}, (), (), ZERO),
+])  # fmt: skip
 def test_axes_and_buttons_give_a_velocity_or_none(about, given, axes, buttons, expected):
     velocity = Mapping(load(given)).velocity(axes, buttons)
     assert velocity == (None if expected is None else pytest.approx(expected)), about
 
 
-@pytest.mark.parametrize(
-    ("given", "axes", "buttons", "words"),
-    [
-        ({}, (0.5,), (), "no axis 1 (-> linear.x): it has 1 axes"),
-        ({"axis_linear": 9}, AXES, (), "no axis 9 (-> linear.x): it has 6 axes"),
-        (PAD, AXES, (), "no button 0 (~enable_button): it has 0 buttons"),
-        ({}, (0.0, 0.1, float("nan")), (), "nan"),
-        ({}, (float("inf"), float("-inf")), (), "inf"),
-        ({}, (0.0, 1e6 + 0.5), (), "1000000.5"),
-    ],
-)
+@pytest.mark.parametrize(("given", "axes", "buttons", "words"), [
+    ({}, (0.5,), (), "no axis 1 (-> linear.x): it has 1 axes"),
+    ({"axis_linear": 9}, AXES, (), "no axis 9 (-> linear.x): it has 6 axes"),
+    (PAD, AXES, (), "no button 0 (~enable_button): it has 0 buttons"),
+    ({}, (0.0, 0.1, float("nan")), (), "nan"),
+    ({}, (float("inf"), float("-inf")), (), "inf"),
+    ({}, (0.0, 1e6 + 0.5), (), "1000000.5"),
+])  # fmt: skip
 def test_a_bad_message_is_named(given, axes, buttons, words):
     with pytest.raises(BadJoyError) as error:
         Mapping(load(given)).velocity(axes, buttons)
     assert words in str(error.value)
 
 
-@pytest.mark.parametrize(
-    ("given", "axes", "buttons", "rests"),
-    [
-        ({}, (0.05, -0.1, 1.0, -1.0), (0,), True),  # triggers that rest at an end are not in use
-        ({}, (0.0, 0.11, 0.0, 0.0), (0,), False),
-        ({"enable_button": 0}, (0.0, 0.0), (1,), False),
-    ],
-)
+@pytest.mark.parametrize(("given", "axes", "buttons", "rests"), [
+    ({}, (0.05, -0.1, 1.0, -1.0), (0,), True),  # triggers that rest at an end are not in use
+    ({}, (0.0, 0.11, 0.0, 0.0), (0,), False),
+    ({"enable_button": 0}, (0.0, 0.0), (1,), False),
+])  # fmt: skip
 def test_a_rest_is_released_sticks_in_use_and_a_released_dead_man(given, axes, buttons, rests):
     mapping = Mapping(load(given))
     assert mapping.rests(axes, mapping.velocity(axes, buttons)) is rests
@@ -96,22 +87,19 @@ def test_the_stop_button_counts_in_a_message_that_is_cut_and_wins_over_reset():
     assert not Mapping(load({})).stops((1, 1, 1))
 
 
-@pytest.mark.parametrize(
-    ("given", "line", "deadman"),
-    [
-        ({}, "axis 1 -> linear.x at 1 m/s; no dead-man button", "none"),
-        ({"enable_button": 0}, "axis 1 -> linear.x at 1 m/s; hold button 0", "0"),
-        (TURBO, "axis 0 -> angular.z at 1 rad/s (turbo: 1 rad/s); hold button 0 for turbo", "0"),
-        ({"enable_button": 4, "enable_turbo_button": 0, "scale_linear": 0.7},
-         "axis 1 -> linear.x at 0.7 m/s (turbo: 1 m/s); hold button 4, or 0 for turbo", "4"),
-        ({"stop_button": 0, "stop_reset_button": 2}, "button 0 stops, until button 2", "none"),
-        ({"vigilance_timeout": 3.0, "arm_on_neutral": True},
-         "no change of the joystick for 3 s stops the robot", "none"),
-        ({"arm_on_neutral": True},
-         "nothing moves before the sticks and the dead-man button are released", "none"),
-        ({"joy_timeout": 0.5}, "no message of the joystick for 0.5 s stops the robot", "none"),
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize(("given", "line", "deadman"), [
+    ({}, "axis 1 -> linear.x at 1 m/s; no dead-man button", "none"),
+    ({"enable_button": 0}, "axis 1 -> linear.x at 1 m/s; hold button 0", "0"),
+    (TURBO, "axis 0 -> angular.z at 1 rad/s (turbo: 1 rad/s); hold button 0 for turbo", "0"),
+    ({"enable_button": 4, "enable_turbo_button": 0, "scale_linear": 0.7},
+     "axis 1 -> linear.x at 0.7 m/s (turbo: 1 m/s); hold button 4, or 0 for turbo", "4"),
+    ({"stop_button": 0, "stop_reset_button": 2}, "button 0 stops, until button 2", "none"),
+    ({"vigilance_timeout": 3.0, "arm_on_neutral": True},
+     "no change of the joystick for 3 s stops the robot", "none"),
+    ({"arm_on_neutral": True},
+     "nothing moves before the sticks and the dead-man button are released", "none"),
+    ({"joy_timeout": 0.5}, "no message of the joystick for 0.5 s stops the robot", "none"),
+])  # fmt: skip
 def test_the_mapping_in_words(given, line, deadman):
     mapping = Mapping(load(given))
     assert line in mapping.describe() and ("until" in line) == ("until" in str(mapping.describe()))

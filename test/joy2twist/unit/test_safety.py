@@ -65,19 +65,16 @@ def test_what_is_sent_at_once_and_the_state(name):
         assert [machine.state] == state or not state, now
 
 
-@pytest.mark.parametrize(
-    ("given", "acts", "sent"),
-    [
-        ({}, ["forward"], [(t, ZERO) for t in (0.5, 0.55, 0.6, 0.65, 0.7)]),
-        ({"joy_timeout": 0}, ["forward"], []),
-        ({}, ["middle"], []),  # a robot that stands needs no stop, but one on its way through zero
-        ({"stop_messages": 1, "joy_timeout": 0.15, **LIMITS}, ["forward", "backward"],
-         [(0.1, ZERO), (0.15, ZERO)]),
-        ({"stop_messages": 3, "output_rate": 10, **DEAD_MAN}, ["forward", "release"],
-         [(0.1, ZERO), (0.2, ZERO)]),
-        ({"stop_messages": 2, **DEAD_MAN}, ["forward", "bad"], [(0.05, ZERO)]),
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize(("given", "acts", "sent"), [
+    ({}, ["forward"], [(t, ZERO) for t in (0.5, 0.55, 0.6, 0.65, 0.7)]),
+    ({"joy_timeout": 0}, ["forward"], []),
+    ({}, ["middle"], []),  # a robot that stands needs no stop, but one on its way through zero
+    ({"stop_messages": 1, "joy_timeout": 0.15, **LIMITS}, ["forward", "backward"],
+     [(0.1, ZERO), (0.15, ZERO)]),
+    ({"stop_messages": 3, "output_rate": 10, **DEAD_MAN}, ["forward", "release"],
+     [(0.1, ZERO), (0.2, ZERO)]),
+    ({"stop_messages": 2, **DEAD_MAN}, ["forward", "bad"], [(0.05, ZERO)]),
+])  # fmt: skip
 def test_what_silence_sends(given, acts, sent):
     machine = safety(**given)
     for act in acts:
@@ -89,19 +86,16 @@ def test_what_silence_sends(given, acts, sent):
 ADA, BOB = [], []  # which are equal, and not the same
 
 
-@pytest.mark.parametrize(
-    ("given", "messages", "pause", "times", "notices"),
-    [
-        # Two that send in turn; a held stick that moves nothing; a silence where the robot moved.
-        ({}, [(None, True, ADA), (None, True, BOB)], 0.02, 200, [Notice.IN_TURN]),
-        ({}, [(None, True, ADA), (None, True, BOB)], 1.0, 200, []),
-        ({}, [(None, True, ADA), (None, True, BOB)], 0.999, 200, [Notice.IN_TURN] * 34),
-        ({}, [(FORWARD, False), (None, False), (ZERO, False)], 0.02, 400, [Notice.NOT_ARMED] * 2),
-        *[({"arm_on_neutral": False, "joy_timeout": 0.5}, [(sent, False)], 0.5, 1, notices)
-          for sent, notices in ((FORWARD, [Notice.SILENT]), (BACKWARD, [Notice.SILENT]), (ZERO, []))
-        ],
+@pytest.mark.parametrize(("given", "messages", "pause", "times", "notices"), [
+    # Two that send in turn; a held stick that moves nothing; a silence where the robot moved.
+    ({}, [(None, True, ADA), (None, True, BOB)], 0.02, 200, [Notice.IN_TURN]),
+    ({}, [(None, True, ADA), (None, True, BOB)], 1.0, 200, []),
+    ({}, [(None, True, ADA), (None, True, BOB)], 0.999, 200, [Notice.IN_TURN] * 34),
+    ({}, [(FORWARD, False), (None, False), (ZERO, False)], 0.02, 400, [Notice.NOT_ARMED] * 2),
+    *[({"arm_on_neutral": False, "joy_timeout": 0.5}, [(sent, False)], 0.5, 1, notices)
+      for sent, notices in ((FORWARD, [Notice.SILENT]), (BACKWARD, [Notice.SILENT]), (ZERO, []))
     ],
-)  # fmt: skip
+])  # fmt: skip
 def test_what_is_wrong_is_named_now_and_then(given, messages, pause, times, notices):
     warnings = []
     machine = Safety(load({**ARMS, **given}), lambda: None, warnings.append)

@@ -43,16 +43,13 @@ def test_driving_that_reaches_no_subscriber_is_reported_once_until_there_is_one(
     assert "No node subscribes to /carl/cmd_vel" in warnings[0]
 
 
-@pytest.mark.parametrize(
-    ("longest_s", "age_ns", "drives"),
-    [
-        (0.3, 300_000_000, True),
-        (0.3, 300_000_001, False),
-        (60, 60_000_000_001, False),
-        (0.3, -5_000_000_000, True),  # another computer's clock is ahead
-        (0, 10**18, True),  # off
-    ],
-)
+@pytest.mark.parametrize(("longest_s", "age_ns", "drives"), [
+    (0.3, 300_000_000, True),
+    (0.3, 300_000_001, False),
+    (60, 60_000_000_001, False),
+    (0.3, -5_000_000_000, True),  # another computer's clock is ahead
+    (0, 10**18, True),  # off
+])  # fmt: skip
 def test_an_old_message_is_not_driven(longest_s, age_ns, drives):
     machine, warnings = teleoperation(max_joy_age=longest_s)
     assert (machine.joy((0.0, 1.0), (), 0.0, age_ns)[0] == 1.0) is drives

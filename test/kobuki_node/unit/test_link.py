@@ -50,28 +50,25 @@ def test_damaged_packets_are_reported_once_and_not_the_first_one():
 
 
 @claim("Each fault of the port ...", because="every fault of the line")
-@pytest.mark.parametrize(
-    ("line", "parts"),
-    [
-        (port_advice.absent("/dev/kobuki", [ARDUINO, KOBUKI]),
-         ["no /dev/kobuki", "serialport:=/dev/ttyUSB1", "rosrun kobuki_node create_udev_rules"]),
-        (port_advice.absent("/dev/kobuki", [ARDUINO]), ["/dev/ttyACM0 (Arduino Uno)", "cable"]),
-        (port_advice.absent("/dev/kobuki", []), ["there are none"]),
-        (port_advice.forbidden("/dev/kobuki", "dialout", "ada", False),
-         ["no permission", "sudo usermod -aG dialout ada"]),
-        (port_advice.forbidden("/dev/kobuki", "dialout", "ada", True), ["log in again"]),
-        (port_advice.forbidden("/dev/kobuki", "", "ada", False), ["create_udev_rules"]),
-        (port_advice.taken("/dev/kobuki", "screen (pid 7)"), ["screen (pid 7)", "End it"]),
-        (port_advice.silent("/dev/kobuki"), ["is the Kobuki switched on?"]),
-        (port_advice.foreign("/dev/ttyACM0", 99, [ARDUINO, KOBUKI]),
-         ["99 bytes", "a Kobuki is at /dev/ttyUSB1"]),
-        (port_advice.foreign("/dev/ttyACM0", 99, [ARDUINO]), ["another device"]),
-        (port_advice.lost("/dev/kobuki"), ["switched off", "busy", "obeys the next command"]),
-        (port_advice.unplugged("/dev/kobuki"), ["unplugged", "obeys the next command"]),
-        (port_advice.damaged("/dev/kobuki", 5), ["cable", "hub", "latency timer"]),
-        (port_advice.online("/dev/kobuki"), ["online", "still for 3 s"]),
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize(("line", "parts"), [
+    (port_advice.absent("/dev/kobuki", [ARDUINO, KOBUKI]),
+     ["no /dev/kobuki", "serialport:=/dev/ttyUSB1", "rosrun kobuki_node create_udev_rules"]),
+    (port_advice.absent("/dev/kobuki", [ARDUINO]), ["/dev/ttyACM0 (Arduino Uno)", "cable"]),
+    (port_advice.absent("/dev/kobuki", []), ["there are none"]),
+    (port_advice.forbidden("/dev/kobuki", "dialout", "ada", False),
+     ["no permission", "sudo usermod -aG dialout ada"]),
+    (port_advice.forbidden("/dev/kobuki", "dialout", "ada", True), ["log in again"]),
+    (port_advice.forbidden("/dev/kobuki", "", "ada", False), ["create_udev_rules"]),
+    (port_advice.taken("/dev/kobuki", "screen (pid 7)"), ["screen (pid 7)", "End it"]),
+    (port_advice.silent("/dev/kobuki"), ["is the Kobuki switched on?"]),
+    (port_advice.foreign("/dev/ttyACM0", 99, [ARDUINO, KOBUKI]),
+     ["99 bytes", "a Kobuki is at /dev/ttyUSB1"]),
+    (port_advice.foreign("/dev/ttyACM0", 99, [ARDUINO]), ["another device"]),
+    (port_advice.lost("/dev/kobuki"), ["switched off", "busy", "obeys the next command"]),
+    (port_advice.unplugged("/dev/kobuki"), ["unplugged", "obeys the next command"]),
+    (port_advice.damaged("/dev/kobuki", 5), ["cable", "hub", "latency timer"]),
+    (port_advice.online("/dev/kobuki"), ["online", "still for 3 s"]),
+])  # fmt: skip
 def test_each_line_says_what_to_do(line, parts):
     assert "\n" not in line
     for part in parts:
@@ -104,15 +101,12 @@ def test_a_robot_that_does_not_answer_is_asked_less_often():
     assert len([now for now in times if identification.requests(now)]) <= 25
 
 
-@pytest.mark.parametrize(
-    ("firmware", "drives", "part"),
-    [
-        (FirmwareVersion(0, 2, 1), True, None),
-        (FirmwareVersion(3, 1, 1), True, "1.1.4 or newer is recommended"),
-        (FirmwareVersion(0, 0, 2), False, "firmware 2.0.0: this driver supports only 1.x"),
-        (FirmwareVersion(0, 9, 0), False, "update the robot's"),
-    ],
-)
+@pytest.mark.parametrize(("firmware", "drives", "part"), [
+    (FirmwareVersion(0, 2, 1), True, None),
+    (FirmwareVersion(3, 1, 1), True, "1.1.4 or newer is recommended"),
+    (FirmwareVersion(0, 0, 2), False, "firmware 2.0.0: this driver supports only 1.x"),
+    (FirmwareVersion(0, 9, 0), False, "update the robot's"),
+])  # fmt: skip
 def test_another_major_version_is_not_driven(firmware, drives, part):
     identification = Identification()
     identification.begin(0.0)

@@ -85,18 +85,15 @@ def test_a_packet_is_delivered_with_its_last_byte():
     assert (framer.damaged, framer.skipped) == (0, 0)
 
 
-@pytest.mark.parametrize(
-    ("before", "damage", "skipped"),
-    [
-        ("00 " * 100, 0, 100),  # a line that is held low
-        ("aa aa aa", 0, 3),
-        ("aa 55 00", 1, 3),  # no payload
-        ("aa 55 06 01 04 64 00 00 00 66", 1, 10),  # a wrong checksum
-        ("aa 55 06 01 04 64 00", 1, 7),  # cut off, and its length reaches into the next one
-        ("aa 55 aa 01 04", 1, 5),  # length 170 (kobuki 382)
-        ("aa 55 05 01 02 03 04 09", 1, 8),  # parts that are longer than the payload
-    ],
-)
+@pytest.mark.parametrize(("before", "damage", "skipped"), [
+    ("00 " * 100, 0, 100),  # a line that is held low
+    ("aa aa aa", 0, 3),
+    ("aa 55 00", 1, 3),  # no payload
+    ("aa 55 06 01 04 64 00 00 00 66", 1, 10),  # a wrong checksum
+    ("aa 55 06 01 04 64 00", 1, 7),  # cut off, and its length reaches into the next one
+    ("aa 55 aa 01 04", 1, 5),  # length 170 (kobuki 382)
+    ("aa 55 05 01 02 03 04 09", 1, 8),  # parts that are longer than the payload
+])  # fmt: skip
 def test_what_is_no_packet_costs_only_itself(before, damage, skipped):
     framer = Framer()
     received = framer.feed(bytes.fromhex(before) + BASE_CONTROL * 30)

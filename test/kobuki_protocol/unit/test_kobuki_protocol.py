@@ -32,21 +32,18 @@ pytestmark = claim(
 RUNS = 10_000
 
 
-@pytest.mark.parametrize(
-    ("velocity", "values"),
-    [
-        ((0.3, 0.0), [300, 0, 300, 0]),
-        ((0.3, 0.00005), [300, 0, 300, 0]),  # straight on
-        ((0.3, 0.5), [357, 600, 300, 500]),  # the outer wheel at 357.5 mm/s
-        ((0.3, -0.5), [357, -600, 300, -500]),
-        ((-0.3, 0.5), [-357, -600, -300, 500]),
-        ((0.0, 0.5), [57, 1, 0, 500]),  # on the spot
-        ((0.0, -0.5), [-57, 1, 0, -500]),
-        ((0.0005, 0.5), [57, 1, 0, 500]),  # a radius of 1 mm is one on the spot
-        ((50.0, 0.0), [32767, 0, 32767, 0]),  # cut to 16 bits
-        ((-50.0, 0.0), [-32768, 0, -32768, 0]),
-    ],
-)
+@pytest.mark.parametrize(("velocity", "values"), [
+    ((0.3, 0.0), [300, 0, 300, 0]),
+    ((0.3, 0.00005), [300, 0, 300, 0]),  # straight on
+    ((0.3, 0.5), [357, 600, 300, 500]),  # the outer wheel at 357.5 mm/s
+    ((0.3, -0.5), [357, -600, 300, -500]),
+    ((-0.3, 0.5), [-357, -600, -300, 500]),
+    ((0.0, 0.5), [57, 1, 0, 500]),  # on the spot
+    ((0.0, -0.5), [-57, 1, 0, -500]),
+    ((0.0005, 0.5), [57, 1, 0, 500]),  # a radius of 1 mm is one on the spot
+    ((50.0, 0.0), [32767, 0, 32767, 0]),  # cut to 16 bits
+    ((-50.0, 0.0), [-32768, 0, -32768, 0]),
+])  # fmt: skip
 def test_a_velocity_is_sent_as_speed_and_radius(velocity, values):
     assert control_values(*velocity) == values
 
@@ -180,18 +177,15 @@ def test_outputs_share_their_bits():
     assert outputs.with_power(1, 1).bits == 0x01F8
 
 
-@pytest.mark.parametrize(
-    ("make", "arguments", "part"),
-    [
-        (commands.Outputs().with_led, (1, 4), "led1: 4: must be 0 to 3"),
-        (commands.Outputs().with_power, (4, 1), "source 4"),
-        (commands.Outputs().with_power, (0, 2), "state 2"),
-        (commands.SoundSequence.of, (7,), "sound 7"),
-        (commands.SetController.of, (1, (1.0, -0.1, 0.0)), "gain"),
-        (commands.SetController.of, (1, (inf, 0.0, 0.0)), "gain"),
-        (commands.SetController.of, (2, (1.0, 0.1, 0.0)), "type 2"),
-    ],
-)
+@pytest.mark.parametrize(("make", "arguments", "part"), [
+    (commands.Outputs().with_led, (1, 4), "led1: 4: must be 0 to 3"),
+    (commands.Outputs().with_power, (4, 1), "source 4"),
+    (commands.Outputs().with_power, (0, 2), "state 2"),
+    (commands.SoundSequence.of, (7,), "sound 7"),
+    (commands.SetController.of, (1, (1.0, -0.1, 0.0)), "gain"),
+    (commands.SetController.of, (1, (inf, 0.0, 0.0)), "gain"),
+    (commands.SetController.of, (2, (1.0, 0.1, 0.0)), "type 2"),
+])  # fmt: skip
 def test_a_command_that_the_kobuki_has_not_is_refused(make, arguments, part):
     with pytest.raises(ValueError, match=part):
         make(*arguments)

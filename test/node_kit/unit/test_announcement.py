@@ -51,14 +51,11 @@ def sockets(monkeypatch):
         each.close()
 
 
-@pytest.mark.parametrize(
-    ("arguments", "node", "names"),
-    [
-        ([], "/turtlesim", ["/spawn", "/turtle1/set_pen"]),
-        (["__name:=sim", "__ns:=a/b"], "/a/b/sim", ["/a/b/spawn", "/a/b/turtle1/set_pen"]),
-        (["spawn:=hatch", "_x:=1"], "/turtlesim", ["/hatch", "/turtle1/set_pen"]),
-    ],
-)
+@pytest.mark.parametrize(("arguments", "node", "names"), [
+    ([], "/turtlesim", ["/spawn", "/turtle1/set_pen"]),
+    (["__name:=sim", "__ns:=a/b"], "/a/b/sim", ["/a/b/spawn", "/a/b/turtle1/set_pen"]),
+    (["spawn:=hatch", "_x:=1"], "/turtlesim", ["/hatch", "/turtle1/set_pen"]),
+])  # fmt: skip
 def test_services_are_registered_as_the_node_will_name_them(
     master, sockets, monkeypatch, arguments, node, names
 ):
@@ -84,13 +81,10 @@ def test_callers_wait_and_the_node_gets_its_port(master, sockets):
         socket.create_connection(place).close()
 
 
-@pytest.mark.parametrize(
-    "state",
-    [
-        [[["/rosout", ["/turtlesim"]]], [], []],  # it would end the node of that name
-        [[], [], [["/spawn", ["/sim"]]]],
-    ],
-)
+@pytest.mark.parametrize("state", [
+    [[["/rosout", ["/turtlesim"]]], [], []],  # it would end the node of that name
+    [[], [], [["/spawn", ["/sim"]]]],
+])  # fmt: skip
 def test_what_runs_already_is_left_alone(master, sockets, state):
     master[0][:] = state
     assert announce("turtlesim", SERVICES) is None

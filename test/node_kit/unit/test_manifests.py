@@ -14,13 +14,10 @@ def package(folder, text):
     return folder
 
 
-@pytest.mark.parametrize(
-    ("text", "word"),
-    [
-        ("<package>\n<name>x</nam>\n</package>", "mismatched tag: line 2"),
-        ("<package></package>", "no <name>"),
-    ],
-)
+@pytest.mark.parametrize(("text", "word"), [
+    ("<package>\n<name>x</nam>\n</package>", "mismatched tag: line 2"),
+    ("<package></package>", "no <name>"),
+])  # fmt: skip
 def test_a_file_that_rospkg_cannot_read_is_named(tmp_path, text, word):
     package(tmp_path / "src" / "good", GOOD)
     bad = package(tmp_path / "src" / "deep" / "bad", text)

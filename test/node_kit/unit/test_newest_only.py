@@ -76,14 +76,11 @@ CUT = [
 HELD = [(0, 1, []), (0, 2, []), (0, None, []), (0, 3, [3]), (0, None, [])]
 
 
-@pytest.mark.parametrize(
-    ("steps", "stop", "held", "reports"),
-    [
-        (CUT, STOP, False, [True, False]),
-        (HELD, STOP, True, [False]),
-        ([(100, 7, [7])], None, False, []),  # without a stop no connection counts as cut
-    ],
-)
+@pytest.mark.parametrize(("steps", "stop", "held", "reports"), [
+    (CUT, STOP, False, [True, False]),
+    (HELD, STOP, True, [False]),
+    ([(100, 7, [7])], None, False, []),  # without a stop no connection counts as cut
+])  # fmt: skip
 def test_a_cut_or_held_connection_is_driven_only_after_the_release(
     connection, monkeypatch, steps, stop, held, reports
 ):
@@ -116,16 +113,13 @@ class Answering:
 
 
 # struct tcp_info: state (1 is established), congestion state (4 is loss), resends, probes.
-@pytest.mark.parametrize(
-    ("resends", "infos"),
-    [
-        (3, [[1, 4, 3, 0, 9, 9]]),
-        (2, [[12, 4, 2, 0], [8, 4, 2, 0]]),  # the last state; the other side closed its half
-        (0, [[1, 0, 0, 0], [], [1], [1, 4], [1, 4, 9]]),  # short: the last byte may be anything
-        (0, [[0, 4, 9, 0], [13, 4, 9, 0]]),  # there are no such states
-        (0, [[1, 0, 9, 0], [1, 5, 9, 0], [0x5A] * 4]),  # resent without a loss cannot be
-    ],
-)
+@pytest.mark.parametrize(("resends", "infos"), [
+    (3, [[1, 4, 3, 0, 9, 9]]),
+    (2, [[12, 4, 2, 0], [8, 4, 2, 0]]),  # the last state; the other side closed its half
+    (0, [[1, 0, 0, 0], [], [1], [1, 4], [1, 4, 9]]),  # short: the last byte may be anything
+    (0, [[0, 4, 9, 0], [13, 4, 9, 0]]),  # there are no such states
+    (0, [[1, 0, 9, 0], [1, 5, 9, 0], [0x5A] * 4]),  # resent without a loss cannot be
+])  # fmt: skip
 def test_an_answer_that_is_short_or_cannot_be_right_is_no_cut(resends, infos):
     for info in infos:
         assert newest_only.resends(Answering(bytes(info))) == resends, info

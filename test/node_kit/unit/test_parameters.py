@@ -7,13 +7,7 @@ from typing import Dict
 import pytest
 
 from node_kit.parameters import declaration
-from node_kit.parameters.declaration import (
-    number,
-    parameter,
-    switch,
-    text,
-    whole_number,
-)
+from node_kit.parameters.declaration import number, parameter, switch, text, whole_number
 from tutorial_testing.claims import claim
 
 pytestmark = claim(
@@ -49,19 +43,16 @@ def message_of(given, kind=Parameters, **more):
     return str(caught.value)
 
 
-@pytest.mark.parametrize(
-    ("name", "good", "bad", "allowed"),
-    [
-        ("rate", [5, 1000, 5.0, 30],
-         [4.9, 1000.1, nan, inf, -inf, "50", True, None, [50.0], 10**400],
-         "a number from 5 to 1000 Hz"),
-        ("share", [0, 1], [2, -0.1], "a number from 0 to 1"),
-        ("count", [1, 2, 9], [0, 10, 2.0, True, "3", None], "a whole number from 1 to 9"),
-        ("seed", [-(10**9), 10**9], [1.5], "a whole number"),
-        ("works", [True, False], [0, 1, "true", None], "true or false"),
-        ("frame", ["odom", ""], ["a b", 7, None], "a name without blanks"),
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize(("name", "good", "bad", "allowed"), [
+    ("rate", [5, 1000, 5.0, 30],
+     [4.9, 1000.1, nan, inf, -inf, "50", True, None, [50.0], 10**400],
+     "a number from 5 to 1000 Hz"),
+    ("share", [0, 1], [2, -0.1], "a number from 0 to 1"),
+    ("count", [1, 2, 9], [0, 10, 2.0, True, "3", None], "a whole number from 1 to 9"),
+    ("seed", [-(10**9), 10**9], [1.5], "a whole number"),
+    ("works", [True, False], [0, 1, "true", None], "true or false"),
+    ("frame", ["odom", ""], ["a b", 7, None], "a name without blanks"),
+])  # fmt: skip
 def test_what_is_allowed(name, good, bad, allowed):
     for value in good:
         kept = declaration.checked(Parameters, {name: value})[name]

@@ -7,13 +7,12 @@ from node_kit.printable import LONGEST, printable, quotable
 from node_kit.ros.lifecycle.start import run
 
 
-@pytest.mark.parametrize(
-    ("text", "shown"),
-    [("plain, ünïcode \u20ac\tand\nlines", "plain, ünïcode \u20ac\tand\nlines"),
-     ("\x1b[31mred\x1b[0m", "red"), ("\x1b[2J\x1b[1;1Hcleared", "cleared"),
-     ("\x1b]0;a title\x07here", "here"), ("\x1b]0;a title\x1b\\here", "here"),
-     ("rung\x07, back\x08, \x9b31m, \0, \r\ud800", "rung, back, 31m, , ")],
-)  # fmt: skip
+@pytest.mark.parametrize(("text", "shown"), [
+    ("plain, ünïcode \u20ac\tand\nlines", "plain, ünïcode \u20ac\tand\nlines"),
+    ("\x1b[31mred\x1b[0m", "red"), ("\x1b[2J\x1b[1;1Hcleared", "cleared"),
+    ("\x1b]0;a title\x07here", "here"), ("\x1b]0;a title\x1b\\here", "here"),
+    ("rung\x07, back\x08, \x9b31m, \0, \r\ud800", "rung, back, 31m, , "),
+])  # fmt: skip
 def test_escape_sequences_and_control_characters_are_left_out(text, shown):
     assert printable(text) == shown
 

@@ -69,17 +69,14 @@ def test_an_answer_arrives_and_a_failure_is_its_text(serve):
 
 
 @claim("A service that ...", because="given up in time")
-@pytest.mark.parametrize(
-    ("answer", "why"),
-    [
-        (lambda _: None, "/x has not answered for 0.2 s"),
-        (after_header(b""), "/x has not answered for 0.2 s"),
-        (after_header(framed(1, b"")[:3]), "/x has not answered for 0.2 s"),
-        (lambda connection: connection.close(), "has ended without an answer"),
-        (after_header(framed(1, b"abc")), "the answer of /x is malformed"),
-        (after_header(struct.pack("<BI", 1, 2**32 - 1)), "/x answers with 4294967295 bytes"),
-    ],
-)
+@pytest.mark.parametrize(("answer", "why"), [
+    (lambda _: None, "/x has not answered for 0.2 s"),
+    (after_header(b""), "/x has not answered for 0.2 s"),
+    (after_header(framed(1, b"")[:3]), "/x has not answered for 0.2 s"),
+    (lambda connection: connection.close(), "has ended without an answer"),
+    (after_header(framed(1, b"abc")), "the answer of /x is malformed"),
+    (after_header(struct.pack("<BI", 1, 2**32 - 1)), "/x answers with 4294967295 bytes"),
+])  # fmt: skip
 def test_a_service_that_does_not_answer_or_wrongly_is_one_line(serve, answer, why):
     serve(answer)
     with pytest.raises(ServiceError, match=why):

@@ -34,19 +34,15 @@ TOPIC_LOST = (Answer.WELL, (STATE[0], [["/joy", ["/other"]]], []))
 SILENT = (Answer.SILENT, None)
 
 
-@pytest.mark.parametrize(
-    ("about", "changed", "name", "reason", "ends"),
-    [
-        ("the master knows it as before", {}, "/robot", REASON, False),
-        ("it is replaced", {"lookupNode": (Answer.WELL, ANOTHER)}, "/robot", REASON, True),
-        ("the name came back, a topic did not", {"getSystemState": TOPIC_LOST}, "/robot", REASON,
-         True),
-        ("no answer", {"lookupNode": SILENT}, "/robot", REASON, True),
-        ("taken for another: nothing is asked", {"lookupNode": SILENT, "getSystemState": SILENT},
-         "/died", REASON, False),
-        ("another reason", {}, "", "user request", True),
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize(("about", "changed", "name", "reason", "ends"), [
+    ("the master knows it as before", {}, "/robot", REASON, False),
+    ("it is replaced", {"lookupNode": (Answer.WELL, ANOTHER)}, "/robot", REASON, True),
+    ("the name came back, a topic did not", {"getSystemState": TOPIC_LOST}, "/robot", REASON, True),
+    ("no answer", {"lookupNode": SILENT}, "/robot", REASON, True),
+    ("taken for another: nothing is asked", {"lookupNode": SILENT, "getSystemState": SILENT},
+     "/died", REASON, False),
+    ("another reason", {}, "", "user request", True),
+])  # fmt: skip
 def test_a_node_ends_only_if_it_is_meant(answers, about, changed, name, reason, ends):
     answers.update(changed)
     ended = shutdown._end_if_meant(None, "/master", reason.format(name)) == "ended"

@@ -17,15 +17,12 @@ from tutorial_testing.isolation import old_bubblewrap
 
 
 @claim("What the system does not provide is said first")
-@pytest.mark.parametrize(
-    ("granted", "version", "words"),
-    [
-        (Isolation(why="bwrap: refused"), 0, "no isolation here (bwrap: refused): a program "),
-        (Isolation(why="bwrap: refused"), 3, "isolated by Landlock alone (bwrap: refused): a "),
-        (Isolation(("bwrap",)), 3, "does not limit the memory"),
-        (Isolation(("bwrap",), is_limited=True), 0, ""),
-    ],
-)
+@pytest.mark.parametrize(("granted", "version", "words"), [
+    (Isolation(why="bwrap: refused"), 0, "no isolation here (bwrap: refused): a program "),
+    (Isolation(why="bwrap: refused"), 3, "isolated by Landlock alone (bwrap: refused): a "),
+    (Isolation(("bwrap",)), 3, "does not limit the memory"),
+    (Isolation(("bwrap",), is_limited=True), 0, ""),
+])  # fmt: skip
 def test_what_the_system_does_not_provide_is_reported(monkeypatch, granted, version, words):
     monkeypatch.setattr(bubblewrap, "granted", lambda: granted)
     monkeypatch.setattr(landlock, "version", lambda: version)
@@ -62,17 +59,11 @@ NOT_ISOLATED = "cannot isolate programs: bwrap: refused: a student's program cou
 
 
 @claim("A student's program ...", because="a worker that cannot isolate")
-@pytest.mark.parametrize(
-    ("begin", "why"),
-    [
-        (lambda: cluster.become_worker("tls://host", 1, False), NOT_ISOLATED),
-        (
-            lambda: cluster.become_worker("tcp://host", 1, True),
-            "--not-isolated needs tls://, and root",
-        ),
-        (lambda: cluster._examine(b"", None, ""), NOT_ISOLATED),  # not by ./tutorial worker
-    ],
-)
+@pytest.mark.parametrize(("begin", "why"), [
+    (lambda: cluster.become_worker("tls://host", 1, False), NOT_ISOLATED),
+    (lambda: cluster.become_worker("tcp://host", 1, True), "--not-isolated needs tls://, and root"),
+    (lambda: cluster._examine(b"", None, ""), NOT_ISOLATED),  # not by ./tutorial worker
+])  # fmt: skip
 def test_a_worker_without_isolation_checks_nothing(monkeypatch, begin, why):
     monkeypatch.setattr(bubblewrap, "granted", lambda: Isolation(why="bwrap: refused"))
     monkeypatch.delenv(cluster.INSISTS, raising=False)

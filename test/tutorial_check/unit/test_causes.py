@@ -16,39 +16,33 @@ FORMAT = "TypeError: not enough arguments for format string"
 
 
 @claim("An error of Python, in a program that fails or cannot be read, has its cause")
-@pytest.mark.parametrize(
-    ("error", "line", "word"),
-    [
-        ("TypeError: unsupported operand type(s) for +: 'function' and 'str'", "", "() is missing"),
-        ('TypeError: can only concatenate str (not "function") to str', "", "() is missing"),
-        ('TypeError: can only concatenate str (not "float") to str', "", "do not add"),
-        ("cannot import name 'Twist' from 'geometry_msgs' (/x)", "", "in .msg: from g"),
-        ("ImportError: cannot import name 'Joy' from 'std_msgs.msg' (/x)", "", "Joy is in sensor"),
-        ("NameError: name 'Twist' is not defined. Did you mean: 'twist'?", "", "not imported"),
-        ("ModuleNotFoundError: No module named 'std_msg'", "", "from std_msgs.msg import"),
-        ("ModuleNotFoundError: No module named 'serail'", "", "is serial meant?"),
-        ("ModuleNotFoundError: No module named 'tf.foo'", "", "tf has no module foo"),
-        ("No module named 'joy.msg'; 'joy' is not a package", "", "since Hydro"),
-        ("ROSException: ROS node has not been initialized yet.", "", "before Subscriber and Pub"),
-        (FORMAT, 'rospy.loginfo("%.2f %.2f" % data.axes[0])', "leave [ ] out"),
-    ],
-)
+@pytest.mark.parametrize(("error", "line", "word"), [
+    ("TypeError: unsupported operand type(s) for +: 'function' and 'str'", "", "() is missing"),
+    ('TypeError: can only concatenate str (not "function") to str', "", "() is missing"),
+    ('TypeError: can only concatenate str (not "float") to str', "", "do not add"),
+    ("cannot import name 'Twist' from 'geometry_msgs' (/x)", "", "in .msg: from g"),
+    ("ImportError: cannot import name 'Joy' from 'std_msgs.msg' (/x)", "", "Joy is in sensor"),
+    ("NameError: name 'Twist' is not defined. Did you mean: 'twist'?", "", "not imported"),
+    ("ModuleNotFoundError: No module named 'std_msg'", "", "from std_msgs.msg import"),
+    ("ModuleNotFoundError: No module named 'serail'", "", "is serial meant?"),
+    ("ModuleNotFoundError: No module named 'tf.foo'", "", "tf has no module foo"),
+    ("No module named 'joy.msg'; 'joy' is not a package", "", "since Hydro"),
+    ("ROSException: ROS node has not been initialized yet.", "", "before Subscriber and Pub"),
+    (FORMAT, 'rospy.loginfo("%.2f %.2f" % data.axes[0])', "leave [ ] out"),
+])  # fmt: skip
 def test_an_error_of_python_has_a_cause(error, line, word):
     assert word in explain(error, line)
     assert explain("ZeroDivisionError: division by zero", line) == ""
 
 
 @claim("A program in Python 2 is named as such, and the command of its hint makes it Python 3")
-@pytest.mark.parametrize(
-    "line",
-    [
-        "print 'x'", "if x: print x", "print >>f, 'x'", "print ('%d') % 5", "exec 'x = 1'",
-        "raise ValueError, 'x'", "x = `5`", "if 1 <> 2: pass", "x = 10L", "x = ur'x'", "x = 0777",
-        "def f(a, (b, c)): pass", "try: pass\nexcept (IOError, OSError), e: pass", "raw_input()",
-        "import urllib2", "import ConfigParser as c", "{}.has_key(1)", "{}.iteritems()",
-        "import sys; sys.maxint", "from itertools import izip", "iter([]).next()", "unicode('x')",
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize("line", [
+    "print 'x'", "if x: print x", "print >>f, 'x'", "print ('%d') % 5", "exec 'x = 1'",
+    "raise ValueError, 'x'", "x = `5`", "if 1 <> 2: pass", "x = 10L", "x = ur'x'", "x = 0777",
+    "def f(a, (b, c)): pass", "try: pass\nexcept (IOError, OSError), e: pass", "raw_input()",
+    "import urllib2", "import ConfigParser as c", "{}.has_key(1)", "{}.iteritems()",
+    "import sys; sys.maxint", "from itertools import izip", "iter([]).next()", "unicode('x')",
+])  # fmt: skip
 def test_a_program_in_python_2_is_named_as_such(line):
     """Each in a program of its own, as Python 3 refuses it."""
     facts = PythonFacts(line)
@@ -81,20 +75,17 @@ def test_another_error_is_not_called_python_2(line):
 
 
 @claim("An error of Python, in ...", because="a program that cannot be read")
-@pytest.mark.parametrize(
-    ("text", "line", "word"),
-    [
-        ("x = y\u200b\n", 1, "type the line again"),
-        ("x = 3 \u2013 2\n", 1, "type - for a dash"),
-        ("x = □y\n", 1, "delete it"),
-        ("def f():\n    pub = 1\n    global pub\n", 3, "`global pub` is the first line"),
-        ("def f():\n    print(pub)\n    global pub\n", 3, "`global pub` is the first line"),
-        ("def f(pub):\n    global pub\n", 2, "needs no `global pub`"),
-        ("def f():\n    x = 1\nreturn x\n", 3, "return is outside"),
-        ("while True:\n    pass\nbreak\n", 3, "break is outside"),
-        ("x y", 1, "cannot read"),
-    ],
-)
+@pytest.mark.parametrize(("text", "line", "word"), [
+    ("x = y\u200b\n", 1, "type the line again"),
+    ("x = 3 \u2013 2\n", 1, "type - for a dash"),
+    ("x = □y\n", 1, "delete it"),
+    ("def f():\n    pub = 1\n    global pub\n", 3, "`global pub` is the first line"),
+    ("def f():\n    print(pub)\n    global pub\n", 3, "`global pub` is the first line"),
+    ("def f(pub):\n    global pub\n", 2, "needs no `global pub`"),
+    ("def f():\n    x = 1\nreturn x\n", 3, "return is outside"),
+    ("while True:\n    pass\nbreak\n", 3, "break is outside"),
+    ("x y", 1, "cannot read"),
+])  # fmt: skip
 def test_what_python_cannot_read_has_a_hint(text, line, word):
     facts = PythonFacts(text)
     assert facts.error_line in (line, line + 1)
@@ -117,14 +108,11 @@ more
 """
 
 
-@pytest.mark.parametrize(
-    "no_mistake",
-    [
-        OUTPUT.replace("TypeError: 'tuple'", "rospy.ROSException: publish() to a closed topic"),
-        OUTPUT.replace("TypeError:", "ROSException: topic was closed during publish()"),
-        "Traceback (most recent call last):\n",  # it was cut off here
-    ],
-)
+@pytest.mark.parametrize("no_mistake", [
+    OUTPUT.replace("TypeError: 'tuple'", "rospy.ROSException: publish() to a closed topic"),
+    OUTPUT.replace("TypeError:", "ROSException: topic was closed during publish()"),
+    "Traceback (most recent call last):\n",  # it was cut off here
+])  # fmt: skip
 def test_an_error_at_the_end_of_rospy_is_no_mistake(no_mistake):
     """rospy closes topics shortly before it says that it ends."""
     assert first_traceback(no_mistake, "/tmp/ws/joy2twist") is None
@@ -136,29 +124,26 @@ def test_an_error_at_the_end_of_rospy_is_no_mistake(no_mistake):
     "An error of CMake, compiler or linker has its line and its cause; the student's own comes "
     "before another package's"
 )
-@pytest.mark.parametrize(
-    ("words", "hint"),
-    [
-        ('Cannot specify link libraries for target "use" which is not built by this project.',
-         "add_executable(use ...) or add_library(use ...) comes before"),
-        ('Cannot add target-level dependencies to non-existent target "use".', "comes before"),
-        ('cannot create target "use" because another target with the same name', "name of its own"),
-        ("DEPENDS on the catkin package 'tf' which must", "<depend>tf</depend>"),
-        ("generate_messages() must be called before catkin_package()", "below generate"),
-        ("Messages depends on unknown pkg: tf (Missing", "name tf in find_package"),
-        ("undefined reference to `main'", "no int main(...)"),
-        ("use without libraries: undefined reference to `f(std::string)'", "the .cpp file"),
-        ("undefined reference to `tf::T::T()'", "its package into find_package"),
-        ("cannot find -lown: No such file or directory", "add_library(own ...)"),
-        ("multiple definition of `main'", "its own add_executable"),
-        ("multiple definition of `f()'", "inline"),
-        ("'String' does not name a type", "String is not known"),
-        ("\u2018x\u2019 is not a member of \u2018ros\u2019", "x is not known"),
-        ("expected ';' before 'ros'", "a ; is missing"),
-        ("expected '}' at end of input", "never closed"),
-        ("ros.h: No such file or directory", "the spelling of ros.h"),
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize(("words", "hint"), [
+    ('Cannot specify link libraries for target "use" which is not built by this project.',
+     "add_executable(use ...) or add_library(use ...) comes before"),
+    ('Cannot add target-level dependencies to non-existent target "use".', "comes before"),
+    ('cannot create target "use" because another target with the same name', "name of its own"),
+    ("DEPENDS on the catkin package 'tf' which must", "<depend>tf</depend>"),
+    ("generate_messages() must be called before catkin_package()", "below generate"),
+    ("Messages depends on unknown pkg: tf (Missing", "name tf in find_package"),
+    ("undefined reference to `main'", "no int main(...)"),
+    ("use without libraries: undefined reference to `f(std::string)'", "the .cpp file"),
+    ("undefined reference to `tf::T::T()'", "its package into find_package"),
+    ("cannot find -lown: No such file or directory", "add_library(own ...)"),
+    ("multiple definition of `main'", "its own add_executable"),
+    ("multiple definition of `f()'", "inline"),
+    ("'String' does not name a type", "String is not known"),
+    ("\u2018x\u2019 is not a member of \u2018ros\u2019", "x is not known"),
+    ("expected ';' before 'ros'", "a ; is missing"),
+    ("expected '}' at end of input", "never closed"),
+    ("ros.h: No such file or directory", "the spelling of ros.h"),
+])  # fmt: skip
 def test_an_error_of_catkin_make_has_a_cause(words, hint):
     assert hint in "".join(explained("catkin_make", words))
 

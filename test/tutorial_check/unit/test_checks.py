@@ -55,14 +55,11 @@ def statuses(one, exercises, **options):
     return " ".join(f"{result.id}:{result.status}" for result in found)
 
 
-@pytest.mark.parametrize(
-    ("come_to", "exercises", "expected", "calls"),
-    [
-        ({"B": Note("odd")}, "1 1", "A:ok B:note A:ok B:note", "A B"),
-        ({"A": BAD}, "1 2", "A:wrong B:unreached C:unreached D:ok", "A D"),
-        ({"A": BAD}, "2", "A:wrong C:unreached D:ok", "A D"),  # the culprit with the later one
-    ],
-)
+@pytest.mark.parametrize(("come_to", "exercises", "expected", "calls"), [
+    ({"B": Note("odd")}, "1 1", "A:ok B:note A:ok B:note", "A B"),
+    ({"A": BAD}, "1 2", "A:wrong B:unreached C:unreached D:ok", "A D"),
+    ({"A": BAD}, "2", "A:wrong C:unreached D:ok", "A D"),  # the culprit with the later one
+])  # fmt: skip
 def test_checks_come_after_those_they_need(come_to, exercises, expected, calls):
     one, called = run(CHECKS, **come_to)
     assert statuses(one, exercises) == expected
@@ -73,15 +70,12 @@ def test_checks_come_after_those_they_need(come_to, exercises, expected, calls):
         assert statuses(run(CHECKS, **come_to)[0], "1", only_first=True) == "A:wrong"
 
 
-@pytest.mark.parametrize(
-    ("expected", "where", "status"),
-    [
-        ("good", "", UNREACHED),
-        ("another file", "", WRONG),  # "no such file" is said of two files
-        ("another file", "scripts", WRONG),
-        ("it drives", "scripts/a.py:3", UNREACHED),  # one line keeps two things from holding
-    ],
-)
+@pytest.mark.parametrize(("expected", "where", "status"), [
+    ("good", "", UNREACHED),
+    ("another file", "", WRONG),  # "no such file" is said of two files
+    ("another file", "scripts", WRONG),
+    ("it drives", "scripts/a.py:3", UNREACHED),  # one line keeps two things from holding
+])  # fmt: skip
 def test_when_two_checks_are_about_one_cause(expected, where, status):
     first, second = Wrong("good", "bad", where), Wrong(expected, "bad", where)
     assert statuses(run([ONE, OTHER], A=first, B=second)[0], "1 2") == f"A:wrong B:{status}"
@@ -95,13 +89,10 @@ def test_a_cause_that_was_reported_is_not_looked_for_again():
     assert called == ["A", "A", "B"]
 
 
-@pytest.mark.parametrize(
-    ("error", "why"),
-    [
-        (CannotCheck("the robot does not start"), "A: the robot does not start"),
-        (KeyError("joy"), "A: KeyError: 'joy' (test_checks.py:"),
-    ],
-)
+@pytest.mark.parametrize(("error", "why"), [
+    (CannotCheck("the robot does not start"), "A: the robot does not start"),
+    (KeyError("joy"), "A: KeyError: 'joy' (test_checks.py:"),
+])  # fmt: skip
 def test_what_cannot_be_checked_keeps_no_other_check_from_it(error, why):
     one, _ = run(CHECKS, A=error)
     assert statuses(one, "1 2") == "A:unreached B:unreached C:unreached D:ok"  # A is reported once
@@ -114,18 +105,15 @@ def test_what_cannot_be_checked_keeps_no_other_check_from_it(error, why):
     "A check that does not hold is made again if the machine was busy or no line is to blame; with "
     "too little time there is no verdict"
 )
-@pytest.mark.parametrize(
-    ("about", "busy", "overloaded", "looks", "status"),
-    [
-        ("", False, False, 1, WRONG),
-        ("no line", False, False, 2, WRONG),
-        ("", True, False, 2, WRONG),
-        ("sure", True, True, 1, WRONG),
-        ("timeless", True, True, 1, WRONG),  # it reads files alone
-        ("", True, True, 2, UNREACHED),
-        ("late once", True, False, 2, OK),
-    ],
-)
+@pytest.mark.parametrize(("about", "busy", "overloaded", "looks", "status"), [
+    ("", False, False, 1, WRONG),
+    ("no line", False, False, 2, WRONG),
+    ("", True, False, 2, WRONG),
+    ("sure", True, True, 1, WRONG),
+    ("timeless", True, True, 1, WRONG),  # it reads files alone
+    ("", True, True, 2, UNREACHED),
+    ("late once", True, False, 2, OK),
+])  # fmt: skip
 def test_a_retry_on_a_busy_machine_or_without_a_line(about, busy, overloaded, looks, status):
     wrong = Wrong("good", "bad", "f" if about == "no line" else "f:1", sure=about == "sure")
     check = replace(ONE, timeless=about == "timeless")

@@ -23,15 +23,12 @@ BAD = Outcome("2", [Result("C1", WRONG, "no file", hint="mkdir src")], 1.0, True
 NO_VERDICT = Outcome("5", [Result("C21", UNREACHED, "two")], 1.0, True, "C21: no space")
 
 
-@pytest.mark.parametrize(
-    ("words", "exercises"),
-    [
-        (["4"], ["4.2", "4.3", "4.4", "4.5"]),
-        (["6", "2"], ["2", "6.1", "6.2"]),
-        (["4.3", "4"], ["4.2", "4.3", "4.4", "4.5"]),
-        (["5.1", "3.2."], ["3", "5"]),
-    ],
-)
+@pytest.mark.parametrize(("words", "exercises"), [
+    (["4"], ["4.2", "4.3", "4.4", "4.5"]),
+    (["6", "2"], ["2", "6.1", "6.2"]),
+    (["4.3", "4"], ["4.2", "4.3", "4.4", "4.5"]),
+    (["5.1", "3.2."], ["3", "5"]),
+])  # fmt: skip
 def test_a_section_is_all_its_exercises(words, exercises):
     assert parse([*BEFORE, *words]).exercises == exercises
 
@@ -46,18 +43,15 @@ def test_in_a_shell_of_a_workspace_that_is_meant(monkeypatch):
 
 
 @claim("A command's help has its options alone, and `check --help` all")
-@pytest.mark.parametrize(
-    ("words", "command"),
-    [
-        ("--in ws 3 --keep a --json b --junit c --gradescope d --classroom e --no-hints", "check"),
-        ("3 --in ws --variant file.yaml --watch --hints 0", "watch"),
-        ("--solution 3 --in ws", "solution"),
-        ("3 --all=class --jobs 3 --again --out a --variants 1 --keep b --cluster c", "all"),
-        ("--course wiki --self-test --jobs 3", "self-test"),
-        ("--package gradescope 2 3 --out a --course square", "package"),
-        ("--variants 2026 --show-variant ada", "show-variant"),
-    ],
-)
+@pytest.mark.parametrize(("words", "command"), [
+    ("--in ws 3 --keep a --json b --junit c --gradescope d --classroom e --no-hints", "check"),
+    ("3 --in ws --variant file.yaml --watch --hints 0", "watch"),
+    ("--solution 3 --in ws", "solution"),
+    ("3 --all=class --jobs 3 --again --out a --variants 1 --keep b --cluster c", "all"),
+    ("--course wiki --self-test --jobs 3", "self-test"),
+    ("--package gradescope 2 3 --out a --course square", "package"),
+    ("--variants 2026 --show-variant ada", "show-variant"),
+])  # fmt: skip
 def test_an_option_says_which_command_is_meant(words, command, capsys):
     """Its help has its options; that of no command has all."""
     words = words.replace(" 2 3 ", " 1 ").split()
@@ -71,31 +65,28 @@ def test_an_option_says_which_command_is_meant(words, command, capsys):
     assert command in command_line.COMMANDS
 
 
-@pytest.mark.parametrize(
-    ("words", "error"),
-    [
-        ([*UNDERLAY, "3"], "which workspace? For example: --in ~/ros/hydro/catkin_ws 3;"),
-        *(([*BEFORE, word], "no exercise") for word in ("8", "", ".", "4.9")),
-        *(([*UNDERLAY, f"--{name}", ""], "an empty word is no path") for name in ("in", "all")),
-        *(([*BEFORE, f"--{name}", ""], "an empty word") for name in ("keep", "json", "underlay")),
-        ([*UNDERLAY, "--all", "class", "--json", "a"], "--json is for one workspace"),
-        ([*UNDERLAY, "--all", "class", "--json=a"], "--json is for one workspace, not for --all"),
-        ([*UNDERLAY, "--all", "class", "--watch"], "--watch is for one workspace, not for --all"),
-        ([*BEFORE, "--all", "class"], "--in is for one workspace, not for --all"),
-        ([*BEFORE, "--watch", "--classroom", "a"], "--classroom is for one workspace, not for --w"),
-        ([*BEFORE, "--watch", "--solution", "3"], "--watch is for one workspace, not for --sol"),
-        ([*BEFORE, "--out", "a"], "--out is for --all and --package, not for one workspace"),
-        ([*BEFORE, "--jobs", "2"], "--jobs is for --all and --self-test, not for one workspace"),
-        ([*BEFORE, "--again"], "--again is for --all, not for one workspace"),
-        ([*BEFORE, "--variants", "1"], "--variants is for --all and --show-variant, not for"),
-        ([*UNDERLAY, "--package", "a", "--all", "b"], "--all is a command, not for --package"),
-        ([*UNDERLAY, "--self-test", "--variant", "a"], "--variant is for one workspace, --all and"),
-        ([*UNDERLAY, "--self-test", "--keep", "a"], "--keep is for one workspace and --all, not"),
-        ([*UNDERLAY, "--self-test", "4.3"], "unrecognized arguments: 4.3"),
-        ([*BEFORE, "--solution"], "--solution of which exercise? For example: --solution 4.3"),
-        ([*BEFORE, "--colour"], "unrecognized arguments: --colour"),
-    ],
-)
+@pytest.mark.parametrize(("words", "error"), [
+    ([*UNDERLAY, "3"], "which workspace? For example: --in ~/ros/hydro/catkin_ws 3;"),
+    *(([*BEFORE, word], "no exercise") for word in ("8", "", ".", "4.9")),
+    *(([*UNDERLAY, f"--{name}", ""], "an empty word is no path") for name in ("in", "all")),
+    *(([*BEFORE, f"--{name}", ""], "an empty word") for name in ("keep", "json", "underlay")),
+    ([*UNDERLAY, "--all", "class", "--json", "a"], "--json is for one workspace"),
+    ([*UNDERLAY, "--all", "class", "--json=a"], "--json is for one workspace, not for --all"),
+    ([*UNDERLAY, "--all", "class", "--watch"], "--watch is for one workspace, not for --all"),
+    ([*BEFORE, "--all", "class"], "--in is for one workspace, not for --all"),
+    ([*BEFORE, "--watch", "--classroom", "a"], "--classroom is for one workspace, not for --w"),
+    ([*BEFORE, "--watch", "--solution", "3"], "--watch is for one workspace, not for --sol"),
+    ([*BEFORE, "--out", "a"], "--out is for --all and --package, not for one workspace"),
+    ([*BEFORE, "--jobs", "2"], "--jobs is for --all and --self-test, not for one workspace"),
+    ([*BEFORE, "--again"], "--again is for --all, not for one workspace"),
+    ([*BEFORE, "--variants", "1"], "--variants is for --all and --show-variant, not for"),
+    ([*UNDERLAY, "--package", "a", "--all", "b"], "--all is a command, not for --package"),
+    ([*UNDERLAY, "--self-test", "--variant", "a"], "--variant is for one workspace, --all and"),
+    ([*UNDERLAY, "--self-test", "--keep", "a"], "--keep is for one workspace and --all, not"),
+    ([*UNDERLAY, "--self-test", "4.3"], "unrecognized arguments: 4.3"),
+    ([*BEFORE, "--solution"], "--solution of which exercise? For example: --solution 4.3"),
+    ([*BEFORE, "--colour"], "unrecognized arguments: --colour"),
+])  # fmt: skip
 def test_words_that_are_refused(words, error, capsys, monkeypatch):
     monkeypatch.delenv("TUTORIAL_IN", raising=False)
     with pytest.raises(SystemExit, match="2"):
@@ -190,13 +181,10 @@ def test_a_folder_of_tasks_is_for_a_class(main, tmp_path, capsys):
     assert "--variant FOLDER is for --all and --show-variant" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize(
-    ("words", "printed"),
-    [
-        (["--variants", "7", "--show-variant", "ada"], "axis_linear: 1"),
-        (["--package", "github:a/b", "--out"], "check.yml"),
-    ],
-)
+@pytest.mark.parametrize(("words", "printed"), [
+    (["--variants", "7", "--show-variant", "ada"], "axis_linear: 1"),
+    (["--package", "github:a/b", "--out"], "check.yml"),
+])  # fmt: skip
 def test_what_is_printed(main, words, printed, tmp_path, capsys):
     words = [*words, tmp_path / "check.yml"] if "--out" in words else words
     assert main(pytest.fail, *words) == 0

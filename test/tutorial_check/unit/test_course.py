@@ -62,44 +62,38 @@ def test_a_course_and_its_checks_in_its_order(course):
     assert [each.id for each in checks_of(course(checks="X = 1\n"))] == []
 
 
-@pytest.mark.parametrize(
-    ("text", "why"),
-    [
-        ("", "must be a map of title, document, sheet, exercises, variants, packages"),
-        ("title: [", "no YAML"),
-        ("title: T\n", "exercises: "),
-        ("points: 3\n", "points is not known; known are title, document, sheet, exercises"),
-        ("title: 3\nexercises: {'1': a}\n", "title: 3 is no str"),
-        ("packages: [p]\n", "packages: ['p'] is no dict"),
-        ("exercises: {1: a}\n", 'exercise 1: write "1", in quotes'),
-        ("exercises: {'1': {title: a, points: many}}\n", "points: 'many' is no float"),
-        ("exercises: {'1': {title: a, points: .nan}}\n", "exercise 1: points: 0 to 1000000"),
-        ("exercises: {'1': {title: a, points: -1}}\n", "exercise 1: points: 0 to 1000000"),
-        ("exercises: {'1': {title: a, point: 1}}\n", "point is not known; known are title"),
-        ("exercises: {'1': {points: 1}}\n", "title"),
-    ],
-)
+@pytest.mark.parametrize(("text", "why"), [
+    ("", "must be a map of title, document, sheet, exercises, variants, packages"),
+    ("title: [", "no YAML"),
+    ("title: T\n", "exercises: "),
+    ("points: 3\n", "points is not known; known are title, document, sheet, exercises"),
+    ("title: 3\nexercises: {'1': a}\n", "title: 3 is no str"),
+    ("packages: [p]\n", "packages: ['p'] is no dict"),
+    ("exercises: {1: a}\n", 'exercise 1: write "1", in quotes'),
+    ("exercises: {'1': {title: a, points: many}}\n", "points: 'many' is no float"),
+    ("exercises: {'1': {title: a, points: .nan}}\n", "exercise 1: points: 0 to 1000000"),
+    ("exercises: {'1': {title: a, points: -1}}\n", "exercise 1: points: 0 to 1000000"),
+    ("exercises: {'1': {title: a, point: 1}}\n", "point is not known; known are title"),
+    ("exercises: {'1': {points: 1}}\n", "title"),
+])  # fmt: skip
 def test_a_wrong_file_is_one_line(course, text, why):
     with pytest.raises(CannotCheck, match=r"course\.yaml: ") as error:
         course(text)
     assert why in str(error.value) and "\n" not in str(error.value)
 
 
-@pytest.mark.parametrize(
-    ("checks", "why"),
-    [
-        ("def\n", "checks.py:1: "),
-        ("import tutorial_check.judge.scripts\n", "COURSES.md says what a course of an earlier"),
-        ("import tutorial_course.other\n", "COURSES.md says what a course of an earlier"),
-        ("\nX = unknown\n", "checks.py:2: name 'unknown' is not defined"),
-        (CHECKS.replace('"1.1"', '"3"'), "S2: section 3 is of no exercise"),
-        (CHECKS.replace('"S10"', '"S1"'), "two checks are S1"),
-        (CHECKS.replace("S1 S10", "S1 S7"), "S2 needs S7, which is no check"),
-        (CHECKS.replace("(a, ", "(print, "), "checks.py:6: S2 needs print, which is no check"),
-        (CHECKS.replace('"a", ', "section="), "checks.py:4: S1: a check has a title, or a doc"),
-        (CHECKS.replace('"1.1", ', ""), "checks.py:6: S2: a check has a title, or a doc"),
-    ],
-)
+@pytest.mark.parametrize(("checks", "why"), [
+    ("def\n", "checks.py:1: "),
+    ("import tutorial_check.judge.scripts\n", "COURSES.md says what a course of an earlier"),
+    ("import tutorial_course.other\n", "COURSES.md says what a course of an earlier"),
+    ("\nX = unknown\n", "checks.py:2: name 'unknown' is not defined"),
+    (CHECKS.replace('"1.1"', '"3"'), "S2: section 3 is of no exercise"),
+    (CHECKS.replace('"S10"', '"S1"'), "two checks are S1"),
+    (CHECKS.replace("S1 S10", "S1 S7"), "S2 needs S7, which is no check"),
+    (CHECKS.replace("(a, ", "(print, "), "checks.py:6: S2 needs print, which is no check"),
+    (CHECKS.replace('"a", ', "section="), "checks.py:4: S1: a check has a title, or a doc"),
+    (CHECKS.replace('"1.1", ', ""), "checks.py:6: S2: a check has a title, or a doc"),
+])  # fmt: skip
 def test_wrong_checks_are_one_line(course, checks, why):
     with pytest.raises(CannotCheck) as error:
         checks_of(course(checks=checks))

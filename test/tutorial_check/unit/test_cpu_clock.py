@@ -38,15 +38,12 @@ class Machine:
 
 
 @claim("Deadlines go by the time that the programs had")
-@pytest.mark.parametrize(
-    ("passed", "programs_s", "busy", "overloaded"),
-    [
-        ((1.0, 900, 0), 1.0, False, False),
-        ((1.0, 300, 700), 0.3, True, False),
-        ((1.0, 0, 500, OURS), 0.5, True, False),  # the checker's own waiting counts as well
-        ((10.0, 0, 100_000), 10.0 * SLOWEST, True, True),  # ten threads at once: it never stops
-    ],
-)
+@pytest.mark.parametrize(("passed", "programs_s", "busy", "overloaded"), [
+    ((1.0, 900, 0), 1.0, False, False),
+    ((1.0, 300, 700), 0.3, True, False),
+    ((1.0, 0, 500, OURS), 0.5, True, False),  # the checker's own waiting counts as well
+    ((10.0, 0, 100_000), 10.0 * SLOWEST, True, True),  # ten threads at once: it never stops
+])  # fmt: skip
 def test_time_without_a_processor_does_not_count(passed, programs_s, busy, overloaded):
     machine = Machine()
     assert machine.passes(*passed) == pytest.approx(programs_s)

@@ -51,12 +51,11 @@ def test_what_it_finds_is_reported_as_it_comes(examine):
     assert outcomes == ["all"] and reported == [("3", "C5"), ("3", "C6")]
 
 
-@pytest.mark.parametrize(
-    ("body", "words"),
-    [("re.match('(a+)+$', 'a' * 60 + 'b')", "takes more than 20 s"),
-     ("b'x' * (1 << 30)", "MB of memory"), ("os._exit(3)", "exit code 3"),
-     ("os.kill(os.getpid(), 11)", "Segmentation fault"), ("return [0][1]", "a fault of the check")],
-)  # fmt: skip
+@pytest.mark.parametrize(("body", "words"), [
+    ("re.match('(a+)+$', 'a' * 60 + 'b')", "takes more than 20 s"),
+    ("b'x' * (1 << 30)", "MB of memory"), ("os._exit(3)", "exit code 3"),
+    ("os.kill(os.getpid(), 11)", "Segmentation fault"), ("return [0][1]", "a fault of the check"),
+])  # fmt: skip
 def test_a_process_that_cannot_go_on_is_one_line(examine, body, words):
     with pytest.raises(CannotCheck, match=words) as caught:
         examine(body)

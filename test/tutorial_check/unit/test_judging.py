@@ -65,11 +65,10 @@ def test_what_was_found_before_the_worker_ended(examine):
     assert [one.passed for one in outcomes] == [True, False, False]
 
 
-@pytest.mark.parametrize(
-    ("answer", "why"),
-    [("nonsense", "is no recording: 'nonsense'"), ("7", "is no recording"),
-     ("[" * 9000, "is no recording"), ("0" * 20_000, "is longer than 10,000 bytes")],
-)  # fmt: skip
+@pytest.mark.parametrize(("answer", "why"), [
+    ("nonsense", "is no recording: 'nonsense'"), ("7", "is no recording"),
+    ("[" * 9000, "is no recording"), ("0" * 20_000, "is longer than 10,000 bytes"),
+])  # fmt: skip
 def test_what_was_found_before_a_worker_answered_nonsense(examine, monkeypatch, answer, why):
     monkeypatch.setattr(worker_process, "MOST_BYTES", 10_000)
     found, trouble = found_in(examine([READY, SEEN, answer], "exec sleep 3600"))["3"]
@@ -97,11 +96,10 @@ def test_what_was_found_before_the_time_was_over(examine, monkeypatch):
     assert "took longer than 900 s" in outcomes["3"][1]
 
 
-@pytest.mark.parametrize(
-    ("answers", "why"),
-    [([], "exited without a result"), ([READY], "exited without a result"),
-     (['{"cannot": "no room"}'], "no room")],
-)  # fmt: skip
+@pytest.mark.parametrize(("answers", "why"), [
+    ([], "exited without a result"), ([READY], "exited without a result"),
+    (['{"cannot": "no room"}'], "no room"),
+])  # fmt: skip
 def test_a_worker_that_records_nothing_gives_no_verdict(examine, answers, why):
     with pytest.raises(CannotCheck, match=why):
         examine(answers)

@@ -14,25 +14,22 @@ NODE = '  <node pkg="rosbag" type="play" name="x" args="--loop a.bag"/>\n'
 
 
 @claim("A launch file that is no XML has a line and a hint")
-@pytest.mark.parametrize(
-    ("text", "line", "words"),
-    [
-        ("", None, "begins with <launch>"),
-        (f'<launch>\n{NODE}  <node pkg="x">\n{NODE}</launch>\n', 3,
-         "the <node> of line 3 is never closed: /> at its end, or </node> below"),
-        ('<launch>\n  <node pkg="x">\n  </nod>\n</launch>\n', 3,
-         "the open tag is the <node> of line 2"),
-        (f"<launch>\n<!--\n{NODE}-->\n</launch>\n", 3, "must not contain --"),
-        (f"<launch>\n<!-- rosbag --->\n{NODE}</launch>\n", 2, "must not contain --"),
-        (f"<launch>\n{NODE}<!-- rosbag\n</launch>\n", 3, "needs its -->"),
-        (f'<launch>\n<node pkg="a" type="b/>\n{NODE}</launch>\n', 2, QUOTES),
-        (f'<launch>\n{NODE}<node pkg="a/>\n', 3, QUOTES),
-        ('<launch>\n<node pkg="ä" type="ö>\n</launch>\n', 2, QUOTES),
-        ('<launch>\n<node\xa0pkg="a"/>\n</launch>\n', 2, "a gap from the PDF"),
-        (f"<launch>\n</launch>\n{NODE}", 3, "before"),
-        ('<launch>\n<node pkg="a"/\n</launch>\n', 2, "> or />"),
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize(("text", "line", "words"), [
+    ("", None, "begins with <launch>"),
+    (f'<launch>\n{NODE}  <node pkg="x">\n{NODE}</launch>\n', 3,
+     "the <node> of line 3 is never closed: /> at its end, or </node> below"),
+    ('<launch>\n  <node pkg="x">\n  </nod>\n</launch>\n', 3,
+     "the open tag is the <node> of line 2"),
+    (f"<launch>\n<!--\n{NODE}-->\n</launch>\n", 3, "must not contain --"),
+    (f"<launch>\n<!-- rosbag --->\n{NODE}</launch>\n", 2, "must not contain --"),
+    (f"<launch>\n{NODE}<!-- rosbag\n</launch>\n", 3, "needs its -->"),
+    (f'<launch>\n<node pkg="a" type="b/>\n{NODE}</launch>\n', 2, QUOTES),
+    (f'<launch>\n{NODE}<node pkg="a/>\n', 3, QUOTES),
+    ('<launch>\n<node pkg="ä" type="ö>\n</launch>\n', 2, QUOTES),
+    ('<launch>\n<node\xa0pkg="a"/>\n</launch>\n', 2, "a gap from the PDF"),
+    (f"<launch>\n</launch>\n{NODE}", 3, "before"),
+    ('<launch>\n<node pkg="a"/\n</launch>\n', 2, "> or />"),
+])  # fmt: skip
 def test_a_launch_file_that_is_no_xml_has_a_line_and_a_hint(text, line, words):
     with pytest.raises(expat.ExpatError) as raised:
         expat.ParserCreate().Parse(text.encode(), True)

@@ -36,11 +36,10 @@ def test_the_zip_has_scripts_suite_and_course_and_no_solutions(tmp_path):
         assert subprocess.run(["bash", "-n"], input=text, text=True, check=False).returncode == 0
 
 
-@pytest.mark.parametrize(
-    ("code", "results", "exits", "output"),
-    [(0, "{}", 0, "{}"), (1, "{}", 0, "{}"), (2, "", 2, "could not work"), (2, "{}", 2, "{}"),
-     ("sleep", "", 124, "it took too long")],
-)  # fmt: skip
+@pytest.mark.parametrize(("code", "results", "exits", "output"), [
+    (0, "{}", 0, "{}"), (1, "{}", 0, "{}"), (2, "", 2, "could not work"), (2, "{}", 2, "{}"),
+    ("sleep", "", 124, "it took too long"),
+])  # fmt: skip
 def test_the_exit_codes_that_the_service_wants(tmp_path, code, results, exits, output):
     path = package("gradescope", read_course(), ["4.3"], str(tmp_path / "a.zip"))
     for folder in ("source/suite", "submission", "results"):
@@ -79,17 +78,14 @@ def git(tmp_path, monkeypatch):
 NO_CLONE = "echo fatal: not a git repository >&2; exit 128"
 
 
-@pytest.mark.parametrize(
-    ("what", "out", "script", "why"),
-    [
-        ("moodle", "a", "", "there are gradescope and github:OWNER/NAME"),
-        ("github:no name", "a", "", "the repository in which this suite is"),
-        ("gradescope", "nowhere/a.zip", "", "No such file"),
-        ("github:lab/x", "a", "", "git: No such file"),
-        ("github:lab/x", "a", NO_CLONE, "is no clone"),
-        ("github:lab/x", "a", "elsewhere", "put the course into the suite's repository"),
-    ],
-)
+@pytest.mark.parametrize(("what", "out", "script", "why"), [
+    ("moodle", "a", "", "there are gradescope and github:OWNER/NAME"),
+    ("github:no name", "a", "", "the repository in which this suite is"),
+    ("gradescope", "nowhere/a.zip", "", "No such file"),
+    ("github:lab/x", "a", "", "git: No such file"),
+    ("github:lab/x", "a", NO_CLONE, "is no clone"),
+    ("github:lab/x", "a", "elsewhere", "put the course into the suite's repository"),
+])  # fmt: skip
 def test_what_cannot_be_packed_is_one_line(tmp_path, git, what, out, script, why):
     (tmp_path / "course.yaml").write_text('exercises: {"2": one}')
     course = read_course(tmp_path) if script == "elsewhere" else read_course()

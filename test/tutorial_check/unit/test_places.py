@@ -24,16 +24,13 @@ class Printed:
     by_file: Dict[str, int] = field(default_factory=dict)
 
 
-@pytest.mark.parametrize(
-    ("here", "word", "there"),
-    [
-        ("see /tmp/a/ws/src/x.py", "see {submission}/src/x.py", "see /var/b/handed_in/src/x.py"),
-        ("in /tmp/a/ws.", "in {submission}.", "in /var/b/handed_in."),
-        ("/tmp/a/wsx:/tmp/a/home", "{scratch}/wsx:{scratch}/home", "/var/b/wsx:/var/b/home"),
-        ("/tmp/ab/ws, /usr", "/tmp/ab/ws, /usr", "/tmp/ab/ws, /usr"),
-        ("{x} {submission", "{x} {submission", "{x} {submission"),
-    ],
-)
+@pytest.mark.parametrize(("here", "word", "there"), [
+    ("see /tmp/a/ws/src/x.py", "see {submission}/src/x.py", "see /var/b/handed_in/src/x.py"),
+    ("in /tmp/a/ws.", "in {submission}.", "in /var/b/handed_in."),
+    ("/tmp/a/wsx:/tmp/a/home", "{scratch}/wsx:{scratch}/home", "/var/b/wsx:/var/b/home"),
+    ("/tmp/ab/ws, /usr", "/tmp/ab/ws, /usr", "/tmp/ab/ws, /usr"),
+    ("{x} {submission", "{x} {submission", "{x} {submission"),
+])  # fmt: skip
 def test_a_folder_has_a_word_and_is_another_folder_elsewhere(here, word, there):
     made = Printed(here, (Path(here),), {here: 1})
     assert HERE.named(made) == Printed(word, (Path(word),), {word: 1})

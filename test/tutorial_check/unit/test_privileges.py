@@ -7,15 +7,12 @@ from tutorial_testing.claims import claim
 
 
 @claim("As root, programs run as a user that nobody else has")
-@pytest.mark.parametrize(
-    ("uid_map", "lowest", "highest"),
-    [
-        ("         0          0 4294967295\n", 1_000_000, 1_999_999),  # a machine, or plain docker
-        ("", 1_000_000, 1_999_999),  # a kernel that maps no ids
-        ("0 1000 1\n1 100000 65536\n", 32_768, 65_533),  # podman of an ordinary user
-        ("0 231072 65536\n", 32_768, 65_533),  # docker's userns-remap
-    ],
-)
+@pytest.mark.parametrize(("uid_map", "lowest", "highest"), [
+    ("         0          0 4294967295\n", 1_000_000, 1_999_999),  # a machine, or plain docker
+    ("", 1_000_000, 1_999_999),  # a kernel that maps no ids
+    ("0 1000 1\n1 100000 65536\n", 32_768, 65_533),  # podman of an ordinary user
+    ("0 231072 65536\n", 32_768, 65_533),  # docker's userns-remap
+])  # fmt: skip
 def test_an_unused_uid_is_one_that_exists(tmp_path, uid_map, lowest, highest):
     file = tmp_path / "uid_map"
     file.write_text(uid_map)

@@ -44,15 +44,12 @@ IMPORT = "if True:\n    from sensor_msgs.msg import (\n        Joy,\n    )\n"
 
 
 @claim("A program is tried again with one thing changed, and nothing else")
-@pytest.mark.parametrize(
-    ("change", "text", "changed"),
-    [
-        (unmasked, "x = 1\n", None),
-        (ANONYMOUS, 'rospy.init_node("é")\n', 'rospy.init_node("é", anonymous=True)\n'),
-        (ANONYMOUS, "rospy.init_node(name, anonymous=choice)", None),
-        (NO_JOY, f"{IMPORT}print(Joy)\n", f"{IMPORT}    del Joy\nprint(Joy)\n"),
-        (NO_JOY, "import sensor_msgs.msg\n", None),
-    ],
-)
+@pytest.mark.parametrize(("change", "text", "changed"), [
+    (unmasked, "x = 1\n", None),
+    (ANONYMOUS, 'rospy.init_node("é")\n', 'rospy.init_node("é", anonymous=True)\n'),
+    (ANONYMOUS, "rospy.init_node(name, anonymous=choice)", None),
+    (NO_JOY, f"{IMPORT}print(Joy)\n", f"{IMPORT}    del Joy\nprint(Joy)\n"),
+    (NO_JOY, "import sensor_msgs.msg\n", None),
+])  # fmt: skip
 def test_the_same_program_with_one_thing_changed(change, text, changed):
     assert change(text) == changed

@@ -25,19 +25,16 @@ def test_a_change_of_what_runs_programs_or_reads_them_makes_recordings_old(recor
     assert needed <= closure(recorder)
 
 
-@pytest.mark.parametrize(
-    ("base", "name", "modules"),
-    [
-        ("tutorial_check", "Wrong", ["tutorial_check.checking.results"]),
-        ("tutorial_check.recording", "peer", ["tutorial_check.recording.peer"]),
-        ("tutorial_check.recording.peer", "Peer", ["tutorial_check.recording.peer"]),
-        ("tutorial_check", None, ["tutorial_check"]),
-        ("os.path", "join", []),
-        ("rospy", "Time", []),
-        ("kobuki_msgs.msg", "BumperEvent", []),
-        ("none.such", "name", []),
-    ],
-)
+@pytest.mark.parametrize(("base", "name", "modules"), [
+    ("tutorial_check", "Wrong", ["tutorial_check.checking.results"]),
+    ("tutorial_check.recording", "peer", ["tutorial_check.recording.peer"]),
+    ("tutorial_check.recording.peer", "Peer", ["tutorial_check.recording.peer"]),
+    ("tutorial_check", None, ["tutorial_check"]),
+    ("os.path", "join", []),
+    ("rospy", "Time", []),
+    ("kobuki_msgs.msg", "BumperEvent", []),
+    ("none.such", "name", []),
+])  # fmt: skip
 def test_a_name_stands_for_the_module_that_defines_it(base, name, modules):
     assert modules_of(base, name) == modules
 

@@ -105,17 +105,14 @@ def test_what_is_no_list_of_plain_values_is_refused(ros, answers):
 
 
 @claim("A student of a course ...", because="whose mistake a type is")
-@pytest.mark.parametrize(
-    ("kind", "values", "why"),
-    [
-        ("own/None", {}, "there is no type own/None"),
-        ("no_msgs/None", {}, r"test_recording.py:\d+: there is no type no_msgs/None"),
-        ("std_srvs/SetBool", {"date": 1}, r"does not fit: No field name \[date\] \(fields: data\)"),
-        ("std_srvs/SetBool", [1, 2], "Too many arguments"),
-        ("std_srvs/SetBool", {"data": "text"}, "field data is not a bool"),
-        ("std_srvs/SetBool", {"data": {1}}, r"test_recording.py:\d+: .* not JSON"),
-    ],
-)
+@pytest.mark.parametrize(("kind", "values", "why"), [
+    ("own/None", {}, "there is no type own/None"),
+    ("no_msgs/None", {}, r"test_recording.py:\d+: there is no type no_msgs/None"),
+    ("std_srvs/SetBool", {"date": 1}, r"does not fit: No field name \[date\] \(fields: data\)"),
+    ("std_srvs/SetBool", [1, 2], "Too many arguments"),
+    ("std_srvs/SetBool", {"data": "text"}, "field data is not a bool"),
+    ("std_srvs/SetBool", {"data": {1}}, r"test_recording.py:\d+: .* not JSON"),
+])  # fmt: skip
 def test_it_is_said_whose_mistake_a_type_is(ros, kind, values, why):
     whose = CutShort if kind.startswith("own") else CannotCheck
     with pytest.raises(whose) as error:
@@ -144,16 +141,13 @@ def test_a_transform(ros, monkeypatch):
 LAUNCH = '<launch>\n  <node pkg="turtlesim" type="mimic" name="m"/>\n</launch>\n'
 
 
-@pytest.mark.parametrize(
-    ("name", "text", "seen", "where"),
-    [
-        ("a.launch", LAUNCH, "", "launch/a.launch:2"),
-        ("b.launch", LAUNCH, "a file p/launch/b.launch", "p/launch/b.launch"),
-        ("a.launch", LAUNCH.replace("/>", ">"), "mismatched tag", "launch/a.launch:2"),
-        ("a.launch", LAUNCH.replace("mimic", "mimick"), "Cannot locate", "launch/a.launch:2"),
-        ("a.launch", LAUNCH.replace("turtlesim", "turtle"), "Cannot locate", "launch/a.launch:2"),
-    ],
-)
+@pytest.mark.parametrize(("name", "text", "seen", "where"), [
+    ("a.launch", LAUNCH, "", "launch/a.launch:2"),
+    ("b.launch", LAUNCH, "a file p/launch/b.launch", "p/launch/b.launch"),
+    ("a.launch", LAUNCH.replace("/>", ">"), "mismatched tag", "launch/a.launch:2"),
+    ("a.launch", LAUNCH.replace("mimic", "mimick"), "Cannot locate", "launch/a.launch:2"),
+    ("a.launch", LAUNCH.replace("turtlesim", "turtle"), "Cannot locate", "launch/a.launch:2"),
+])  # fmt: skip
 def test_a_launch_file_is_read(make_submission, monkeypatch, name, text, seen, where):
     # facts_of changes it, in a process of its own.
     monkeypatch.setattr("roslaunch.loader.Loader.param_value", Loader.param_value)

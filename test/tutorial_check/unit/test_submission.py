@@ -72,14 +72,11 @@ def test_what_was_recorded_is_recorded_once_until_it_is_forgotten(order, busy, o
 
 
 @claim("What leaves the isolation is a recording, and another answer is no verdict")
-@pytest.mark.parametrize(
-    ("reply", "error", "words"),
-    [
-        (Reply(cannot="no room"), CannotCheck, "no room"),
-        (Reply(cut_short=CutShort("master gone")), Wrong, "it no longer answers"),
-        (Reply({"forged": 1}), ValueError, "no Seen"),
-    ],
-)
+@pytest.mark.parametrize(("reply", "error", "words"), [
+    (Reply(cannot="no room"), CannotCheck, "no room"),
+    (Reply(cut_short=CutShort("master gone")), Wrong, "it no longer answers"),
+    (Reply({"forged": 1}), ValueError, "no Seen"),
+])  # fmt: skip
 def test_a_reply_that_is_no_recording(order, reply, error, words):
     one = Submission(order, Task({}), lambda _: reply)
     with pytest.raises(error) as caught:
@@ -87,18 +84,15 @@ def test_a_reply_that_is_no_recording(order, reply, error, words):
     assert words in getattr(caught.value, "seen", str(caught.value))
 
 
-@pytest.mark.parametrize(
-    ("path", "is_own", "may_see"),
-    [
-        ("{folder}/handed_in/src/a.launch", True, True),
-        ("{folder}/handed_in/src/../../../secret", False, False),
-        ("{folder}/handed_in/src/link", False, False),
-        ("{folder}/shown/a", False, True),
-        ("{folder}/other/a", False, False),
-        ("/usr/share/a", False, True),
-        ("/root/secret", False, False),
-    ],
-)
+@pytest.mark.parametrize(("path", "is_own", "may_see"), [
+    ("{folder}/handed_in/src/a.launch", True, True),
+    ("{folder}/handed_in/src/../../../secret", False, False),
+    ("{folder}/handed_in/src/link", False, False),
+    ("{folder}/shown/a", False, True),
+    ("{folder}/other/a", False, False),
+    ("/usr/share/a", False, True),
+    ("/root/secret", False, False),
+])  # fmt: skip
 def test_a_path_in_a_recording_is_looked_at_only_where_programs_may(order, path, is_own, may_see):
     source = Path(order.folder) / "handed_in/src"
     source.mkdir(parents=True)

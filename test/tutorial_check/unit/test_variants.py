@@ -22,21 +22,18 @@ ALL = yaml.safe_load(
 )
 
 
-@pytest.mark.parametrize(
-    ("text", "why"),
-    [
-        ("[3]", "a map of values is wanted"),
-        ("axis: 3", "axis is not known; known are: axis_linear, axis_angular"),
-        ("axis_linear: 9", "axis_linear: 9; allowed is 0 to 5"),
-        ("axis_linear: true", "axis_linear: True; allowed is 0 to 5"),
-        ("axis_linear: 0", "axis_angular and axis_linear are both 0"),
-        ("scale_linear: .nan", "scale_linear: nan; allowed is -2.0 to -0.2 or 0.2 to 2.0"),
-        ("joy: stick", "joy: 'stick'; allowed is what fits /"),
-        ("package: Stick Drive", "package: 'Stick Drive'; allowed"),
-        ("joy: /x\ncmd_vel: /x", "cmd_vel"),
-        ("a: [", "no YAML"),
-    ],
-)
+@pytest.mark.parametrize(("text", "why"), [
+    ("[3]", "a map of values is wanted"),
+    ("axis: 3", "axis is not known; known are: axis_linear, axis_angular"),
+    ("axis_linear: 9", "axis_linear: 9; allowed is 0 to 5"),
+    ("axis_linear: true", "axis_linear: True; allowed is 0 to 5"),
+    ("axis_linear: 0", "axis_angular and axis_linear are both 0"),
+    ("scale_linear: .nan", "scale_linear: nan; allowed is -2.0 to -0.2 or 0.2 to 2.0"),
+    ("joy: stick", "joy: 'stick'; allowed is what fits /"),
+    ("package: Stick Drive", "package: 'Stick Drive'; allowed"),
+    ("joy: /x\ncmd_vel: /x", "cmd_vel"),
+    ("a: [", "no YAML"),
+])  # fmt: skip
 def test_a_wrong_file_is_one_line(text, why, tmp_path):
     file = tmp_path / "v.yaml"
     file.write_text(text)

@@ -159,19 +159,16 @@ def make(folder, *entries):
 @claim(
     "A link out of what others handed in is not followed; one's own is, also into the home folder"
 )
-@pytest.mark.parametrize(
-    ("entries", "of_others", "own"),
-    [
-        ([f"{J}/link -> ../../src"], [PACKAGE], [PACKAGE]),  # to above, to itself
-        ([f"{J}/link -> link"], [PACKAGE], [PACKAGE]),
-        ([f"{J}/in -> ../../src/{PACKAGE}"], ["joy2twist/in", PACKAGE], ["joy2twist/in", PACKAGE]),
-        ([f"{J}/out -> {{}}/ada_too/secret"], [PACKAGE], ["joy2twist/out", PACKAGE]),
-        ([f"{J}/scripts -> {{}}/bob/src/joy2twist/scripts"], [PACKAGE], [PACKAGE, SCRIPT]),
-        (["ada/src/other -> {}/bob/src/joy2twist"], [PACKAGE],
-         [PACKAGE, *(each.replace("joy2twist/", "other/", 1) for each in (PACKAGE, SCRIPT))]),
-        ([f"{J}/pipe |"], [PACKAGE], [PACKAGE]),
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize(("entries", "of_others", "own"), [
+    ([f"{J}/link -> ../../src"], [PACKAGE], [PACKAGE]),  # to above, to itself
+    ([f"{J}/link -> link"], [PACKAGE], [PACKAGE]),
+    ([f"{J}/in -> ../../src/{PACKAGE}"], ["joy2twist/in", PACKAGE], ["joy2twist/in", PACKAGE]),
+    ([f"{J}/out -> {{}}/ada_too/secret"], [PACKAGE], ["joy2twist/out", PACKAGE]),
+    ([f"{J}/scripts -> {{}}/bob/src/joy2twist/scripts"], [PACKAGE], [PACKAGE, SCRIPT]),
+    (["ada/src/other -> {}/bob/src/joy2twist"], [PACKAGE],
+     [PACKAGE, *(each.replace("joy2twist/", "other/", 1) for each in (PACKAGE, SCRIPT))]),
+    ([f"{J}/pipe |"], [PACKAGE], [PACKAGE]),
+])  # fmt: skip
 def test_which_links_are_followed(tmp_path, entries, of_others, own):
     """Those that lead out of what was handed in: only for a workspace of one's own."""
     make(tmp_path, f"{J}/package.xml", *BOB, *entries)

@@ -35,18 +35,11 @@ def student(tmp_path, monkeypatch):
 @claim(
     "A student's workspace that was built over a ROS in /opt/ros is used as it is, with the suite"
 )
-@pytest.mark.parametrize(
-    ("below", "chain", "words"),
-    [
-        (NOETIC, "mine suite/lower", ""),
-        (
-            "/elsewhere/lower/devel;/opt/ros/noetic",
-            "suite/lower",
-            "over another copy of it in /els",
-        ),
-        ("/home/me/devel", "suite/lower", "was built without this suite: in the shell"),
-    ],
-)
+@pytest.mark.parametrize(("below", "chain", "words"), [
+    (NOETIC, "mine suite/lower", ""),
+    ("/elsewhere/lower/devel;/opt/ros/noetic", "suite/lower", "over another copy of it in /els"),
+    ("/home/me/devel", "suite/lower", "was built without this suite: in the shell"),
+])  # fmt: skip
 def test_it_is_used_as_it_is_and_the_suite_below_it(student, capsys, below, chain, words):
     suite, mine = student(below)
     build.build_student(suite, mine)

@@ -20,22 +20,19 @@ SECTIONS["browser"] = [*SECTIONS["test"], "browser"]
 
 
 @claim("Each word of `./tutorial` sets up and starts what its help says")
-@pytest.mark.parametrize(
-    ("line", "sections", "program", "rest"),
-    [
-        ("join teacher robot_7 virtual:=true", "demo", "join.py", "teacher robot_7 virtual:=true"),
-        ("check --in ws 4.3 --watch", "demo", "python3", "-m tutorial_check --in ws 4.3 --watch"),
-        ("run rosrun joy2twist x.py _a:=1 -v", "demo", "rosrun", "joy2twist x.py _a:=1 -v"),
-        ("doctor", "doctor", "doctor.py", ""),
-        ("test exercises --every 5 --lf", "test", "run.py", "exercises --every 5 --lf"),
-        ("test browser --trials 20", "browser", "run.py", "browser --trials 20"),
-        ("bench joy2twist --hours 1", "test", "run.py", "bench joy2twist --hours 1"),
-        ("test joy2twist -k x", "test", "run.py", "joy2twist -k x"),
-        ("test test/cockpit/browser -x", "browser", "run.py", "browser test/cockpit/browser -x"),
-        ("test test/joy2twist", "test", "run.py", "joy2twist"),
-        ("lint --fix", "test", "lint", "--fix"),
-    ],
-)
+@pytest.mark.parametrize(("line", "sections", "program", "rest"), [
+    ("join teacher robot_7 virtual:=true", "demo", "join.py", "teacher robot_7 virtual:=true"),
+    ("check --in ws 4.3 --watch", "demo", "python3", "-m tutorial_check --in ws 4.3 --watch"),
+    ("run rosrun joy2twist x.py _a:=1 -v", "demo", "rosrun", "joy2twist x.py _a:=1 -v"),
+    ("doctor", "doctor", "doctor.py", ""),
+    ("test exercises --every 5 --lf", "test", "run.py", "exercises --every 5 --lf"),
+    ("test browser --trials 20", "browser", "run.py", "browser --trials 20"),
+    ("bench joy2twist --hours 1", "test", "run.py", "bench joy2twist --hours 1"),
+    ("test joy2twist -k x", "test", "run.py", "joy2twist -k x"),
+    ("test test/cockpit/browser -x", "browser", "run.py", "browser test/cockpit/browser -x"),
+    ("test test/joy2twist", "test", "run.py", "joy2twist"),
+    ("lint --fix", "test", "lint", "--fix"),
+])  # fmt: skip
 def test_what_a_word_sets_up_and_starts(monkeypatch, line, sections, program, rest):
     monkeypatch.delenv("TUTORIAL_IN", raising=False)
     word, *arguments = line.split()
@@ -68,22 +65,19 @@ def test_a_students_workspace_is_absolute_and_built_last(tmp_path, monkeypatch):
 
 
 @claim("A mistake in the words of `./tutorial` is one line with what to do")
-@pytest.mark.parametrize(
-    ("line", "words"),
-    [
-        ("dmeo", '"dmeo" is no command; did you mean demo?'),
-        *((f"demo --for {s}", f"--for: {s}: not a number above 0") for s in ("ever", "0", "nan")),
-        ("demo --in /tmp", "demo: knows no --in; shell, run, doctor and check do"),
-        ("join teacher", "join: the following arguments are required: NAME"),
-        ("test everything", 'test: "everything": must be unit, launch, ros, system, again'),
-        ("bench moon", 'bench: "moon" has no folder test/moon/benchmark'),
-        ("shell moon", "shell: unrecognized arguments: moon"),
-        ("doctor --in /no/such", "doctor: --in /no/such: no workspace, it has no folder src"),
-        ("run", "run: a command is missing"),
-        ("run rosrun rviz rviz -d x", "run: no screen for RViz"),
-        ("check 4.3", "For example: ./tutorial check --in ~/ros/hydro/catkin_ws 4.3"),
-    ],
-)
+@pytest.mark.parametrize(("line", "words"), [
+    ("dmeo", '"dmeo" is no command; did you mean demo?'),
+    *((f"demo --for {s}", f"--for: {s}: not a number above 0") for s in ("ever", "0", "nan")),
+    ("demo --in /tmp", "demo: knows no --in; shell, run, doctor and check do"),
+    ("join teacher", "join: the following arguments are required: NAME"),
+    ("test everything", 'test: "everything": must be unit, launch, ros, system, again'),
+    ("bench moon", 'bench: "moon" has no folder test/moon/benchmark'),
+    ("shell moon", "shell: unrecognized arguments: moon"),
+    ("doctor --in /no/such", "doctor: --in /no/such: no workspace, it has no folder src"),
+    ("run", "run: a command is missing"),
+    ("run rosrun rviz rviz -d x", "run: no screen for RViz"),
+    ("check 4.3", "For example: ./tutorial check --in ~/ros/hydro/catkin_ws 4.3"),
+])  # fmt: skip
 def test_a_mistake_is_one_line(monkeypatch, capsys, line, words):
     for name in ("DISPLAY", "TUTORIAL_IN"):
         monkeypatch.delenv(name, raising=False)
@@ -99,31 +93,25 @@ def test_the_list_of_words_names_courses(capsys):
 
 
 @claim("Words, kinds of tests and options complete in bash", because="all of them")
-@pytest.mark.parametrize(
-    ("typed", "found"),
-    [
-        (["te"], ["test"]),
-        (["test", "joy"], ["joy2twist"]),
-        (["test", "unit", ""], []),  # bash's own: files
-        (["demo", "--"], ["--help", "--for"]),
-    ],
-)
+@pytest.mark.parametrize(("typed", "found"), [
+    (["te"], ["test"]),
+    (["test", "joy"], ["joy2twist"]),
+    (["test", "unit", ""], []),  # bash's own: files
+    (["demo", "--"], ["--help", "--for"]),
+])  # fmt: skip
 def test_completion_of_words_kinds_and_options(typed, found):
     assert candidates(typed) == found
 
 
 @claim("A student's workspace comes ...", because="what is refused")
-@pytest.mark.parametrize(
-    ("folder", "why"),
-    [
-        ("a b", "without spaces"),
-        ("package", "this is a package"),
-        ("ws/src", "this is the src folder"),
-        ("suite/joy2twist/ws", "the suite's own"),
-        ("/proc/ws", "cannot be made"),
-        ("/proc", "belongs to user 0, and you are 4321"),
-    ],
-)
+@pytest.mark.parametrize(("folder", "why"), [
+    ("a b", "without spaces"),
+    ("package", "this is a package"),
+    ("ws/src", "this is the src folder"),
+    ("suite/joy2twist/ws", "the suite's own"),
+    ("/proc/ws", "cannot be made"),
+    ("/proc", "belongs to user 0, and you are 4321"),
+])  # fmt: skip
 def test_what_cannot_be_a_students_workspace(tmp_path, monkeypatch, folder, why):
     monkeypatch.setattr(build, "REPOSITORY", tmp_path / "suite")
     (tmp_path / "package").mkdir()

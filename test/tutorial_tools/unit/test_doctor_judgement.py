@@ -191,20 +191,17 @@ def test_a_line_has_the_level_and_the_words(facts, level, words):
 
 
 @claim("Its lines have ...", because="what is no mistake")
-@pytest.mark.parametrize(
-    "facts",
-    [
-        WELL,
-        *(mux(active, states=ARMED) for active in ("idle", "n")),
-        mux("Teleoperation", [], states=ARMED),
-        well(clocks={"robot": Offset(0.1, "/odom")}),
-        well(use_sim_time=True, clock_ticks=True, clocks={"robot": Offset(99.0, "/odom")}),
-        well(nodes={name: WELL.nodes[name] for name in ("/joy_node", "/cmd_vel_mux")}),
-        frames("/one odom base 0.3", "/one base wheel", "/two map odom"),
-        frames("/bag odom base 3600", use_sim_time=True, clock_ticks=True),
-        frames(*(f"/class r{n}/odom r{n}/base" for n in (1, 2))),
-    ],
-)
+@pytest.mark.parametrize("facts", [
+    WELL,
+    *(mux(active, states=ARMED) for active in ("idle", "n")),
+    mux("Teleoperation", [], states=ARMED),
+    well(clocks={"robot": Offset(0.1, "/odom")}),
+    well(use_sim_time=True, clock_ticks=True, clocks={"robot": Offset(99.0, "/odom")}),
+    well(nodes={name: WELL.nodes[name] for name in ("/joy_node", "/cmd_vel_mux")}),
+    frames("/one odom base 0.3", "/one base wheel", "/two map odom"),
+    frames("/bag odom base 3600", use_sim_time=True, clock_ticks=True),
+    frames(*(f"/class r{n}/odom r{n}/base" for n in (1, 2))),
+])  # fmt: skip
 def test_what_is_no_mistake(facts):
     assert lines(facts, "wrong") == []
     assert {finding.level for finding in judge(WELL)} == {"ok"}

@@ -41,25 +41,19 @@ def test_a_robot_that_is_well_has_one_row():
     assert seen == "/dev/kobuki: 50 packets a second, firmware 1.2.0, battery 16.4 V, 97 %"
 
 
-@pytest.mark.parametrize(
-    ("changes", "part"),
-    [
-        ({"complaint": port_advice.absent(USUAL, [])}, "there is no /dev/kobuki. Plug in"),
-        (
-            {"complaint": port_advice.forbidden(USUAL, "dialout", "ada", False)},
-            "usermod -aG",
-        ),
-        ({"complaint": port_advice.taken(USUAL, "python3 (pid 7)")}, "python3 (pid 7) has"),
-        ({"has_rule": False}, "no udev rule"),
-        ({"latency_ms": 16}, "for up to 16 ms (latency timer)"),
-        ({"packets": 0, "count": 0}, "is the Kobuki switched on?"),
-        ({"packets": 0, "count": 99}, "99 bytes came from /dev/kobuki"),
-        ({"packets": 30}, "30 packets a second of 50"),
-        ({"damaged": 3}, "3 damaged"),
-        ({"firmware": FirmwareVersion(0, 0, 2)}, "firmware 2.0.0 is not driven"),
-        ({"battery": Battery(13.0)}, "battery 13.0 V"),
-    ],
-)
+@pytest.mark.parametrize(("changes", "part"), [
+    ({"complaint": port_advice.absent(USUAL, [])}, "there is no /dev/kobuki. Plug in"),
+    ({"complaint": port_advice.forbidden(USUAL, "dialout", "ada", False)}, "usermod -aG"),
+    ({"complaint": port_advice.taken(USUAL, "python3 (pid 7)")}, "python3 (pid 7) has"),
+    ({"has_rule": False}, "no udev rule"),
+    ({"latency_ms": 16}, "for up to 16 ms (latency timer)"),
+    ({"packets": 0, "count": 0}, "is the Kobuki switched on?"),
+    ({"packets": 0, "count": 99}, "99 bytes came from /dev/kobuki"),
+    ({"packets": 30}, "30 packets a second of 50"),
+    ({"damaged": 3}, "3 damaged"),
+    ({"firmware": FirmwareVersion(0, 0, 2)}, "firmware 2.0.0 is not driven"),
+    ({"battery": Battery(13.0)}, "battery 13.0 V"),
+])  # fmt: skip
 def test_each_fault_is_one_row(changes, part):
     bad = [(seen, todo) for level, seen, todo in rows(Sample(USUAL, **{**WELL, **changes}))
            if level == "wrong"]  # fmt: skip

@@ -56,13 +56,10 @@ def say(text):
     return answer
 
 
-@pytest.mark.parametrize(
-    ("answer", "expected"),
-    [
-        (dribble, Answer.SILENT),
-        *((say(text), Answer.STRANGE) for text in (b"", b"SSH-2.0\r\n", b"HTTP/1.0 200\r\n\r\nhi")),
-    ],
-)
+@pytest.mark.parametrize(("answer", "expected"), [
+    (dribble, Answer.SILENT),
+    *((say(text), Answer.STRANGE) for text in (b"", b"SSH-2.0\r\n", b"HTTP/1.0 200\r\n\r\nhi")),
+])  # fmt: skip
 def test_whatever_answers_the_doctor_goes_on(server, answer, expected):
     assert network.call(server(answer), "getPid") == (expected, None)
 
@@ -77,14 +74,11 @@ def block(data):
     return struct.pack("<I", len(data)) + data
 
 
-@pytest.mark.parametrize(
-    ("sent", "heard"),
-    [
-        (block(b"") + block(b"first") + block(b"second") + block(b"third"), [b"first", b"second"]),
-        (block(b"header") + block(b"first") + b"\xff\xff\xff\xff", [b"first"]),
-        (b"\x05", []),
-    ],
-)
+@pytest.mark.parametrize(("sent", "heard"), [
+    (block(b"") + block(b"first") + block(b"second") + block(b"third"), [b"first", b"second"]),
+    (block(b"header") + block(b"first") + b"\xff\xff\xff\xff", [b"first"]),
+    (b"\x05", []),
+])  # fmt: skip
 def test_messages_of_a_node_are_heard_as_far_as_they_are_whole(server, monkeypatch, sent, heard):
     port = int(server(say(sent)).rsplit(":", 1)[1].strip("/"))
     monkeypatch.setattr(network, "call", lambda *_: (Answer.WELL, ["TCPROS", "127.0.0.1", port]))

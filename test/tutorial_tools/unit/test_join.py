@@ -13,13 +13,10 @@ pytestmark = claim("join refuses a host, a master and a robot in one line each")
 URI, OWN = "http://10.0.0.1:11311", "10.0.0.2"
 
 
-@pytest.mark.parametrize(
-    ("host", "line"),
-    [
-        *((host, "must be a machine's name or address") for host in (URI, "a b", "", "host:x")),
-        ("teacher", "cannot be looked up"),
-    ],
-)
+@pytest.mark.parametrize(("host", "line"), [
+    *((host, "must be a machine's name or address") for host in (URI, "a b", "", "host:x")),
+    ("teacher", "cannot be looked up"),
+])  # fmt: skip
 def test_a_host_that_cannot_be_one(monkeypatch, host, line):
     monkeypatch.setattr(join, "addresses", lambda name: [])
     with pytest.raises(JoinError, match=line):
@@ -42,14 +39,11 @@ def answers(monkeypatch):
     return answer
 
 
-@pytest.mark.parametrize(
-    ("given", "line"),
-    [
-        ((1, Answer.REFUSED), "has the teacher started"),
-        ((1, Answer.WELL, False), "does not reach this machine at 10.0.0.2"),
-        *(((run_id,), "has a /run_id that is no name") for run_id in RUN_IDS),  # a folder for logs
-    ],
-)
+@pytest.mark.parametrize(("given", "line"), [
+    ((1, Answer.REFUSED), "has the teacher started"),
+    ((1, Answer.WELL, False), "does not reach this machine at 10.0.0.2"),
+    *(((run_id,), "has a /run_id that is no name") for run_id in RUN_IDS),  # a folder for logs
+])  # fmt: skip
 def test_a_master_that_is_refused(answers, given, line):
     answers(*given)
     with pytest.raises(JoinError) as error:
@@ -57,14 +51,11 @@ def test_a_master_that_is_refused(answers, given, line):
     assert line in str(error.value) and str(error.value).isprintable()
 
 
-@pytest.mark.parametrize(
-    ("state", "name", "line"),
-    [
-        (STATE, "robot_7", "there are robot_1, robot_2"),
-        (STATE, "robot_2", f"driven already, by {DRIVER}"),
-        *((state, "robot_1", "does not answer as one of ROS") for state in NONSENSE),
-    ],
-)
+@pytest.mark.parametrize(("state", "name", "line"), [
+    (STATE, "robot_7", "there are robot_1, robot_2"),
+    (STATE, "robot_2", f"driven already, by {DRIVER}"),
+    *((state, "robot_1", "does not answer as one of ROS") for state in NONSENSE),
+])  # fmt: skip
 def test_a_robot_that_is_refused(state, name, line):
     with pytest.raises(JoinError, match=line):
         check_robot(URI, state, name)
@@ -78,14 +69,11 @@ def test_a_host_a_master_and_a_robot_that_are_free(answers):
 
 
 @claim("A mistake in join's arguments is reported before the master is asked")
-@pytest.mark.parametrize(
-    ("argument", "line"),
-    [
-        ("virtul:=true", "virtul:=true: not an argument of student.launch, "),
-        ("bag:=/no/such", "bag:=/no/such: cannot be read: No such file or directory"),
-        ("name:=robot_8", "name:=robot_8: the name is robot_7 already"),
-    ],
-)
+@pytest.mark.parametrize(("argument", "line"), [
+    ("virtul:=true", "virtul:=true: not an argument of student.launch, "),
+    ("bag:=/no/such", "bag:=/no/such: cannot be read: No such file or directory"),
+    ("name:=robot_8", "name:=robot_8: the name is robot_7 already"),
+])  # fmt: skip
 def test_a_wrong_argument_is_one_line_before_the_master_is_asked(
     monkeypatch, capsys, argument, line
 ):

@@ -28,15 +28,11 @@ def test_only_what_moves_is_drawn_or_else_all_axes():
     assert len(root.findall("{http://www.w3.org/2000/svg}polyline")) == 2
 
 
-@pytest.mark.parametrize(
-    ("data", "words"),
-    [
-        (None, 'no such file. For ours: cp "$(rospack find gamepad)/bag/joy.bag" .'),
-        (b"no bag", "not a bag that can be read"),
-        (WHOLE[:20_000], "cut short; fix it with: rosbag reindex"),
-    ],
-    ids=["missing", "no bag", "cut"],
-)
+@pytest.mark.parametrize(("data", "words"), [
+    (None, 'no such file. For ours: cp "$(rospack find gamepad)/bag/joy.bag" .'),
+    (b"no bag", "not a bag that can be read"),
+    (WHOLE[:20_000], "cut short; fix it with: rosbag reindex"),
+], ids=["missing", "no bag", "cut"])  # fmt: skip
 def test_a_file_that_is_no_whole_bag_is_one_line(tmp_path, monkeypatch, capfd, data, words):
     path = tmp_path / "joy.bag"
     if data is not None:
