@@ -97,7 +97,7 @@ class _Index(_Checked):
         self.finish((self.settings["folder"] / "index.html").read_bytes())
 
 
-class _Nothing(_Checked):
+class _NotFound(_Checked):
     def get(self) -> None:
         self.refuse(404, "nothing here")
 
@@ -229,7 +229,7 @@ def server(hub: Hub, access: Access) -> HTTPServer:
             (r"/page/([\w.-]+)", _Files, {"path": str(folder)}),
             (r"/lib/(dygraph\.min\.js|dygraph\.css)", _Files, {"path": str(folder_of_charts())}),
         ],
-        default_handler_class=_Nothing,
+        default_handler_class=_NotFound,
         access=access,
         hub=hub,
         folder=folder,
