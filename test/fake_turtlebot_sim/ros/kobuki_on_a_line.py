@@ -10,7 +10,7 @@ from nav_msgs.msg import Odometry
 from std_srvs.srv import Empty, SetBool
 
 from kobuki_protocol.base_control import base_control
-from kobuki_protocol.commands import GetController, Outputs, Request
+from kobuki_protocol.commands import GetController, IdentityRequest, Outputs
 from kobuki_protocol.feedback import Core
 from kobuki_protocol.identity import Controller, FirmwareVersion
 from node_kit.ros.graph.ros_api import call
@@ -51,7 +51,7 @@ class SerialKobukiTest(RosTest):
         device = self.enter(SerialKobuki("_world:=room", "_other_firmware:=1.1.4"))
         truths = self.record("base_pose_ground_truth", Odometry)
         driver = self.enter(Driver(device.port))
-        driver.send(Request())
+        driver.send(IdentityRequest())
         self.assertEqual(str(driver.wait_for(FirmwareVersion)), "1.1.4")
         driver.send(GetController())
         self.assertEqual(driver.wait_for(Controller), Controller())

@@ -6,7 +6,7 @@ from kobuki_driver.link import port_advice
 from kobuki_driver.link.link_monitor import LinkEvent, LinkMonitor
 from kobuki_driver.link.port_advice import Port
 from kobuki_driver.robot.identification import Identification
-from kobuki_protocol.commands import GetController, Request
+from kobuki_protocol.commands import GetController, IdentityRequest
 from kobuki_protocol.identity import Controller, FirmwareVersion, HardwareVersion, UniqueId
 from tutorial_testing.claims import claim
 
@@ -83,15 +83,15 @@ ANSWERS = [HardwareVersion(4, 0, 1), FirmwareVersion(0, 2, 1), UniqueId((1, 2, 3
 def test_a_robot_is_asked_until_it_has_answered():
     identification = Identification()
     identification.begin(10.0)
-    assert identification.requests(10.0) == [Request(), GetController()]
+    assert identification.requests(10.0) == [IdentityRequest(), GetController()]
     assert identification.requests(10.05) == []
-    assert identification.requests(10.11) == [Request(), GetController()]
+    assert identification.requests(10.11) == [IdentityRequest(), GetController()]
     assert identification.take([*ANSWERS, None]) == ANSWERS
     assert identification.requests(10.22) == [GetController()]
     identification.take([Controller()])
     assert identification.requests(99.0) == []
     identification.begin(100.0)  # it was lost, and is back
-    assert identification.requests(100.0) == [Request(), GetController()]
+    assert identification.requests(100.0) == [IdentityRequest(), GetController()]
 
 
 def test_a_robot_that_does_not_answer_is_asked_less_often():

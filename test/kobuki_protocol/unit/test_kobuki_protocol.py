@@ -73,7 +73,7 @@ COMMANDS = [
     (commands.BaseControl(357, -600), "aa 55 06 01 04 65 01 a8 fd 32"),
     (commands.Sound(0x1234, 100), "aa 55 05 03 03 34 12 64 47"),
     (commands.SoundSequence(6), "aa 55 03 04 01 06 00"),
-    (commands.Request(), "aa 55 04 09 02 0b 00 04"),
+    (commands.IdentityRequest(), "aa 55 04 09 02 0b 00 04"),
     (commands.Outputs(), "aa 55 04 0c 02 f0 00 fa"),
     (commands.SetController.of(1, (100, 0.1, 2)),
      "aa 55 0f 0d 0d 01 a0 86 01 00 64 00 00 00 d0 07 00 00 9a"),

@@ -115,7 +115,7 @@ class KobukiOnALine:
                 self.received.append((time.monotonic(), command))
                 if isinstance(command, commands.BaseControl):
                     self.velocity = velocity_of(command)
-                elif isinstance(command, commands.Request):
+                elif isinstance(command, commands.IdentityRequest):
                     answers += [HardwareVersion(4, 0, 1), self.firmware, UniqueId((1, 2, 3))]
                 elif isinstance(command, commands.GetController):
                     answers.append(Controller())

@@ -53,7 +53,7 @@ class SoundSequence(PackedPart):
 
 
 @dataclass(frozen=True)
-class Request(PackedPart):
+class IdentityRequest(PackedPart):
     """A request for versions and the unique id."""
 
     ID: ClassVar[int] = 9
@@ -134,7 +134,7 @@ class GetController(PackedPart):
 
 
 Command = Union[
-    BaseControl, Sound, SoundSequence, Request, Outputs, SetController, GetController
+    BaseControl, Sound, SoundSequence, IdentityRequest, Outputs, SetController, GetController
 ]  # fmt: skip
 PARSERS: dict[int, Callable[[bytes], Command]] = {c.ID: c.parse for c in get_args(Command)}
 

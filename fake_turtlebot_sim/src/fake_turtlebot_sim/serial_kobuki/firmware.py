@@ -104,7 +104,7 @@ class Firmware:
         elif isinstance(command, commands.Outputs):
             before, self._outputs = self._outputs, command
             return changes(before, command)
-        elif isinstance(command, commands.Request):
+        elif isinstance(command, commands.IdentityRequest):
             self._answers += self._identity(command.flags)
         elif isinstance(command, commands.GetController):
             self._answers.append(self._controller)
@@ -119,9 +119,9 @@ class Firmware:
 
     def _identity(self, flags: int) -> list[RobotPart]:
         parts: list[tuple[int, RobotPart]] = [
-            (commands.Request.HARDWARE, self._equipment.hardware),
-            (commands.Request.FIRMWARE, self._equipment.firmware),
-            (commands.Request.UNIQUE_ID, self._equipment.unique_id),
+            (commands.IdentityRequest.HARDWARE, self._equipment.hardware),
+            (commands.IdentityRequest.FIRMWARE, self._equipment.firmware),
+            (commands.IdentityRequest.UNIQUE_ID, self._equipment.unique_id),
         ]
         return [part for flag, part in parts if flags & flag]
 

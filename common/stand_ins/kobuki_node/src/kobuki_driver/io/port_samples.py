@@ -42,7 +42,7 @@ def sample(path: str) -> Sample:
         while time.monotonic() < end:
             sampler.take(port.read())
             if sampler.packets and not sampler.firmware:
-                port.write(commands.build(commands.Request()))
+                port.write(commands.build(commands.IdentityRequest()))
     except PortError as error:
         return Sample(path, str(error), has_rule)
     finally:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Iterable
 
-from kobuki_protocol.commands import Command, GetController, Request
+from kobuki_protocol.commands import Command, GetController, IdentityRequest
 from kobuki_protocol.identity import (
     RECOMMENDED,
     SUPPORTED_MAJOR,
@@ -58,7 +58,7 @@ class Identification:
         if now_s - self._asked_s < every_s:
             return []
         versions = None in (self.hardware, self.firmware, self.unique_id)
-        requests: list[Command] = [Request()] if versions else []
+        requests: list[Command] = [IdentityRequest()] if versions else []
         if self.controller is None:
             requests.append(GetController())
         if requests:
