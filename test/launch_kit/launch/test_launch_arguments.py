@@ -7,7 +7,7 @@ import rosbag
 import rospy
 from sensor_msgs.msg import Joy
 
-from launch_kit.arguments import FIXED
+from launch_kit.arguments import FIXED, RULES
 from launch_kit.ros.launch_tree import CALL, checked
 from tutorial_testing.claims import claim
 from tutorial_testing.processes import REPOSITORY, Program, free_port
@@ -61,6 +61,10 @@ def check_refused(line, *words):
         ours = [text for text in program.output.splitlines() if text.startswith("roslaunch: ")]
         assert len(ours) == 1 and ours[0].startswith(f"roslaunch: {line}"), program.output
         assert "process[" not in program.output and not program.left_behind()
+
+
+def test_no_rule_is_of_an_argument_that_no_file_has():
+    assert {*RULES, *FREE} == {argument for file in OURS for argument in arguments(file)}
 
 
 @pytest.mark.parametrize("file", OURS, ids=name_of)
