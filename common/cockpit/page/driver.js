@@ -66,7 +66,7 @@ export class Driver {
 
   /**
    * An open menu takes the keys and their releases, although the window keeps the focus. So menus are
-   * suppressed while this page drives, and those that open nevertheless are a loss: the list of a <select>,
+   * suppressed while this page drives, and those that still open are a loss: the list of a <select>,
    * and the right button, with which Firefox shows its menu whenever Shift is held.
    */
   #shunMenus() {

@@ -126,7 +126,7 @@ def unknown_word(file: HandoutLaunch) -> Wrong | None:
     written = rf"<{tag}\b" if tag else rf"\s{name}\s*="
     for path in (file.submission.source / file.path, *map(Path, file.facts["files"])):
         match = file.submission.is_own(path) and re.search(written, read_xml(path))
-        if match:  # else it is in somebody else's file
+        if match:  # otherwise the fault is in a file of the suite
             where = f"{file.inside(path)}:{line_of(read_xml(path), match.end())}"
             expected = "tags and attributes that roslaunch knows"
             return Wrong(expected, f"{tag or name}: ignored by roslaunch", where, hint)

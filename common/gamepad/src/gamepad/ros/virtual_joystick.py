@@ -53,7 +53,7 @@ def read_script(path: str) -> MoveScript:
 
 def read_bag(path: str, topic: str) -> list[tuple[float, Position]]:
     """Return (time [s], position) of a topic in a bag. Raises ValueError or OSError."""
-    from gamepad.errors import BagError
+    from gamepad.errors import BagError  # noqa: PLC0415
     from gamepad.ros.bags import opened  # noqa: PLC0415  only this needs ROS
 
     with opened(path) as bag:

@@ -58,7 +58,7 @@ def main() -> int:
         signal.signal(number, signal.default_int_handler)
     with tempfile.TemporaryDirectory(prefix="ros2_bridge_") as folder:
         ros1 = [sys.executable, "-m", "ros2_bridge.ros.ros1_side", folder, *sys.argv[1:]]
-        Path(folder, PACKAGE.name).symlink_to(PACKAGE)  # beside it lies ROS 1
+        Path(folder, PACKAGE.name).symlink_to(PACKAGE)  # its own folder also has ROS 1
         words = ["-m", "ros2_bridge.ros.ros2_side", folder]
         ros2 = ros2_python.command(words, path=folder)
         sides = [Side("ROS 1", ros1), Side("ROS 2", ros2)]

@@ -35,7 +35,7 @@ MOST_AT_ONCE = 1000  # submissions that the scheduler holds
 TRIES = 2  # a submission that ends this many workers is abandoned
 PORT = 8786  # Dask scheduler
 CONNECT_S = 10.0
-# Whoever has this file may connect: it is the certificate, authority and private key of all.
+# Anyone with this file can connect: it is the certificate, authority and private key of all.
 CONFIG = os.environ.get("XDG_CONFIG_HOME") or "~/.config"
 KEY = Path(CONFIG, "ros1_tutorial/cluster.pem").expanduser()
 OPENSSL = """openssl req -x509 -newkey rsa:3072 -nodes -days 3650 -subj /CN=ros1_tutorial

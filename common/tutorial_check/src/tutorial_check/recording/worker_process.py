@@ -73,7 +73,7 @@ class Worker:
             self._log.close()
 
     def end(self) -> None:
-        """Stop it: whoever waits for a reply gets Ended."""
+        """Stop it: a caller that waits for a reply gets Ended."""
         with contextlib.suppress(OSError):  # it has ended
             self._line.shutdown(socket.SHUT_RDWR)
         if self._order.in_namespaces:

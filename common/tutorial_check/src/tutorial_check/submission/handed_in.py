@@ -41,7 +41,7 @@ def hand_in(given: str | Path, folder: Path) -> tuple[Layout, Path]:
     given = archive = Path(given)
     if not os.path.isfile(given):
         layout = find_layout(given)
-        # A link may lead to somebody else's file.
+        # A link may lead to another user's file.
         zips = [p for p in given.glob("*.[zZ][iI][pP]") if p.is_file() and not p.is_symlink()]
         if layout.source.is_dir() or len(zips) != 1:
             return layout, given

@@ -50,5 +50,5 @@ def wait_for_goodbye() -> None:
 
 
 def is_ending() -> bool:
-    """Return whether the shutdown has begun; rospy.is_shutdown() waits until the topics close."""
+    """Return whether the shutdown has started; rospy.is_shutdown() waits until the topics close."""
     return rospy.core.is_shutdown_requested()
