@@ -20,9 +20,9 @@ class StopBeforeWall:
         rospy.Subscriber("scan", LaserScan, self.on_scan, queue_size=1)
 
     def on_scan(self, scan):
-        """Drive while nothing is near: -inf is too near; inf and NaN are not measured."""
+        """Drive while nothing is near: -inf means too near; inf and NaN mean no measurement."""
         twist = Twist()
-        if not any(one < TO_FRONT + GAP for one in scan.ranges):
+        if not any(distance < TO_FRONT + GAP for distance in scan.ranges):
             twist.linear.x = self.speed
         self.cmd_vel.publish(twist)
 

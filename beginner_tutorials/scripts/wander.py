@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Wanders: ahead where it is free, else turning; and away from what it bumps into."""
+"""Wanders: drives ahead while the way is free, otherwise turns; backs away from obstacles."""
 
 import rospy
 from geometry_msgs.msg import Twist
@@ -26,12 +26,12 @@ class Wander:
             self.turn = -TURN if event.bumper == BumperEvent.LEFT else TURN
 
     def on_scan(self, scan):
-        """Go back after a bump; turn where something is ahead; else, or at NaN, drive."""
+        """Back up after a bump; turn if something is ahead; otherwise, or at NaN, drive."""
         twist = Twist()
         since_bump = (rospy.Time.now() - self.bumped_at).to_sec()
         if since_bump < BACK_S:
             twist.linear.x = -SPEED / 2
-        elif since_bump < AWAY_S or any(one < FREE for one in scan.ranges):
+        elif since_bump < AWAY_S or any(distance < FREE for distance in scan.ranges):
             twist.angular.z = self.turn
         else:
             twist.linear.x = SPEED

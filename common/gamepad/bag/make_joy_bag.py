@@ -19,7 +19,7 @@ from rosbags.rosbag1 import Writer
 from rosbags.typesys import Stores, get_typestore
 from sensor_msgs.msg import Joy
 
-RATE_HZ = 50  # one message every 20 ms, as a hand that never rests gives
+RATE_HZ = 50  # messages, as from a hand that never rests
 START_S = 1372636800  # stamp of the first message: 2013-07-01, the month of the workshop
 FRAME_ID = "/dev/input/js0"  # what joy_node writes: the device
 JS_FULL = 32767  # a stick at its end, in the events of the Linux joystick device
@@ -34,7 +34,7 @@ BACK_M = 1.2
 
 
 def progress(time_s, duration_s, ramp_s):
-    """How much of a move is done at a time: from 0 to 1, starting and ending at rest.
+    """Return how much of a move is done at a time: 0 to 1, starting and ending at rest.
 
     The speed rises and falls as a half cosine over ramp_s and is constant between.
     """
@@ -52,12 +52,12 @@ def progress(time_s, duration_s, ramp_s):
 
 
 def eight(done):
-    """(distance [m], heading [rad]) along the figure of eight, of which a part is done."""
+    """Return (distance [m], heading [rad]) along the figure of eight. done: 0 to 1."""
     return EIGHT_LENGTH_M * done, EIGHT_SWING_RAD * (1 - math.cos(2 * math.pi * done))
 
 
 def spin(done):
-    """(distance [m], heading [rad]) of one turn on the spot, to the left."""
+    """Return (distance [m], heading [rad]) of a turn on the spot, to the left. done: 0 to 1."""
     return 0.0, 2 * math.pi * done
 
 
@@ -97,7 +97,7 @@ def sticks():
 def axis(value, count):
     """Return what joy_node publishes for a stick position: one of the steps of the Linux device.
 
-    Messages are rounded down and up in turn: a hand that holds a stick trembles.
+    Values are rounded down and up in turn, as a hand that holds a stick trembles.
     """
     return math.floor(value * JS_FULL + count % 2) / JS_FULL if value else 0.0
 

@@ -51,5 +51,5 @@ def test_what_comes_back_counts_once_and_is_expected_for_a_while():
     echoes = Echoes()
     assert max(echoes.expect("/chatter", b"", i * 0.1) for i in range(1000)) == ECHO_S * 10 + 1
     echoes.expect("/chatter", b"hello", 100.0)
-    assert [echoes.is_one("/chatter", b"hello", 101.0) for _ in range(2)] == [True, False]
-    assert not echoes.is_one("/other", b"", 101.0) and not echoes.is_one("/chatter", b"", 120.0)
+    assert [echoes.take("/chatter", b"hello", 101.0) for _ in range(2)] == [True, False]
+    assert not echoes.take("/other", b"", 101.0) and not echoes.take("/chatter", b"", 120.0)

@@ -1,4 +1,4 @@
-"""Which topics are carried, and how: the YAML list. Pure."""
+"""Which topics are carried, and how: the YAML list."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ import yaml
 
 TO_ROS1, TO_ROS2, BOTH = "to_ros1", "to_ros2", "both"
 RELIABLE, BEST_EFFORT = "reliable", "best_effort"
-NAME = re.compile(r"(/[A-Za-z][A-Za-z0-9_]*)+")  # what both sides take for the name of a topic
+NAME = re.compile(r"(/[A-Za-z][A-Za-z0-9_]*)+")  # topic names that ROS 1 and ROS 2 allow
 MOST_DEPTH = 10_000
-ECHO_S = 10.0  # how long what was published may take to come back to this node, on a busy machine
+ECHO_S = 10.0  # a node receives its own message within this time, even on a busy machine
 
 
 @dataclass(frozen=True)
@@ -39,7 +39,7 @@ class Route:
 
     @property
     def may_latch(self) -> bool:
-        """Whether subscribers that come later get the last message: not if its age is limited."""
+        """Whether later subscribers get the last message: not if its age is limited."""
         return not self.longest_s
 
 
@@ -56,15 +56,15 @@ def read_routes(text: str) -> list[Route]:
 
 
 def depth_of(routes: Mapping[str, Route], topic: str) -> int:
-    """Return how many frames of a topic may wait; of signs of life, which have none, one."""
+    """Return how many frames of a topic may wait: one of a sign of life, which has no topic."""
     return routes[topic].depth if topic in routes else 1
 
 
 class Echoes:
-    """What a node published a moment ago on topics that it receives, too. Times in seconds."""
+    """Recognises a node's own messages on topics that it also receives. Times in seconds."""
 
     def __init__(self) -> None:
-        """Begin with none."""
+        """Expect nothing yet."""
         self._marks: dict[str, collections.deque[tuple[float, bytes]]] = {}  # by topic
 
     def _recent(self, topic: str, now_s: float) -> collections.deque[tuple[float, bytes]]:
@@ -74,18 +74,18 @@ class Echoes:
         return marks
 
     def expect(self, topic: str, data: bytes, now_s: float) -> int:
-        """Take what is about to be published; return how much of the topic may come back."""
+        """Note a message before it is published; return how many of the topic are expected."""
         marks = self._recent(topic, now_s)
         marks.append((now_s, hashlib.md5(data).digest()))
         return len(marks)
 
-    def is_one(self, topic: str, data: bytes, now_s: float) -> bool:
-        """Return whether what was received is expected; each counts once."""
+    def take(self, topic: str, data: bytes, now_s: float) -> bool:
+        """Return whether a received message was expected, and expect it no longer."""
         marks, digest = self._recent(topic, now_s), hashlib.md5(data).digest()
-        found = next((each for each in marks if each[1] == digest), None)
-        if found:
-            marks.remove(found)
-        return found is not None
+        mark = next((mark for mark in marks if mark[1] == digest), None)
+        if mark:
+            marks.remove(mark)
+        return mark is not None
 
 
 def _route(topic: Any, defaults: Any, about: Any) -> Route:

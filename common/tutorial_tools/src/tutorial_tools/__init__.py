@@ -1,1 +1,1 @@
-"""What one looks at the suite with: the demonstration, the doctor, the picture of the graph."""
+"""The command ./tutorial, the demonstration, the doctor and the picture of the graph."""

@@ -21,7 +21,7 @@ def host_and_port(text: str) -> tuple[str, int]:
 
 
 def _topics(part: Any) -> dict[str, list[str]]:
-    """Return {topic: its nodes} of what a master answers. Raises ValueError, TypeError."""
+    """Return {topic: its nodes} from a master's answer. Raises ValueError, TypeError."""
     for topic, nodes in part:
         if not all(isinstance(name, str) and name.isprintable() for name in (topic, *nodes)):
             raise ValueError

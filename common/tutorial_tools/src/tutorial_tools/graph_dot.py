@@ -6,7 +6,7 @@ import json
 import re
 from typing import Any
 
-# Every node is connected to /rosout, which would hide the rest.
+# Every node is connected to /rosout, so it would clutter the graph.
 DEBUG_NODES = {"/rosout"}
 DEBUG_TOPICS = {"/rosout", "/rosout_agg", "/statistics"}
 # A line of a name in the picture: up to 16 letters that end before / or _, or one longer part.
@@ -21,7 +21,7 @@ STYLE = """\
 
 
 def quoted(text: str) -> str:
-    """Return a text as graphviz reads it; it has the same quotes and backslashes as JSON."""
+    """Return a text quoted for graphviz, whose rules are those of JSON."""
     return json.dumps(text, ensure_ascii=False)
 
 
@@ -32,10 +32,10 @@ def drawn(kind: str, name: str, shape: str) -> str:
 
 
 def dot_text(state: Any, machines: dict[str, str], everything: bool = False) -> str:
-    """Return the graph in graphviz's language, DOT; of the same graph always the same text.
+    """Return the graph in DOT, always the same text for the same graph.
 
     state: publishers, subscribers and services as the master's getSystemState() gives them, each a
-    list of [topic, [node, ...]]. machines: {node: machine that it runs on}. everything: show also
+    list of [topic, [node, ...]]. machines: {node: machine that it runs on}. everything: also show
     /rosout, and topics without a publisher or a subscriber.
     """
     hidden = set() if everything else DEBUG_NODES
@@ -48,7 +48,7 @@ def dot_text(state: Any, machines: dict[str, str], everything: bool = False) -> 
         topics = {*publishers, *subscribers}
 
     inside: dict[str, list[str]] = {machines.get(node, ""): [] for node in nodes}  # its lines
-    inside[""] = []  # on no machine: the topics between them, and a node that has just exited
+    inside[""] = []  # topics between machines, and nodes that have just exited
     arrows = []
     for node in sorted(nodes):
         inside[machines.get(node, "")].append(drawn("node", node, "ellipse"))

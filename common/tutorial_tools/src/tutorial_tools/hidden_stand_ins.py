@@ -1,4 +1,4 @@
-"""Packages of a student that hide a stand-in and cannot run here (pure, but for the files)."""
+"""Finds packages of a student that hide a stand-in and cannot run here."""
 
 from __future__ import annotations
 
@@ -7,21 +7,21 @@ from pathlib import Path
 
 from node_kit.manifests import manifests
 
-# The packages that a launch file names.
+# A package in a launch file.
 NAMED = re.compile(r"""\$\(find +(\w+) *\)|\bpkg=["'](\w+)["']""")
 
 
 def hidden_stand_ins(workspace: Path, suite: Path, share: Path) -> list[tuple[str, str]]:
     """Return [(what is wrong, what to do)] for the packages of a workspace that hide a stand-in.
 
-    Those are meant that lack a package, as rbx1_bringup of ROS by Example does: it needs xacro.
-    Looked at are the launch files that the stand-in has, too. share: where Debian has packages.
+    Only for those that need a missing package, as rbx1_bringup of ROS by Example needs xacro, in
+    a launch file that the stand-in has, too. share: the folder of installed packages.
     """
     own = {path.parent.name: path.parent for path in manifests(workspace / "src")}
     stand_ins = {path.parent.name: path.parent for path in manifests(suite / "common/stand_ins")}
     installed = [*manifests(suite), *share.glob("*/package.xml")]
     known = {*own, *(path.parent.name for path in installed)}
-    found = []
+    complaints = []
     for name in sorted(set(own) & set(stand_ins)):
         theirs = stand_ins[name].glob("launch/*.launch")
         files = [own[name] / "launch" / file.name for file in theirs]
@@ -31,5 +31,5 @@ def hidden_stand_ins(workspace: Path, suite: Path, share: Path) -> list[tuple[st
         if missing:
             needed = f"needs {', '.join(sorted(missing))}, which is not installed"
             seen = f"{own[name]} hides the suite's own {name}, and {needed}"
-            found.append((seen, f"touch {own[name]}/CATKIN_IGNORE"))
-    return found
+            complaints.append((seen, f"touch {own[name]}/CATKIN_IGNORE"))
+    return complaints

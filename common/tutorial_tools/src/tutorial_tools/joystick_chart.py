@@ -5,7 +5,7 @@ from __future__ import annotations
 from html import escape
 from typing import List, Sequence, Tuple
 
-WIDTH, ROW, LEFT = 900, 90, 130  # [pixel] of the picture, of one curve, for the names
+WIDTH, ROW, LEFT = 900, 90, 130  # [pixel] of the chart, of a curve, for the names
 COLOURS = ("#1f77b4", "#d62728", "#2ca02c", "#9467bd", "#8c564b", "#e377c2")
 
 Sample = Tuple[float, Sequence[float], Sequence[int]]  # time [s], axes, buttons
@@ -13,9 +13,9 @@ Curve = Tuple[str, List[Tuple[float, float]]]  # name, [(time [s], value)]
 
 
 def curves(recorded: list[Sample]) -> list[Curve]:
-    """Return the axes that move and the buttons that are pressed; all axes if nothing moves.
+    """Return the axes and buttons that change; all axes if nothing does.
 
-    recorded: in the order of time.
+    recorded: in order of time.
     """
     times = [entry[0] - recorded[0][0] for entry in recorded]
     lines: list[Curve] = []
@@ -27,7 +27,7 @@ def curves(recorded: list[Sample]) -> list[Curve]:
 
 
 def svg(title: str, lines: list[Curve]) -> str:
-    """Return the picture: a row for each curve, time from left to right, -1 to 1 upwards."""
+    """Return the chart: a row for each curve, time from left to right, -1 to 1 upwards."""
     duration = max((values[-1][0] for _, values in lines), default=0.0) or 1.0
     height, width = ROW * len(lines) + 60, WIDTH - LEFT - 10
     size = f'width="{WIDTH}" height="{height}"'

@@ -15,10 +15,10 @@ from pathlib import Path
 from node_kit import ros2_python
 
 PACKAGE = Path(__file__).resolve().parents[1]
-AGAIN_S = 1.0  # a side is not restarted sooner than this after its last start
+AGAIN_S = 1.0  # least time between two starts of a side
 LOOK_S = 0.1
-GONE_S = 3.0  # both sides have this long to end
-CANNOT_START = 1  # exit code of a node, with a line that says why
+GONE_S = 3.0  # time for a side to exit
+CANNOT_START = 1  # exit code of a node that has reported why
 
 
 class Side:
@@ -40,7 +40,7 @@ class Side:
         return self.process.poll() is not None and time.monotonic() - self._began_s > AGAIN_S
 
     def end(self) -> None:
-        """End it, by force if need be."""
+        """End it, by force if necessary."""
         self.process.terminate()
         try:
             self.process.wait(GONE_S)

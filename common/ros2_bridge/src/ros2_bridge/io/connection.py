@@ -1,7 +1,7 @@
-"""The way between the two sides: frames over a Unix socket. No ROS; both sides' Python runs it.
+"""The connection of the two sides: frames over a Unix socket. Runs in the Python of either ROS.
 
-A frame that cannot be sent at once waits, as many of a topic as its depth says; of more the oldest
-are dropped, and topics take turns. So the newest velocity never waits behind old ones.
+Frames that cannot be sent at once wait, up to the depth of their topic; beyond that the oldest are
+dropped. Topics take turns. So the newest velocity never waits behind old ones.
 """
 
 from __future__ import annotations
@@ -17,30 +17,30 @@ from contextlib import suppress
 from typing import Callable, Iterator, NamedTuple
 
 PR_SET_PDEATHSIG = 1  # linux/prctl.h
-BUFFER_BYTES = 1 << 16  # what the kernel keeps cannot be dropped any more
+BUFFER_BYTES = 1 << 16  # small, as frames in the kernel's buffer cannot be dropped
 
 
 class Frame(NamedTuple):
-    """A message on its way.
+    """A message between the two sides.
 
     Without a topic it is a sign of life; data: a line for each topic that cannot be carried.
     """
 
     topic: str
-    type: str  # as ROS 2 writes it: package/msg/Name; "": no latched sender is left, forget all
+    type: str  # package/msg/Name, as in ROS 2; "": the last latched sender has exited
     data: bytes
     stamp_s: float  # monotonic clock, which both sides share
     is_latched: bool = False
-    announces: bool = False  # no message, but that some will come: subscribers find the topic
+    announces: bool = False  # no message, but the topic exists, so subscribers find it
 
     def packed(self) -> bytes:
-        """Return the frame as it is sent: the other side has its class in another module."""
+        """Return the bytes of the frame as a tuple: the other side has this class elsewhere."""
         return pickle.dumps(tuple(self))
 
 
 def frames(connection: socket.socket) -> Iterator[Frame]:
-    """Yield what comes, until the other side is gone."""
-    # Reset: it ended before it had read all that was sent to it; the others: within a frame.
+    """Yield the frames that arrive, until the other side closes the connection."""
+    # Reset: the other side exited with frames unread; the other two: in the middle of a frame.
     ends = ConnectionResetError, EOFError, pickle.UnpicklingError
     with connection.makefile("rb", buffering=1 << 18) as stream, suppress(*ends):
         while True:
@@ -48,7 +48,7 @@ def frames(connection: socket.socket) -> Iterator[Frame]:
 
 
 class Sender:
-    """Sends frames from a thread of its own; put() never waits."""
+    """Sends frames in a thread; put() never waits."""
 
     def __init__(self, connection: socket.socket, depth_of: Callable[[str], int]) -> None:
         """depth_of: how many messages of a topic may wait."""
@@ -84,13 +84,13 @@ class Sender:
         return None
 
     def _send(self) -> None:
-        with suppress(OSError):  # the other side is gone; frames() ends, too
+        with suppress(OSError):  # the other side has exited; frames() ends, too
             for frame in iter(self._next, None):
                 self._connection.sendall(frame.packed())
 
 
 def end_with_parent() -> None:
-    """Let this process exit when its parent is killed."""
+    """Make this process exit when its parent exits."""
     ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
 
 

@@ -1,4 +1,4 @@
-"""The side of ROS 1: forwards the bytes of any type. It listens for the other side.
+"""The side of ROS 1: forwards messages of any type as bytes. The other side connects to it.
 
 bridge.py starts it: python3 -m ros2_bridge.ros.ros1_side FOLDER.
 """
@@ -28,28 +28,28 @@ from ros2_bridge.io.connection import Frame, Sender, end_with_parent, frames, is
 from ros2_bridge.routes import Route, depth_of, read_routes
 
 NAME = "ros2_bridge"
-SOCKET, LIST = "socket", "topics.yaml"  # in the folder that both sides know
-LOOK_S = 0.5  # how often the master is asked which topics there are; and the state is published
+SOCKET, LIST = "socket", "topics.yaml"  # in the folder that the sides share
+LOOK_S = 0.5  # interval of looking for new topics, and of publishing the state
 FORGET_S = 5.0  # after the last latched sender: by then subscribers in ROS 2 have its messages
-SILENT_S = 2.0  # the other side gives a sign of life each half second
+SILENT_S = 2.0  # the other side sends a sign of life every half second
 
 
 class Ros1Side:
     """Subscribes and publishes in ROS 1."""
 
     def __init__(self, routes: list[Route], path: str, warn: Callable[[str], object]) -> None:
-        """Listen. path: of the socket on which the other side comes. warn: takes a line."""
+        """Listen. path: of the socket to which the other side connects. warn: reports a line."""
         self._routes = {route.topic: route for route in routes}
         self._warn = warn
         self._sender: Sender | None = None
         # By topic and sender, for the other side when it restarts.
         self._latched: dict[tuple[str, str], Frame] = {}
-        self._last_seen_s: dict[str, float] = {}  # by topic: when the last latched sender was there
+        self._last_seen_s: dict[str, float] = {}  # by topic: when a latched sender was there
         self._subscribers: dict[str, rospy.Subscriber] = {}
         self._publishers: dict[str, tuple[str, RawPublisher | None]] = {}  # by topic, with the type
         self._lock = threading.Lock()
         self._not_carried: dict[str, str] = {}  # by topic: why it is not carried
-        self._sign_s, self._wrong = -SILENT_S, ""  # last sign of life of the other side; its lines
+        self._sign_s, self._wrong = -SILENT_S, ""  # last sign of life, and its lines
         Path(path).unlink(missing_ok=True)
         self._socket = socket.socket(socket.AF_UNIX)
         self._socket.bind(path)
@@ -65,7 +65,7 @@ class Ros1Side:
         rospy.spin()
 
     def _look(self) -> None:
-        """Announce to the other side what others publish, before a first message comes."""
+        """Announce to the other side which topics are published, before the first message."""
         announced: dict[str, tuple[Sender, str]] = {}  # the sender, and its type
         state = rospy.Publisher("/diagnostics", DiagnosticArray, queue_size=1)
         while not rospy.is_shutdown():
@@ -81,7 +81,7 @@ class Ros1Side:
                     sender.put(Frame(topic, name, b"", now_s, announces=True))
 
     def _state(self) -> DiagnosticArray:
-        """Return whether the other side is there, and what cannot be carried."""
+        """Return whether the other side is connected, and what cannot be carried."""
         lines = [(NAME, "carries between ROS 1 and ROS 2", DiagnosticStatus.OK)]
         if time.monotonic() - self._sign_s > SILENT_S:
             lines = [(NAME, "the side of ROS 2 is missing", DiagnosticStatus.ERROR)]
@@ -97,9 +97,9 @@ class Ros1Side:
     def _subscribe(self, route: Route) -> None:
         def hear(raw: RawMessage) -> None:
             if raw.sender == rospy.get_name():
-                return  # what came through the bridge
+                return  # which came through the bridge
             if raw.is_latched and raw.is_first and not route.may_latch:
-                return  # its age is not known
+                return  # of unknown age
             kind, is_latched = raw.type.replace("/", "/msg/"), raw.is_latched and route.may_latch
             frame = Frame(route.topic, kind, raw.data, time.monotonic(), is_latched)
             with self._lock:
@@ -111,7 +111,7 @@ class Ros1Side:
         self._subscribers[route.topic] = subscribe(route.topic, hear, route.depth)
 
     def _forget_what_is_gone(self) -> None:
-        """Keep what is latched only while its sender is connected, as subscribers of ROS 1 do."""
+        """Drop latched messages whose sender has exited, as ROS 1 itself does."""
         now_s = time.monotonic()
         with self._lock:
             self._last_seen_s.update((topic, now_s) for topic, _ in self._latched)
@@ -120,7 +120,7 @@ class Ros1Side:
                 for topic, subscriber in self._subscribers.items()
                 for sender in senders(subscriber)
             }
-            self._latched = {key: one for key, one in self._latched.items() if key in there}
+            self._latched = {key: frame for key, frame in self._latched.items() if key in there}
             for topic, seen_s in list(self._last_seen_s.items()):
                 if now_s - seen_s > FORGET_S:
                     del self._last_seen_s[topic]
@@ -148,7 +148,7 @@ class Ros1Side:
     def _publish_or_warn(self, frame: Frame) -> None:
         try:
             self._publish(frame)
-        except Exception as error:  # such as a master that does not answer; the next may pass
+        except Exception as error:  # such as a master that does not answer
             self._warn_of(frame.topic, str(error) or type(error).__name__)
 
     def _warn_of(self, topic: str, why: str) -> None:
@@ -171,7 +171,7 @@ class Ros1Side:
         if kind == frame.type:
             return publisher
         if publisher:
-            self._warn(f"{frame.topic} is now {frame.type} in ROS 2, and no more {kind}")
+            self._warn(f"{frame.topic} is now {frame.type} in ROS 2, no longer {kind}")
             publisher.end()
             publisher = None
         self._not_carried.pop(frame.topic, None)
@@ -185,7 +185,7 @@ class Ros1Side:
 
 
 def load(folder: Path, given: dict[str, Any]) -> list[Route]:
-    """Return the Routes; write their list for the other side. Raises ValueError with one line."""
+    """Return the Routes, after writing their list for the other side. Raises ValueError."""
     file = given.pop("topics", "") or f"{rospkg.RosPack().get_path(NAME)}/config/bridge.yaml"
     if given:
         raise ValueError(f"~{next(iter(given))}: is not known; known is ~topics")

@@ -1,6 +1,6 @@
-"""The side of ROS 2, run by its Python: converts the bytes, subscribes and publishes.
+"""The side of ROS 2, which runs in its Python: converts the bytes, subscribes and publishes.
 
-Needs rclpy and rosbags, and of this suite its folder alone, with connection.py and routes.py.
+Needs rclpy, rosbags, and the folder ros2_bridge alone.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from ros2_bridge.io.connection import Frame, Sender, end_with_parent, frames, is
 from ros2_bridge.routes import Echoes, Route, depth_of, read_routes
 
 NAME = "ros2_bridge"
-LOOK_S = 0.5  # how often it looks which topics there are
+LOOK_S = 0.5  # interval of looking for new topics
 CONNECT_S = 10.0
 
 
@@ -33,21 +33,21 @@ class Ros2Side:
     """Subscribes and publishes in ROS 2."""
 
     def __init__(self, routes: list[Route], connection: socket.socket) -> None:
-        """Make the publishers and subscriptions as they are needed. connection: to ROS 1."""
+        """Create the node. connection: to the side of ROS 1."""
         self.node = rclpy.create_node(NAME)
         self._routes = {route.topic: route for route in routes}
         self._store = get_typestore(Stores.LATEST)
         self._sender = Sender(connection, lambda topic: depth_of(self._routes, topic))
         self._publishers: dict[str, tuple[tuple[str, bool], Any]] = {}
         self._subscriptions: dict[str, tuple[tuple[str, QoSProfile] | None, Any]] = {}
-        self._echoes, self._lock = Echoes(), threading.Lock()  # Two threads use them.
+        self._echoes, self._lock = Echoes(), threading.Lock()  # used by two threads
         self._said: set[str] = set()
         self._wrong: dict[str, str] = {}  # by topic: why it is not carried
         self.node.create_timer(LOOK_S, self._look)
         self._look()
 
     def _say(self, topic: str, line: str) -> None:
-        """Report what is wrong with a topic: to the user, each line once, and to the other side."""
+        """Report a fault of a topic to the user, each line once, and to the other side."""
         self._wrong[topic] = line
         if line not in self._said:
             self._said.add(line)
@@ -58,7 +58,7 @@ class Ros2Side:
         self._say(topic, f"{topic} ({kind}) cannot be carried to {target}: {why}")
 
     def _class(self, topic: str, kind: str) -> Any:
-        """Return the class of package/msg/Name; None, with a line, if it does not exist here."""
+        """Return the class of package/msg/Name; report it and return None if there is none."""
         package, _, name = kind.partition("/msg/")
         try:
             is_here = is_generated(package, name)
@@ -74,7 +74,7 @@ class Ros2Side:
     # ---------------------------------------------------------------- from ROS 1
 
     def carry(self, connection: socket.socket) -> None:
-        """Publish what comes, until the other side is gone."""
+        """Publish what arrives, until the other side closes the connection."""
         for frame in frames(connection):
             route = self._routes.get(frame.topic)
             if not route or is_late(frame, route.longest_s):
@@ -99,7 +99,7 @@ class Ros2Side:
         self._wrong.pop(frame.topic, None)
 
     def _forget(self, route: Route) -> None:
-        """Replace a publisher by one that keeps no messages yet."""
+        """Replace a publisher with a new one, which has kept no messages."""
         (kind, is_latched), publisher = self._publishers.pop(route.topic, (("", False), None))
         if publisher:
             self.node.destroy_publisher(publisher)
@@ -108,11 +108,11 @@ class Ros2Side:
     def _publisher(self, frame: Frame, route: Route) -> Any:
         kind, publisher = self._publishers.get(frame.topic, (None, None))
         is_same = kind and kind[0] == frame.type
-        # What one of several senders latches is kept for all: publishers are not remade each time.
+        # If any sender latches, the publisher keeps messages for all senders: it is not remade.
         if kind and (frame.announces or (is_same and kind[1] >= frame.is_latched)):
             return publisher
         if kind and not is_same:
-            line = f"{frame.topic} is now {frame.type} in ROS 1, and no more {kind[0]}"
+            line = f"{frame.topic} is now {frame.type} in ROS 1, no longer {kind[0]}"
             self._say(frame.topic, line)
         if publisher:
             self.node.destroy_publisher(publisher)
@@ -131,8 +131,8 @@ class Ros2Side:
             if not route.to_ros1:
                 continue
             publishers = self.node.get_publishers_info_by_topic(route.topic)
-            publishers = [one for one in publishers if one.node_name != NAME]
-            kinds = sorted({one.topic_type for one in publishers})
+            publishers = [publisher for publisher in publishers if publisher.node_name != NAME]
+            kinds = sorted({publisher.topic_type for publisher in publishers})
             if len(kinds) > 1:
                 line = f"{route.topic} has several types in ROS 2: {', '.join(kinds)}"
                 self._say(route.topic, line)
@@ -140,7 +140,7 @@ class Ros2Side:
             if kinds:
                 kind = before[0] if before and before[0] in kinds else kinds[0]
                 (_, is_own_kept), _ = self._publishers.get(route.topic, (("", False), None))
-                offered = [one.qos_profile for one in publishers]
+                offered = [publisher.qos_profile for publisher in publishers]
                 wanted = kind, fitting(route, offered, is_own_kept)
                 if wanted != before:
                     if subscription:
@@ -162,11 +162,11 @@ class Ros2Side:
 
     def _hearer(self, route: Route, kind: str, is_latched: bool) -> Callable[..., None]:
         def hear(data: bytes, about: dict[str, int]) -> None:
-            # It may have waited for this side, which has just been restarted.
+            # A message may have waited for this side to be restarted.
             age_s = max(0.0, time.time() - 1e-9 * about["source_timestamp"])
             sent_s = time.monotonic() - age_s
             with self._lock:
-                if route.to_ros2 and self._echoes.is_one(route.topic, data, time.monotonic()):
+                if route.to_ros2 and self._echoes.take(route.topic, data, time.monotonic()):
                     return
             try:
                 converted = bytes(self._store.cdr_to_ros1(data, kind))
@@ -180,7 +180,7 @@ class Ros2Side:
 
 
 def is_generated(package: str, name: str) -> bool:
-    """Return whether an import of package.msg finds a message of this name, and import nothing."""
+    """Return whether package.msg has a message of this name, without importing it."""
     spec = PathFinder.find_spec(package) if package.isidentifier() else None
     line = f"from {package}.msg._"
     for place in (spec.submodule_search_locations if spec else None) or ():
@@ -204,19 +204,19 @@ def quality(route: Route, is_latched: bool) -> QoSProfile:
 
 
 def fitting(route: Route, offered: list[QoSProfile], is_own_kept: bool) -> QoSProfile:
-    """Return the quality of service of a subscription that receives from all of these publishers.
+    """Return the quality of service with which a subscription receives from all publishers.
 
-    is_own_kept: this node's own publisher keeps messages, which must not come back.
+    is_own_kept: this node's own publisher keeps messages, which must not return.
     """
-    kept = {one.durability for one in offered}
+    kept = {profile.durability for profile in offered}
     profile = quality(route, kept == {DurabilityPolicy.TRANSIENT_LOCAL} and not is_own_kept)
-    if any(one.reliability == ReliabilityPolicy.BEST_EFFORT for one in offered):
+    if any(own.reliability == ReliabilityPolicy.BEST_EFFORT for own in offered):
         profile.reliability = ReliabilityPolicy.BEST_EFFORT
     return profile
 
 
 def connect(path: str) -> socket.socket:
-    """Return a connection to the other side, as soon as that listens. Raises OSError."""
+    """Wait until the other side listens; return a connection to it. Raises OSError."""
     deadline_s = time.monotonic() + CONNECT_S
     while True:
         connection = socket.socket(socket.AF_UNIX)
@@ -227,11 +227,11 @@ def connect(path: str) -> socket.socket:
             connection.close()
             if time.monotonic() > deadline_s:
                 raise
-            time.sleep(0.05)  # nothing reports when it begins to listen
+            time.sleep(0.05)  # there is no event to wait for
 
 
 def main() -> None:
-    """Carry messages between ROS 2 and the node of ROS 1, until one of them ends."""
+    """Carry messages between ROS 2 and the node of ROS 1, until one of them exits."""
     end_with_parent()
     folder = sys.argv[1]
     try:
@@ -250,7 +250,7 @@ def main() -> None:
             rclpy.spin_once(side.node, timeout_sec=0.2)
     except KeyboardInterrupt:
         return
-    sys.exit(1)  # the side of ROS 1 is gone: bridge.py restarts this one
+    sys.exit(1)  # the side of ROS 1 has exited: bridge.py restarts this one
 
 
 if __name__ == "__main__":

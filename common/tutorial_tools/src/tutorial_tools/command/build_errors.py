@@ -6,12 +6,12 @@ import re
 from collections.abc import Sequence
 
 WRONG = re.compile("rror|invalid|mismatched|not found")
-PROGRESS = ("-- ", "####")  # Lines that are no errors, whatever their words.
-MOST = 8  # lines; CMake says in the last ones of a message what to do
+PROGRESS = ("-- ", "####")  # Lines that are never errors.
+MOST = 8  # lines; a message of CMake ends with what to do
 
 
 def first_errors(lines: Sequence[str]) -> list[str]:
-    """Return the first lines with an error, and the messages indented below; or the last line."""
+    """Return the first errors with the lines indented below them; or the last line."""
     errors, inside = [], False
     for line in lines:
         starts = WRONG.search(line) is not None and not line.startswith(PROGRESS)

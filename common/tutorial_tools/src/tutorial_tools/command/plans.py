@@ -29,12 +29,12 @@ PROGRAMS["cockpit"] = str(REPOSITORY / "common" / "cockpit" / "scripts" / "cockp
 PYPI = "python:test/requirements.txt"
 CLUSTER = "--cluster"  # option of check --all
 Plan = Dict[str, List[str]]  # sections of packages, builds, student and the command
-# Takes whether ROS 2 may be installed without asking; raises ValueError unless it may be used.
+# Asks whether to install ROS 2, unless the argument says so; raises ValueError if not.
 Confirm = Callable[[bool], None]
 
 
 def with_kind(arguments: list[str]) -> list[str]:
-    """Return the arguments of test with its kind before a path in test, or with its package."""
+    """Return the arguments of test, with the kind before a path in test, or a package."""
     folder, *below = Path(*arguments[:1]).parts or [""]
     if folder != "test":
         return arguments
@@ -53,7 +53,7 @@ def student_of(word: str, given: str | None) -> str:
 
 
 def command_of_run(command: list[str]) -> list[str]:
-    """Return the command of the word run, if it can be run here."""
+    """Return the command of `run`, unless it needs a screen that is missing."""
     if not command:
         fail("run: a command is missing, for example: ./tutorial run rostopic list")
     is_rviz = command[0] == "rviz" or command[:3] == ["rosrun", "rviz", "rviz"]
@@ -65,7 +65,7 @@ def command_of_run(command: list[str]) -> list[str]:
 
 
 def plan_of_test(kind: str, rest: list[str]) -> Plan:
-    """Return the plan of one kind of tests, of all (""), or of what else needs their packages."""
+    """Return the plan for a kind of tests, for all (""), or for lint, docs and bench."""
     made = {"sections": ["demo", "more", "test"], "builds": ["workspace", f"pypi={PYPI}"]}
     if kind in ("browser", "containers"):
         made["sections"].append("browser")
@@ -85,7 +85,7 @@ def options_of(arguments: list[str]) -> set[str]:
 
 
 def refuse(word: str, arguments: list[str]) -> None:
-    """Refuse what would fail only after a set-up of minutes."""
+    """Refuse mistakes that would otherwise show only after minutes of set-up."""
     options = options_of(arguments)
     own = {"--in", "--all", "--self-test", "--package", "--show-variant"}
     named = os.environ.get("TUTORIAL_IN") or options & (own | HELP)
@@ -101,7 +101,7 @@ def refuse(word: str, arguments: list[str]) -> None:
 
 
 def plan_of_ros2(workspace: Path, arguments: list[str], confirm: Confirm) -> Plan:
-    """Return the builds and the command of a program with ROS 2."""
+    """Return the plan for a program with ROS 2."""
     options = parser_of("ros2").parse_args(arguments)
     try:
         command = ros2_programs.command_of(workspace, options.program, options.rest)
@@ -113,7 +113,7 @@ def plan_of_ros2(workspace: Path, arguments: list[str], confirm: Confirm) -> Pla
 
 
 def plan(word: str, arguments: list[str]) -> Plan:
-    """Return the plan of a word."""
+    """Return the plan of a subcommand."""
     made: Plan = {"sections": ["demo", "more"], "builds": ["workspace"]}
     if word in OWN_PARSER:
         refuse(word, arguments)
@@ -154,7 +154,7 @@ def plan(word: str, arguments: list[str]) -> Plan:
 
 
 def read(workspace: Path, typed: list[str], confirm: Confirm) -> Plan | None:
-    """Return the plan of what the user typed; None if nothing is left to do. A misuse exits."""
+    """Return the plan for what the user typed; None if nothing is left to do. Exits at a misuse."""
     word, arguments = "".join(typed[:1]), typed[1:]
     if word == "":
         show_help(sys.stderr)

@@ -1,4 +1,4 @@
-"""What a file of requirements for pip asks for."""
+"""Reads a file of requirements for pip."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import re
 
 
 def names_of(requirements: str, minor: int) -> list[str]:
-    """Return the names in a file of requirements that are for Python 3.minor."""
+    """Return the names of the requirements that apply to Python 3.minor."""
     line = r"^([a-z-]+)[=[][^;\n]*(?:; python_version (<|>=) \"3\.(\d+)\")?"
     return [
         name

@@ -17,7 +17,7 @@ TOOLS = (REPOSITORY / "common" / "ros2_bridge" / "src" / "ros2_bridge" / "conver
 
 
 def programs() -> dict[str, Path]:
-    """Return {name: path} of the programs of the tutorial."""
+    """Return {name: path} of the tutorial's programs."""
     paths = [*sorted(OWN.glob("[a-z]*.py")), *TOOLS]
     return {path.stem: path for path in paths}
 

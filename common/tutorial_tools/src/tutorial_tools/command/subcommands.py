@@ -13,7 +13,7 @@ from node_kit.parameters.arguments import Parser, above_zero
 from tutorial_tools.command import ros2_programs
 from tutorial_tools.paths import REPOSITORY
 
-SUBCOMMANDS = {  # word: (arguments as the help shows them, what it does)
+SUBCOMMANDS = {  # name: (arguments as the help shows them, what it does)
     "demo": ("[--for SECONDS] [NAME:=VALUE ...]", "a recorded joystick drives the simulated robot"),
     "check": (
         "--in WORKSPACE [EXERCISE ...]",
@@ -53,8 +53,8 @@ MORE_OF_TEST = """\
 PACKAGE, such as joy2twist: its tests of the first four kinds, without those marked long or night.
 PATH: a folder or file of test/PACKAGE/KIND. More arguments go to pytest, such as -k EXPRESSION."""
 HELP = {"-h", "--help"}
-WITH_IN = ("shell", "run", "doctor", "check")  # which know --in
-OWN_PARSER = {  # programs that read their options themselves, and those for completion
+WITH_IN = ("shell", "run", "doctor", "check")  # subcommands that have --in
+OWN_PARSER = {  # programs with parsers of their own: their options, for completion
     "check": ("--in", "--all", "--watch", "--hints", "--solution", "--course", "--self-test"),
     "cockpit": ("--port", "--lan"),
     "scheduler": ("--host",),
@@ -66,7 +66,7 @@ are then not found at all. `shell` and `run` make and build it if it does not ex
 Every command first sets up what it needs. The suite's own catkin workspaces are in
 $TUTORIAL_WORKSPACE or else below ~/.cache; remove them, and they are built again.
 common/doc/TUTORIAL.md leads through it, section by section."""
-# For bash. The name is that of the command line: ./tutorial from a clone, tutorial in its shell.
+# For bash, with the command as typed: ./tutorial in a clone, tutorial in its shell.
 COMPLETION = """\
 _tutorial() {
     local IFS=$'\\n'
@@ -82,7 +82,7 @@ def tested() -> list[str]:
 
 
 def parser_of(word: str) -> Parser:
-    """Return the parser of one word's arguments."""
+    """Return the parser of a subcommand's arguments."""
     arguments, text = SUBCOMMANDS[word]
     parser = Parser(prog=f"./tutorial {word}", description=text, allow_abbrev=False)
     add = parser.add_argument
@@ -122,7 +122,7 @@ def parser_of(word: str) -> Parser:
 
 
 def show_help(file: TextIO) -> None:
-    """Print the list of words."""
+    """Print the list of subcommands."""
     print("usage: ./tutorial COMMAND ...\n", file=file)
     for word, (arguments, text) in SUBCOMMANDS.items():
         print(f"  {f'{word} {arguments}':41} {text}", file=file)

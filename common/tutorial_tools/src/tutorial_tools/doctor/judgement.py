@@ -35,19 +35,9 @@ def judge(facts: Facts) -> list[Finding]:
     findings = [*environment(facts), *overlay(facts), *master(facts), *address(facts)]
     findings += strays(facts)
     if facts.master is Answer.WELL:
-        for check in (
-            nodes,
-            clocks,
-            types,
-            topics,
-            unconnected,
-            unmatched_topics,
-            muxes,
-            rivals,
-            states,
-        ):
-            findings += check(facts)
-        findings += transforms(facts)
+        findings += [*nodes(facts), *clocks(facts), *types(facts), *topics(facts)]
+        findings += [*unconnected(facts), *unmatched_topics(facts), *muxes(facts)]
+        findings += [*rivals(facts), *states(facts), *transforms(facts)]
     return [*findings, *joysticks(facts), *kobukis(facts)]
 
 

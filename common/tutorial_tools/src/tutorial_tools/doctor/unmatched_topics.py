@@ -46,10 +46,7 @@ def unmatched_topics(facts: Facts) -> Iterator[Finding]:
         yield wrong("topics", f"{seen}, which {nodes[1]} wants", todo)
         del sent[topic]
         wanted.pop(other, None)
-    quiet = {
-        *theirs,
-        *(() if facts.driven() else facts.topics(JOY)),
-    }  # drive_chain.py reports these
+    quiet = {*theirs, *(() if facts.driven() else facts.topics(JOY))}  # as in _waits()
     loud = {t: nodes for t, nodes in sent.items() if t not in quiet and not _reports(facts, t)}
     missed = {t: nodes for t, nodes in wanted.items() if not _waits(facts, t)}
     if loud:

@@ -1,4 +1,4 @@
-"""What a terminal and a workspace have that keeps ROS 1 from starting; imports none of ROS."""
+"""What in a terminal or a workspace keeps ROS 1 from starting. Imports nothing of ROS."""
 
 from __future__ import annotations
 
@@ -14,28 +14,28 @@ from pathlib import Path
 
 from node_kit.manifests import manifests
 
-SYSTEMS = "/usr/bin/python3"  # to which ROS 1 belongs
-PATH = "TUTORIAL_TERMINAL_PATH"  # with which ./tutorial was called; its own has SYSTEMS first
-SCRIPTS = ("scripts", "nodes", "bin")  # the folders of a package in which programs are
+SYSTEMS = "/usr/bin/python3"  # the Python of ROS 1
+PATH = "TUTORIAL_TERMINAL_PATH"  # PATH of the calling terminal; ./tutorial puts SYSTEMS first
+SCRIPTS = ("scripts", "nodes", "bin")  # a package's folders of programs
 PROBE = """
 import importlib.util, json
-found = {name: importlib.util.find_spec(name) for name in ("rospkg", "catkin_pkg", "em")}
-print(json.dumps({name: spec.origin if spec else "" for name, spec in found.items()}))"""
+specs = {name: importlib.util.find_spec(name) for name in ("rospkg", "catkin_pkg", "em")}
+print(json.dumps({name: spec.origin if spec else "" for name, spec in specs.items()}))"""
 
 
 def environment(workspace: str) -> list[tuple[str, str]]:
-    """Return [(what is wrong, what to do)] of this terminal and a workspace ("": none)."""
+    """Return [(what is wrong, what to do)] for this terminal and a workspace ("": none)."""
     path = os.environ.get(PATH) or os.environ.get("PATH", "")
     pythons = dict.fromkeys((shutil.which("python3", path=path) or SYSTEMS, SYSTEMS))
-    found = [complaint for one in pythons for complaint in _of_python(one)]
+    complaints = [complaint for python in pythons for complaint in _of_python(python)]
     if ros2 := os.environ.get("AMENT_PREFIX_PATH"):
         todo = "open a terminal in which no setup.bash of ROS 2 is sourced; look into ~/.bashrc"
-        found.append((f"ROS 2 is in this terminal, too (AMENT_PREFIX_PATH={ros2})", todo))
-    return [*found, *(_of_workspace(Path(workspace)) if workspace else ())]
+        complaints.append((f"ROS 2 is in this terminal, too (AMENT_PREFIX_PATH={ros2})", todo))
+    return [*complaints, *(_of_workspace(Path(workspace)) if workspace else ())]
 
 
 def leave_ros2() -> None:
-    """Let this program not find the modules of ROS 2, which have the names of those of ROS 1."""
+    """Hide the modules of ROS 2 from this program: some have the names of ROS 1's."""
     prefixes = tuple(filter(None, os.environ.get("AMENT_PREFIX_PATH", "").split(":")))
     sys.path[:] = [entry for entry in sys.path if not entry.startswith(prefixes or ("\0",))]
 

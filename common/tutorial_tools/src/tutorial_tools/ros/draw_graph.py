@@ -32,7 +32,7 @@ def ask_master() -> tuple[Any, dict[str, str]]:
 
 
 def picture(text: str, kind: str) -> bytes:
-    """Return what dot draws of a text: the bytes of a file of some kind, such as png."""
+    """Return the bytes of the picture that dot draws, of a kind such as png."""
     dot = ["dot", f"-T{kind}"]
     try:
         done = subprocess.run(dot, input=text.encode(), capture_output=True, check=False)
@@ -48,11 +48,11 @@ def fail(text: str) -> NoReturn:
 
 
 def main(arguments: list[str] | None = None) -> None:
-    """Draw the graph into a file; arguments: of the command line unless given."""
+    """Draw the graph into a file. arguments: None means the command line's."""
     parser = argparse.ArgumentParser(description="Draws the running nodes and their topics.")
     kinds = f"what to write, {', '.join(ENDINGS)}; graph.png by default"
     parser.add_argument("file", nargs="?", default="graph.png", metavar="FILE", help=kinds)
-    everything = "show also /rosout, and topics without a publisher or a subscriber"
+    everything = "also show /rosout, and topics without a publisher or a subscriber"
     parser.add_argument("--all", action="store_true", help=everything)
     options = parser.parse_args(rosgraph.myargv()[1:] if arguments is None else arguments)
     file = Path(options.file)

@@ -1,4 +1,4 @@
-"""The command join: check the way to the teacher's machine, then start student.launch."""
+"""The command join: checks the connection to the teacher's machine, then starts student.launch."""
 
 from __future__ import annotations
 
@@ -38,13 +38,13 @@ def check_master(uri: str, own: str) -> None:
     if not is_called_back(uri, own):
         todo = "open its firewall, or join through the same network"
         raise JoinError(f"the master {uri} does not reach this machine at {own}: {todo}")
-    answer, value = call(uri, "getParam", "/run_id")  # roslaunch makes a folder for logs of it
+    answer, value = call(uri, "getParam", "/run_id")  # roslaunch names its log folder by it
     if answer is Answer.WELL and not (isinstance(value, str) and re.fullmatch(r"[\w-]+", value)):
         raise JoinError(f"the master {uri} has a /run_id that is no name: {ascii(value)[:60]}")
 
 
 def main() -> None:
-    """Check, then become roslaunch."""
+    """Check everything, then replace this process with roslaunch."""
     options = parser_of("join").parse_args()
     file = f"{rospkg.RosPack().get_path('joy2twist')}/launch/student.launch"
     try:

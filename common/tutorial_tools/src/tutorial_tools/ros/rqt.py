@@ -1,4 +1,4 @@
-"""The windows of rqt: the cockpit's page at the tab that shows the same, or a program of ours."""
+"""The commands of rqt's windows: each leads to a tab of the cockpit, or to a program of ours."""
 
 from __future__ import annotations
 
@@ -17,22 +17,22 @@ from tutorial_tools.ros import draw_graph
 from tutorial_tools.ros.cockpit_page import address
 from tutorial_tools.rqt_windows import TABS, place
 
-PORTS = range(8080, 8100)  # of a cockpit that is started here: the first that is free
+PORTS = range(8080, 8100)  # for a cockpit that is started here: the first free one
 LOOK_S = 0.2
 PICTURE = "rosgraph.png"
 
 
 def show(shown: str) -> None:
-    """Open a page or a file where there is a screen."""
+    """Open a page or a file if there is a screen."""
     if os.environ.get("DISPLAY") and shutil.which("xdg-open"):
-        # Without waiting: a browser that this opens runs for as long as it is used.
+        # Without waiting: the browser may run for hours.
         none = subprocess.DEVNULL
         command = ["xdg-open", shown]
         subprocess.Popen(command, stdin=none, stdout=none, stderr=none, start_new_session=True)
 
 
 def start_cockpit(uri: str) -> str:
-    """Let this process be a cockpit, as a window would go on; return its page in a second one."""
+    """Become the cockpit; return the address of its page in a child process."""
     window = os.getpid()
     if os.fork():
         free = (port for port in PORTS if not accepts(f"http://127.0.0.1:{port}/"))
@@ -43,11 +43,11 @@ def start_cockpit(uri: str) -> str:
         if page:
             return page
         time.sleep(LOOK_S)
-    os._exit(1)  # the cockpit has said why
+    os._exit(1)  # the cockpit has reported why
 
 
 def main() -> None:
-    """Print the address of what the window would show, and open it where there is a screen."""
+    """Print the address of the matching tab, and open it if there is a screen."""
     window = Path(sys.argv[0]).name
     if window == "rqt_bag":
         from tutorial_tools.ros import rqt_bag  # noqa: PLC0415  which loads rosbag

@@ -1,4 +1,4 @@
-"""The command rqt_bag, as far as there is no rqt: what is in a bag, a picture, how to play it."""
+"""The command rqt_bag in place of rqt's: lists a bag, draws its joystick, says how to play it."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def read(path: Path) -> tuple[float, Topics, list[Sample]]:
 
 
 def main() -> None:
-    """Report what is in the bag, draw it, and say how to publish it."""
+    """Print what is in the bag, draw its joystick, and print how to publish it."""
     text = "Debian has no rqt for ROS 1. This draws a recorded joystick, and shows how to play it."
     parser = argparse.ArgumentParser(prog="rqt_bag", description=text)
     parser.add_argument("bag", nargs="?", help="the recording, such as joy.bag")

@@ -1,4 +1,4 @@
-"""./tutorial, once Python is installed. Arguments: its workspace, then what the user typed."""
+"""./tutorial, once Python is installed. Arguments: its workspace, then the user's."""
 
 import sys
 from pathlib import Path
@@ -6,7 +6,7 @@ from pathlib import Path
 SOURCES = Path(__file__).resolve().parents[3]
 sys.path[:0] = [str(SOURCES), str(SOURCES.parents[1] / "node_kit" / "src")]
 WORKSPACE, TYPED = Path(sys.argv[1]), sys.argv[2:]
-# With no other modules than docker/Dockerfile has by then, and no files of root's beside them.
+# Only the modules that docker/Dockerfile has copied by then, and no bytecode that root owns.
 ONLY_PACKAGES = sys.dont_write_bytecode = TYPED == ["setup", "system"]
 
 try:

@@ -1,4 +1,4 @@
-"""What ./tutorial needs beside Debian packages: catkin workspaces, and what PyPI has.
+"""Builds what ./tutorial needs beside Debian packages: catkin workspaces, packages of PyPI.
 
 Parts: workspace, student=PATH, pypi=NAME:FILE, maybe=NAME:FILE, alone=NAME:FILE.
 """
@@ -28,34 +28,34 @@ from tutorial_tools.paths import PREFIX, REPOSITORY, SHARE
 from tutorial_tools.rqt_windows import MODEL, TABS, make_rqt
 
 OVERLAY = ("beginner_tutorials", "joy2twist", "test")  # the solutions
-# Commands of the shell, under these names.
+# Commands of `./tutorial shell`, by these names.
 COMMANDS = ("common/tutorial_tools/scripts/2to3", "tutorial")
 
 
 def stamp() -> str:
-    """Return a checksum of what catkin reads; the Python files themselves are used in place."""
-    found = hashlib.sha1(f"{sys.version} {PREFIX} {COMMANDS} {TABS} {real_packages()}".encode())
+    """Return a checksum of what catkin reads; it uses the Python modules in place."""
+    checksum = hashlib.sha1(f"{sys.version} {PREFIX} {COMMANDS} {TABS} {real_packages()}".encode())
     for depth in ("*", "common/*", "common/stand_ins/*"):
         for name in ("CMakeLists.txt", "package.xml", "setup.py"):
             for path in sorted(REPOSITORY.glob(f"{depth}/{name}")):
-                found.update(path.read_bytes())
+                checksum.update(path.read_bytes())
     for path in sorted((REPOSITORY / MODEL / "scripts").iterdir()):  # make_rqt() copies them.
-        found.update(path.read_bytes())
+        checksum.update(path.read_bytes())
     for suffix in (".py", ".test"):  # as test/CMakeLists.txt looks for them
         for path in sorted(REPOSITORY.glob(f"test/*/ros/*{suffix}")):
-            found.update(str(path.relative_to(REPOSITORY)).encode())
-    return found.hexdigest()
+            checksum.update(str(path.relative_to(REPOSITORY)).encode())
+    return checksum.hexdigest()
 
 
 def real_packages() -> list[str]:
-    """Return the names of the packages that ROS has here, and that would have a stand-in."""
+    """Return the installed packages that replace a stand-in."""
     stand_ins = (path.parent.name for path in manifests(REPOSITORY / "common/stand_ins"))
     names = {*TABS, *stand_ins}
     return sorted(name for name in names if (SHARE / name / "package.xml").exists())
 
 
 def clean_catkin_make(below: Path | None, folder: Path, log: Path) -> bool:
-    """Return whether catkin_make succeeds over another workspace; without any other environment."""
+    """Run catkin_make over another workspace, in a clean environment; return its success."""
     hidden = ("CMAKE_PREFIX_PATH", "ROS_PACKAGE_PATH", "PYTHONPATH")
     environment = {name: value for name, value in os.environ.items() if name not in hidden}
     environment.update(PATH="/usr/bin:/bin", LC_ALL="C.UTF-8")  # Its output is parsed.
@@ -74,15 +74,15 @@ def is_built(workspace: Path) -> bool:
 
 
 def link_packages(workspace: Path, packages: Sequence[str | Path]) -> None:
-    """Have exactly these packages in the src of a workspace, as links."""
+    """Link exactly these packages into the src of a workspace."""
     src, names = workspace / "src", {Path(package).name for package in packages}
     if {path.name for path in src.glob("*")} - {"CMakeLists.txt"} != names:
-        remove_built(workspace)  # what a removed package left would still be found
+        remove_built(workspace)  # nothing of a removed package may remain
     link(src, packages)
 
 
 def link(folder: Path, targets: Iterable[str | Path]) -> None:
-    """Make links in a folder to these files of the repository, in place of older links."""
+    """Link these files of the repository into a folder, in place of older links."""
     folder.mkdir(parents=True, exist_ok=True)
     for target in targets:
         path = folder / Path(target).name
@@ -92,7 +92,7 @@ def link(folder: Path, targets: Iterable[str | Path]) -> None:
 
 
 def remove_built(workspace: Path) -> None:
-    """Remove what catkin has made, and the links."""
+    """Remove what catkin has built, and the links."""
     for name in ("src", "build", "devel"):
         shutil.rmtree(workspace / name, ignore_errors=True)
 
@@ -114,12 +114,12 @@ def build_both(workspace: Path) -> None:
     if os.environ.get("SUDO_USER") and not os.environ.get("TUTORIAL_WORKSPACE"):
         own = f"{os.environ['SUDO_USER']}'s own calls do not use"
         say(f"   which {own}: call ./tutorial without sudo, it asks for it itself")
-    # The underlay: what a student uses and never writes; stand-ins only for what is not installed.
+    # The underlay, which students use and never write; stand-ins only for what is not installed.
     real = real_packages()
     common = [path.parent for path in manifests(REPOSITORY / "common")]
     common = [package for package in common if package.name not in real]
     with contextlib.suppress(FileNotFoundError):
-        (workspace / "built").unlink()  # what it stands for changes from here on
+        (workspace / "built").unlink()  # not valid from here on
     rqt = list(make_rqt(REPOSITORY, real, workspace / "rqt"))
     made = [program.parents[1] for program in rqt]
     link_packages(lower, [REPOSITORY / "fake_turtlebot_sim", *common, *made])
@@ -127,7 +127,7 @@ def build_both(workspace: Path) -> None:
         remove_built(workspace)  # a package may have moved between the two
     link_packages(workspace, OVERLAY)
     link(workspace / "bin", [*COMMANDS, *rqt])
-    with contextlib.suppress(FileExistsError):  # for programs with "env python"
+    with contextlib.suppress(FileExistsError):  # for programs with #!/usr/bin/env python
         (workspace / "bin" / "python").symlink_to("/usr/bin/python3")
     log.write_text("")
     below = Path(PREFIX, "setup.bash") if PREFIX else None
@@ -139,7 +139,7 @@ def build_both(workspace: Path) -> None:
 
 
 def _of_another(student: Path) -> str:
-    """Return what to do about a folder that is another user's; empty if it is not."""
+    """Return what to do about a folder that is another user's; "" if it is not."""
     owner = student.stat() if student.is_dir() else None
     if owner is None or owner.st_uid == os.geteuid():
         return ""
@@ -150,7 +150,7 @@ def _of_another(student: Path) -> str:
 
 
 def why_no_workspace(workspace: Path, student: Path) -> str:
-    """Return why a folder cannot be a student's workspace; "" if it can, and has a src then."""
+    """Make the src of a student's workspace; return why it cannot be one, or ""."""
     if re.search(r"\s", str(student)):
         return "catkin cannot build in it: choose a path without spaces"
     if student.name == "src" and (student.parent / "devel").exists():
@@ -167,7 +167,7 @@ def why_no_workspace(workspace: Path, student: Path) -> str:
 
 
 def build_student(workspace: Path, student: Path) -> None:
-    """Make and build a student's workspace over the underlay; only report a mistake in it."""
+    """Make and build a student's workspace over the underlay; report mistakes in it."""
     refused = why_no_workspace(workspace, student)
     if refused:
         raise SetUpError(f"--in {student}: {refused}")
@@ -188,13 +188,13 @@ def build_student(workspace: Path, student: Path) -> None:
 
 
 def made_over(student: Path) -> str:
-    """Return the file in which catkin keeps over which workspaces this one was built."""
+    """Return catkin's file that lists the workspaces below this one; "" if there is none."""
     util = student / "devel" / "_setup_util.py"
     return util.read_text(errors="replace") if util.exists() else ""
 
 
 def is_over_prefix(made: str) -> bool:
-    """Return whether a workspace was built over a ROS in /opt/ros and no copy of this suite."""
+    """Return whether a workspace was built over a ROS in /opt/ros without this suite."""
     return bool(PREFIX) and PREFIX in made and "/lower/devel" not in made
 
 
@@ -203,7 +203,7 @@ def build_new(workspace: Path, student: Path) -> None:
     say(f"building {student}")
     log = workspace / "student.log"
     log.write_text("")
-    # catkin's setup.bash leaves it out where it is not; messages may be built later in a shell.
+    # catkin's setup.bash leaves this folder out if it is missing; messages may come later.
     (student / "devel/lib/python3/dist-packages").mkdir(parents=True, exist_ok=True)
     if not clean_catkin_make(workspace / "lower" / "devel" / "setup.bash", student, log):
         lines = log.read_text(errors="replace").splitlines()
@@ -214,7 +214,7 @@ def build_new(workspace: Path, student: Path) -> None:
 
 
 def is_done(workspace: Path, part: str) -> bool:
-    """Return whether a part of the command line has nothing left to do."""
+    """Return whether a part needs no build."""
     kind, _, value = part.partition("=")
     if kind in ("workspace", "student"):
         return kind == "workspace" and is_built(workspace)
@@ -223,7 +223,7 @@ def is_done(workspace: Path, part: str) -> bool:
 
 
 def lock_of(name: str) -> Path:
-    """Return the file with the releases and hashes that pip may install, made by test/lock."""
+    """Return the file of releases and hashes that pip may install, which test/lock writes."""
     return REPOSITORY / "test" / "locks" / f"{name}.txt"
 
 
@@ -233,10 +233,10 @@ def is_same(kept: Path, lock: Path) -> bool:
 
 
 def install_from_pypi(workspace: Path, name: str, requirements: str, kind: str) -> None:
-    """Make a virtual environment with what a file of requirements names, as its lock has it.
+    """Make a virtual environment with the requirements of a file, in the releases of its lock.
 
-    kind: "pypi"; "alone", without Debian's packages; or "maybe", for a shell, which works without:
-    a failure is reported once.
+    kind: "pypi"; "alone", without Debian's packages; or "maybe", for a shell, which also works
+    without them: a failure is reported once.
     """
     needed = kind != "maybe"
     folder, wanted, log = workspace / name, lock_of(name), workspace / "pip.log"
@@ -251,7 +251,7 @@ def install_from_pypi(workspace: Path, name: str, requirements: str, kind: str) 
         subprocess.run(venv, check=True)
         pip = [f"{folder}/bin/python", "-m", "pip", "install", "-q", "--disable-pip-version-check"]
         with open(log, "w", encoding="utf-8") as file:
-            # A lock has all that Debian lacks; the browser tests' Selenium comes with them.
+            # A lock has all that Debian lacks; Selenium comes with Debian's browsers.
             command = [*pip, "--require-hashes", "--no-deps", "-r", str(wanted)]
             done = subprocess.run(command, check=False, stdout=file, stderr=file)
         if not done.returncode:

@@ -1,4 +1,4 @@
-"""Fetches the library of the cockpit's charts from npm's registry where the archive lacks it."""
+"""Fetches the library of the cockpit's charts from npm's registry if Debian's archive lacks it."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ TIMEOUT_S = 30.0
 
 
 def fetch_charts(workspace: Path, again: bool) -> None:
-    """Fetch what the page's charts need, unless it is there; only report a failure, once.
+    """Fetch what the page's charts need, unless it is there; report a failure once.
 
     again: try again after a failure.
     """

@@ -1,4 +1,4 @@
-"""The environment of what ./tutorial starts."""
+"""The environment of the command that ./tutorial starts."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ LOCAL = ("", "localhost", "127.0.0.1")
 
 
 def environment_of(workspace: Path, word: str, student: str) -> dict[str, str]:
-    """Return the environment of the command of a word. student: "" for the suite's own."""
+    """Return the environment of a subcommand. student: a workspace, or "" for the suite's."""
     given = _given()
     lower, etc = workspace / "lower" / "devel", str(REPOSITORY / "common/node_kit/etc/ros")
     own = {"TUTORIAL_UNDERLAY": f"{lower}/setup.bash"}
@@ -30,14 +30,14 @@ def environment_of(workspace: Path, word: str, student: str) -> dict[str, str]:
         if setup != own_setup and is_over_prefix(made_of):
             beside = str(own_setup)
     made = _sourced(setup, beside, given)
-    # ROS lets anybody in the network drive: all stays on this machine until the user names an
-    # address. Not by ROS_HOSTNAME, which would outdo the ROS_IP that a user sets afterwards.
+    # ROS lets anyone in the network drive, so it stays on this machine until the user names an
+    # address. Not by ROS_HOSTNAME, which overrides the ROS_IP that a user may set afterwards.
     master = re.sub("^.*?://", "", made.get("ROS_MASTER_URI", ""))
     named = made.get("ROS_IP") or made.get("ROS_HOSTNAME")
     if not named and re.split("[:/]", master)[0] in LOCAL:
         made["ROS_IP"] = "127.0.0.1"
     from_pypi = map(str, workspace.glob("python/lib/python3*/site-packages"))
-    path = f"{workspace}/bin:/usr/bin"  # ROS belongs to the system's Python, whichever is first
+    path = f"{workspace}/bin:/usr/bin"  # ROS needs the system's Python, whichever is first
     own.update(
         PATH=f"{path}:{made['PATH']}",
         PYTHONPATH=":".join([made.get("PYTHONPATH", ""), *from_pypi]),
@@ -45,7 +45,7 @@ def environment_of(workspace: Path, word: str, student: str) -> dict[str, str]:
         ROS_ROOT=made.get("ROS_ROOT", etc),  # roswtf wants a folder named ros, which Debian lacks
         TUTORIAL_IN=student,
         TUTORIAL_RESULTS=str(workspace),
-        TUTORIAL_ROS2=f"{workspace}/ros2/bin/python",  # if ./tutorial ros2 has set it up
+        TUTORIAL_ROS2=f"{workspace}/ros2/bin/python",  # exists after ./tutorial ros2
     )
     if word == "doctor":
         own["TUTORIAL_TERMINAL_PATH"] = given["PATH"]
@@ -58,7 +58,7 @@ def environment_of(workspace: Path, word: str, student: str) -> dict[str, str]:
 
 
 def environment_of_help() -> dict[str, str]:
-    """Return the environment of a program that prints its help: nothing may be built yet."""
+    """Return the environment of a program that prints its help, with nothing built."""
     libraries = [str(source) for source in REPOSITORY.glob("common/*/src")]
     if PREFIX:
         libraries.append(f"{PREFIX}/lib/python3/dist-packages")
@@ -66,12 +66,12 @@ def environment_of_help() -> dict[str, str]:
 
 
 def _given() -> dict[str, str]:
-    # Not os.environ, to which Python adds LC_CTYPE where no locale is set.
+    # Not os.environ, to which Python adds LC_CTYPE if no locale is set.
     return _parse(Path("/proc/self/environ").read_bytes())
 
 
 def _sourced(setup: Path, beside: str, given: dict[str, str]) -> dict[str, str]:
-    """Return the environment of a setup.bash. beside: one that adds its workspace; "" for none."""
+    """Return the environment of a setup.bash. beside: another to add with --extend, or ""."""
     kept = {name: value for name, value in given.items() if name not in OTHERS}
     script = 'beside=$1; set --; . "$0" >&2; [ -z "$beside" ] || . "$beside" --extend >&2'
     command = ["bash", "-ec", f"{script}; exec /usr/bin/env -0", str(setup), beside]

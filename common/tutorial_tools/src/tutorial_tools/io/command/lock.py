@@ -1,4 +1,4 @@
-"""Of two ./tutorial at once one builds, and the other one waits and finds it done."""
+"""A lock on the workspace: only one ./tutorial builds at a time."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from typing import TextIO
 
 from tutorial_tools.io.system.apt import say
 
-PATIENCE_S = 2.0  # A wait for another call that is shorter is not worth a line.
+PATIENCE_S = 2.0  # A shorter wait is not reported.
 WAITS = "another ./tutorial is building here; this one waits for it"
 
 
 @contextlib.contextmanager
 def one_at_a_time(workspace: Path) -> Iterator[None]:
-    """Of two calls at once let one do the work, and the other wait and find it done."""
+    """Hold the workspace's lock, after waiting for another call."""
     workspace.mkdir(parents=True, exist_ok=True)
     with open(workspace / "lock", "w", encoding="utf-8") as file:
         end_s = time.monotonic() + PATIENCE_S
@@ -31,7 +31,7 @@ def one_at_a_time(workspace: Path) -> Iterator[None]:
 
 
 def _is_locked_by(file: TextIO) -> bool:
-    """Lock a file; return whether that was possible without waiting."""
+    """Try to lock a file without waiting; return whether it is locked."""
     with contextlib.suppress(BlockingIOError):
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         return True

@@ -1,4 +1,4 @@
-"""Set up what a word of ./tutorial needs, then become its command."""
+"""Sets up what a subcommand of ./tutorial needs, then runs its command."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ NO_VERDICT = "check: nothing was checked; this says nothing about your exercises
 
 def set_up(plan: plans.Plan, workspace: Path, again: bool) -> None:
     """Install and build what a plan needs. Raises SetUpError."""
-    if plan["sections"] == ["doctor"]:  # which must not install for minutes
+    if plan["sections"] == ["doctor"]:  # which must answer at once
         missing = not_installed(packages("demo"))
         if missing:
             why = f"{len(missing)} Debian packages are missing, such as {missing[0]}"
@@ -86,7 +86,7 @@ def main(workspace: Path, typed: list[str]) -> None:
 
 
 def become(word: str, command: list[str], environment: dict[str, str]) -> None:
-    """Run a command in place of this program; by bash, which runs a file without a #! line, too."""
+    """Replace this program with a command; bash also runs files without a #! line."""
     if not shutil.which(command[0], path=environment["PATH"]):
         fail(f'{word}: there is no command "{command[0]}"')
     signal.signal(signal.SIGPIPE, signal.SIG_DFL)

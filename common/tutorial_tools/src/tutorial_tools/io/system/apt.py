@@ -1,4 +1,4 @@
-"""What dpkg and apt know, and apt-get as root, with its progress."""
+"""Queries to dpkg and apt, and apt-get as root, with its progress."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from typing import Iterable, Iterator, Sequence
 
 from tutorial_tools.errors import SetUpError
 
-# No retries: without a network they would take minutes, for each of hundreds of packages.
+# No retries: without a network they would take minutes for each of hundreds of packages.
 APT_GET = (
     *("env", "DEBIAN_FRONTEND=noninteractive", "apt-get", "-q", "-y", "--no-install-recommends"),
     *("-o", "Acquire::Retries=0", "-o", "DPkg::Lock::Timeout=300"),
 )
-# What root runs: the status lines are its output, as sudo closes all other files. Ctrl-C ends the
-# first, and does not reach the session of the second, which has dpkg. The exit code shows it where
-# sudo keeps Ctrl-C from all but what it runs.
+# Scripts for root. They print the status lines, as sudo closes all other files. Ctrl-C ends the
+# first; the second runs dpkg in another session, which Ctrl-C does not reach. The exit code reports
+# Ctrl-C where sudo passes it only to the command that it runs.
 CAN_BE_CUT = 'exec "$@" 3>&1 1>&2'
 IS_FINISHED = """trap 'status=130; echo interrupted:' INT
 setsid "$@" 3>&1 1>&2 &
@@ -49,12 +49,12 @@ def not_installed(names: Sequence[str]) -> list[str]:
 
 
 def lacking(names: Sequence[str]) -> list[str]:
-    """Return those that apt cannot install: the archive lacks them, or what they need."""
+    """Return the packages that apt cannot install, as the archive lacks them or what they need."""
     if _can_install(*names):
         return []
     policy = _ask("apt-cache", "policy", *names).stdout
-    found = re.findall(r"^(\S+):\n(?: .*\n)*?  Candidate: (?!\(none\))", policy, re.M)
-    offered = [name for name in names if name in found]
+    candidates = re.findall(r"^(\S+):\n(?: .*\n)*?  Candidate: (?!\(none\))", policy, re.M)
+    offered = [name for name in names if name in candidates]
     if not _can_install(*offered):  # one by one, which takes minutes
         offered = list(filter(_can_install, offered))
     return [name for name in names if name not in offered]
@@ -66,14 +66,14 @@ def _can_install(*names: str) -> bool:
 
 
 def size_of(names: Sequence[str]) -> str:
-    """Return what has to be downloaded, such as " of 245 MB"; "" if apt does not know."""
+    """Return the size of the download, such as " of 245 MB"; "" if apt does not know it."""
     uris = _ask("apt-get", "install", "--print-uris", "-qq", "--no-install-recommends", *names)
     total = sum(map(int, re.findall(r"^'\S+' \S+ (\d+)", uris.stdout, re.M)))
     return f" of {total / 1e6 + 0.5:.0f} MB" if total else ""
 
 
 def as_root(*command: str) -> list[str]:
-    """Return the command with which root runs this one. Raises SetUpError."""
+    """Return the command that runs this one as root. Raises SetUpError."""
     if _ask("id", "-u").stdout.strip() == "0":
         return [*command]
     if not shutil.which("sudo"):
@@ -82,7 +82,7 @@ def as_root(*command: str) -> list[str]:
 
 
 def progress(status: Iterable[str], size: str) -> Iterator[str]:
-    """Yield what to print of apt's status lines: the percent, in steps of ten."""
+    """Yield the progress in steps of ten percent, from apt's status lines."""
     shown = -1
     for line in status:
         kind, _, percent, *_ = f"{line.strip()}:::".split(":")
@@ -111,12 +111,12 @@ def apt_get(log: Path, script: str, *arguments: str, size: str = "") -> bool:
 
 
 def download_and_install(log: Path, names: Sequence[str]) -> bool:
-    """Install packages, in two steps, as only the first may be cut; return whether it succeeded."""
+    """Download, which may be interrupted, then install; return whether both succeeded."""
     arguments, size = ("install", "-o", "APT::Status-Fd=3", *names), size_of(names)
     is_there = apt_get(log, CAN_BE_CUT, *arguments, "--download-only", size=size)
     return is_there and apt_get(log, IS_FINISHED, *arguments)
 
 
 def errors(log: Path) -> list[str]:
-    """Return the last errors among apt's words."""
+    """Return the last errors in apt's output."""
     return re.findall("^(?:Err:|E: ).*", log.read_text(errors="replace"), re.M)[-5:]

@@ -1,4 +1,4 @@
-"""The one list of Debian packages, and the installation of what is missing of it."""
+"""Reads the list of Debian packages, and installs those that are missing."""
 
 from __future__ import annotations
 
@@ -15,20 +15,20 @@ from tutorial_tools.io.system import apt
 from tutorial_tools.io.system.apt import AS_ROOT, say
 
 LIST = Path(__file__).resolve().parents[4] / "etc" / "packages"
-INCLUDES = {"more": ("view",), "view": ("qt6",)}  # sections in others
+INCLUDES = {"more": ("view",), "view": ("qt6",)}  # section: others that it includes
 ANYWHERE = ("browser", "qt6", "cluster")  # sections that do not depend on where ROS comes from
 QT6 = ("trixie", "forky", "sid")  # Debian's releases with RViz for Qt 6
 DONE = "set up; next: ./tutorial demo"
 
 
 def system() -> dict[str, str]:
-    """Return what /etc/os-release says."""
+    """Return the fields of /etc/os-release."""
     text = Path("/etc/os-release").read_text(encoding="utf-8")
     return dict(re.findall(r'^(\w+)="?(.*?)"?$', text, re.M))
 
 
 def packages(*sections: str) -> list[str]:
-    """Return the packages of these sections of the list, but those of TUTORIAL_WITHOUT."""
+    """Return the packages of these sections, except the sections in TUTORIAL_WITHOUT."""
     ros = os.environ.get("TUTORIAL_ROS", "")
     left_out = os.environ.get("TUTORIAL_WITHOUT", "").split()
     if system().get("VERSION_CODENAME") not in QT6:
@@ -36,19 +36,19 @@ def packages(*sections: str) -> list[str]:
     text = re.sub(" *#.*", "", LIST.read_text(encoding="utf-8"))
     parts = re.split(r"^\[(.+)\]$", text.replace("DISTRO", os.path.basename(ros)), flags=re.M)
     listed = dict(zip(parts[1::2], parts[2::2]))
-    found: list[str] = []
+    names: list[str] = []
     for section in sections:
         if section not in left_out:
             name = f"opt-{section}" if ros and section not in ANYWHERE else section
-            found += [*packages(*INCLUDES.get(section, ())), *listed[name].split()]
-    return found
+            names += [*packages(*INCLUDES.get(section, ())), *listed[name].split()]
+    return names
 
 
 def install(wanted: list[str], workspace: Path, again: bool) -> None:
-    """Install what is missing of these packages. Raises SetUpError.
+    """Install those of these packages that are missing. Raises SetUpError.
 
-    What the archive lacks is reported once, and kept in a file of the workspace. again: the archive
-    may have it by now.
+    A file in the workspace lists what the archive lacks, which is reported once. again: try these
+    packages, too.
     """
     if wanted and not shutil.which("apt-get"):
         todo = "this needs Debian 12 or 13, or Ubuntu 22.04 or 24.04; elsewhere use docker/"
@@ -74,7 +74,7 @@ def install(wanted: list[str], workspace: Path, again: bool) -> None:
 
 
 def _elsewhere() -> str:
-    """Return what to do where the archive lacks what is needed."""
+    """Return what to do if the archive lacks a necessary package."""
     ros = os.environ.get("TUTORIAL_ROS", "")
     if ros:
         return f"they are where {ros} comes from; is that still in /etc/apt/sources.list.d?"
@@ -82,17 +82,17 @@ def _elsewhere() -> str:
 
 
 def _install(missing: list[str], kept: Path, log: Path) -> None:
-    apt.apt_get(log, apt.CAN_BE_CUT, "update")  # an unreachable mirror shows in the installation
+    apt.apt_get(log, apt.CAN_BE_CUT, "update")  # an unreachable mirror fails in the installation
     unreached, lacking = apt.errors(log), apt.lacking(missing)
     archive = f"the archive of {system()['PRETTY_NAME']} lacks"
-    words = f"({log} has all of apt's words)"
+    words = f"(apt's output is in {log})"
     needed = [name for name in lacking if name in packages("demo")]
     if needed and not unreached:
         why = f"{archive} {' '.join(needed)}, without which nothing drives {words}"
         raise SetUpError(f"{why}: {_elsewhere()}")
     if lacking and not needed:
         missing = [name for name in missing if name not in lacking]
-        if unreached:  # so it is not known what the archive lacks
+        if unreached:  # so the archive may have them
             why = f"as apt does not reach all of its archives: {' '.join(lacking)}"
             say(f"done without this time, {why}. Check the network")
         else:

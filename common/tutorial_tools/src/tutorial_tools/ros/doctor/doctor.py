@@ -1,4 +1,4 @@
-"""The command: looks at all that may keep a robot from moving, one line for each finding."""
+"""The command: checks what may keep a robot from moving, and prints a line for each finding."""
 
 import signal
 import sys
@@ -14,9 +14,9 @@ def main() -> None:
     parser_of("doctor").parse_args()
     try:
         findings = judge(collect())
-    except Exception as error:  # one line in place of a traceback, whatever a network does
+    except Exception as error:  # one line instead of a traceback
         sys.exit(f"doctor: cannot go on: {type(error).__name__}: {' '.join(str(error).split())}")
-    # No socket is written to from here on: `doctor | head` ends quietly.
+    # From here on nothing writes to a socket: `doctor | head` exits quietly.
     signal.signal(signal.SIGPIPE, signal.SIG_DFL)
     for finding in findings:
         print(finding.line(), flush=True)

@@ -1,4 +1,4 @@
-"""What the bytes of messages say: transforms, stamps, diagnostics."""
+"""Decodes messages: transforms, stamps, diagnostics."""
 
 from __future__ import annotations
 
@@ -17,13 +17,16 @@ Messages = List[Tuple[float, bytes]]  # (arrival [s], bytes)
 
 
 def transforms_in(came: dict[tuple[str, str], Messages]) -> list[Transform]:
-    """Return the fastest transform to each frame; came: {(node, topic): [(arrival, bytes)]}."""
+    """Return the transform to each frame that arrived with the least delay.
+
+    came: {(node, topic): [(arrival [s], bytes)]}
+    """
     fastest: dict[tuple[str, str], Transform] = {}
     of_tf = {key: messages for key, messages in came.items() if key[1] in TOPICS}
     for (node, topic), messages in of_tf.items():
         for at_s, data in messages:
             for stamped in getattr(decode(TFMessage, data), "transforms", ()):
-                # Those of /tf_static hold at any time.
+                # Static transforms are valid at any time.
                 late_s = 0.0 if topic == "/tf_static" else at_s - stamped.header.stamp.to_sec()
                 parent, child = (
                     stamped.header.frame_id.strip("/"),
@@ -36,19 +39,19 @@ def transforms_in(came: dict[tuple[str, str], Messages]) -> list[Transform]:
 
 
 def offset(topic: str, messages: Messages) -> Offset | None:
-    """Return how much stamps are ahead of their arrival, by the message that was fastest."""
+    """Return how far stamps are ahead of their arrival, from the message with the least delay."""
     stamps = [(at_s, struct.unpack_from("<II", data, 4)) for at_s, data in messages if data[11:]]
     ahead = [seconds + nanoseconds * 1e-9 - at_s for at_s, (seconds, nanoseconds) in stamps]
     return Offset(max(ahead), topic) if ahead else None
 
 
 def nearest(offsets: list[Offset | None]) -> Offset | None:
-    """Return the Offset that is nearest to none: a recording beside it has old stamps."""
-    return min(filter(None, offsets), key=lambda each: abs(each.seconds), default=None)
+    """Return the smallest Offset: a larger one may be that of a recording, with old stamps."""
+    return min(filter(None, offsets), key=lambda offset: abs(offset.seconds), default=None)
 
 
 def base(name: str, said: list[DiagnosticStatus]) -> tuple[str, tuple[bool, str]] | None:
-    """Return whether packets come to the driver of a real Kobuki, and its battery."""
+    """Return (node, (whether its packets arrive, battery)) of a Kobuki driver, else None."""
     about = {s.name.split(": ")[-1]: s for s in said if s.hardware_id == "Kobuki"}
     if not {"Watchdog", "Battery"} <= set(about):
         return None

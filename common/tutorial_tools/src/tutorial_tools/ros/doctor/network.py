@@ -1,4 +1,4 @@
-"""Questions to the network that always end in time; rospy's may wait forever."""
+"""Network queries that always end in time; rospy's may wait without end."""
 
 from __future__ import annotations
 
@@ -24,18 +24,18 @@ CALLER = f"/doctor_{os.getpid()}"
 call = partial(ros_api.call, caller=CALLER)
 LONGEST_MESSAGE = 10_000_000  # bytes; the stamped messages looked at are far shorter
 Thing = TypeVar("Thing")
-Found = TypeVar("Found")
+Result = TypeVar("Result")
 _number = itertools.count()
 
 
 def at_once(
-    question: Callable[[Thing], Found], things: Iterable[Thing], timeout_s: float
-) -> dict[Thing, Found]:
-    """Ask question(thing) about all things at once; return {thing: answer} of those in time."""
+    question: Callable[[Thing], Result], things: Iterable[Thing], timeout_s: float
+) -> dict[Thing, Result]:
+    """Ask question(thing) for all things at once; return {thing: answer} for answers in time."""
     answers = {}
 
     def ask(thing: Thing) -> None:
-        with suppress(Exception):  # what a broken peer answers may be anything
+        with suppress(Exception):  # a broken peer may answer anything
             answers[thing] = question(thing)
 
     threads = [threading.Thread(target=ask, args=(thing,), daemon=True) for thing in things]
@@ -48,19 +48,19 @@ def at_once(
 
 
 def addresses(name: str) -> list[str]:
-    """Return the addresses of a host, maybe none; in time, though a look-up itself may not end."""
-    # As ROS does: IPv6 only where it is asked for.
+    """Return the addresses of a host, maybe none; in time, even if the look-up hangs."""
+    # As in ROS, IPv6 only if ROS_IPV6 asks for it.
     family = socket.AF_UNSPEC if os.environ.get("ROS_IPV6") == "on" else socket.AF_INET
 
     def look_up(host: str) -> list[str]:
-        found = socket.getaddrinfo(host, 0, family, socket.SOCK_STREAM)
-        return [str(entry[4][0]) for entry in found]
+        records = socket.getaddrinfo(host, 0, family, socket.SOCK_STREAM)
+        return [str(entry[4][0]) for entry in records]
 
     return at_once(look_up, [name], TIMEOUT_S).get(name, [])
 
 
 def is_here(address: str) -> bool:
-    """Return whether an address is one of this machine: only then can a socket be bound to it."""
+    """Return whether an address is this machine's: only then can a socket be bound to it."""
     try:
         with socket.socket(family(address), socket.SOCK_DGRAM) as probe:
             probe.bind((address, 0))
@@ -72,8 +72,8 @@ def is_here(address: str) -> bool:
 def is_called_back(master_uri: str, own_name: str) -> bool:
     """Return whether the master reaches this machine under its own name.
 
-    For a moment this program is publisher and subscriber of one topic; the master has to inform
-    the subscriber of the publisher.
+    This program registers a publisher and a subscriber of a topic for a moment: the master must
+    notify the subscriber of the publisher.
     """
     called = threading.Event()
 
@@ -107,7 +107,7 @@ def listen(node_uri: str, topic: str, seconds: float, most: int = 1) -> list[tup
 
 
 def header(node_uri: str, topic: str) -> dict[str, str]:
-    """Return the header with which a node begins to send a topic: callerid, type, md5sum ..."""
+    """Return the header that a node sends before the messages: callerid, type, md5sum ..."""
     begin = _receive(node_uri, topic, TIMEOUT_S, 0, [])
     with suppress(ROSHandshakeException, ValueError, struct.error):
         return dict(rosgraph.network.decode_ros_handshake_header(begin))
@@ -117,13 +117,13 @@ def header(node_uri: str, topic: str) -> dict[str, str]:
 def _receive(
     node_uri: str, topic: str, seconds: float, most: int, heard: list[tuple[float, bytes]]
 ) -> bytes:
-    """Keep up to `most` messages; return what the node sends before the first one."""
+    """Append up to `most` messages to heard; return what the node sends before them."""
     end = time.monotonic() + seconds
-    # A name for each connection: a node drops an older one of the same name.
+    # A new name for each connection: a node closes an older one with the same name.
     name = f"{CALLER}_{next(_number)}"
     fields = {"callerid": name, "topic": topic, "md5sum": "*", "type": "*"}
     begin = b""
-    with suppress(OSError, ValueError, TypeError, struct.error):  # late, or the node has gone
+    with suppress(OSError, ValueError, TypeError, struct.error):  # late, or the node has exited
         _, (_, host, port) = call(node_uri, "requestTopic", topic, [["TCPROS"]])
         with socket.create_connection((host, port), TIMEOUT_S) as connection:
             connection.sendall(rosgraph.network.encode_ros_handshake_header(fields))
@@ -141,5 +141,5 @@ def _block(connection: socket.socket, stream: Any, end: float) -> bytes:
     (length,) = struct.unpack("<I", stream.read(4))
     data: bytes = stream.read(min(length, LONGEST_MESSAGE))
     if len(data) < length:
-        raise ValueError("the connection was closed, or no message of ROS is so long")
+        raise ValueError("the connection was closed, or the message is too long")
     return data

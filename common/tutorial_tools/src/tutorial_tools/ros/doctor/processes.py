@@ -1,7 +1,7 @@
-"""Finds the nodes that run on this machine, also those that the master does not know.
+"""Finds the nodes on this machine, including those that the master does not know.
 
-Only programs that have roscpp, or a log of rospy open, are called: a call might disturb another
-server. The processes of other users are not seen.
+It calls only programs that have loaded roscpp or opened a log of rospy: a call might disturb other
+servers. It does not see the processes of other users.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ class Running(NamedTuple):
 
 
 def running() -> list[Running]:
-    """Return the nodes of this machine, whatever master they use."""
+    """Return the nodes of this machine, whichever master they use."""
     ports = _listening()
     uris: dict[int, list[str]] = {}
     for process in PROC.glob("[0-9]*"):
@@ -44,17 +44,17 @@ def running() -> list[Running]:
         with contextlib.suppress(OSError):  # it has ended, or is another user's
             sockets = [ports[link] for link in _descriptors(process) if link in ports]
             if sockets and pid != os.getpid() and _is_of_ros(process):
-                # The port for questions first: the one for messages warns of a question. roscpp
-                # opens it behind that one, rospy before it.
+                # The port for calls first, as the one for messages warns of a call. roscpp opens
+                # it second, rospy first.
                 uris[pid] = sockets[::-1] if _is_of_roscpp(process) else sockets
     answers = at_once(lambda pid: _ask(pid, uris[pid]), uris, ASK_S)
     return [node for _, node in sorted(answers.items()) if node]
 
 
 def strays(nodes: list[Running], master_uri: str, known: set[str]) -> list[Stray]:
-    """Return those of the nodes that still run and that a master does not know.
+    """Return those of the nodes that still run and that the master does not know.
 
-    known: the URIs of the nodes that it knew meanwhile.
+    known: the URIs of the nodes that it knew a moment ago.
     """
     lost, ports = [], {urlsplit(uri).port for uri in known}
     for node in nodes:
@@ -71,7 +71,7 @@ def strays(nodes: list[Running], master_uri: str, known: set[str]) -> list[Stray
 
 
 def is_same(uri: str, other: str) -> bool:
-    """Return whether two URIs lead to one master."""
+    """Return whether two URIs lead to the same master."""
     with contextlib.suppress(ValueError):
         first, second = urlsplit(uri), urlsplit(other)
         if first.port != second.port:
@@ -83,7 +83,7 @@ def is_same(uri: str, other: str) -> bool:
 
 
 def _listening() -> dict[str, str]:
-    """Return {link of a descriptor: URI} of the ports on which something listens here."""
+    """Return {link of a descriptor: URI} for the listening ports of this machine."""
     uris = {}
     for table in ("tcp", "tcp6"):
         with contextlib.suppress(OSError):
@@ -100,7 +100,7 @@ def _listening() -> dict[str, str]:
 
 
 def _descriptors(process: Path) -> list[str]:
-    """Return what the descriptors of a process lead to, in their order."""
+    """Return the targets of a process's descriptors, in order."""
     links = []
     for path in sorted((process / "fd").iterdir(), key=lambda path: int(path.name)):
         with contextlib.suppress(OSError):  # closed meanwhile
