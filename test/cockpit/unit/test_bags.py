@@ -1,4 +1,4 @@
-"""Recordings on pages: what is opened is what is shown and played."""
+"""Recordings on pages: opened, shown and played."""
 
 import os
 import queue
@@ -27,7 +27,7 @@ pytestmark = claim(
 
 
 class Page:
-    """A page and its recordings, beside a robot to which it may play them."""
+    """A page, its recordings, and a robot to which it may play them."""
 
     def __init__(self):
         self.done, self.player = queue.Queue(), None
@@ -51,10 +51,10 @@ class Page:
         return self.sent[-1]["position"], self.sent[-1]["playing"]
 
     def show(self):
-        """Let what was opened come; return what the page is sent of it: "bag" or "refused"."""
+        """Finish opening; return the page's newest message of the kind "bag" or "refused"."""
         self.done.get(timeout=60)()
         self.bags.send_to(self.client, 0.0)
-        return [one for one in self.sent if one["kind"] in ("bag", "refused")][-1]
+        return [message for message in self.sent if message["kind"] in ("bag", "refused")][-1]
 
     def open(self, name):
         self.say("bag_open", name=name)
@@ -63,7 +63,7 @@ class Page:
 
 @pytest.fixture
 def page(monkeypatch, tmp_path):
-    """A page, to which two recordings are offered: good.bag and odd.bag."""
+    """A page that offers two recordings: good.bag and odd.bag."""
     for name, axes in (("good.bag", [0.5, 1.0]), ("odd.bag", [nan, inf])):
         with rosbag.Bag(str(tmp_path / name), "w") as bag:
             for second in range(1, 4):
@@ -114,7 +114,9 @@ def test_recording_is_read_once_for_all_pages(page, monkeypatch):
 
 
 def test_messages_of_all_open_recordings_are_bounded(page, monkeypatch):
-    monkeypatch.setattr(recordings, "MOST_MESSAGES", 5)  # room for one, with 3 messages each
+    monkeypatch.setattr(
+        recordings, "MOST_MESSAGES", 5
+    )  # room for one recording: each has 3 messages
     page.open("good.bag")
     page.bags.collect([page.client], 0.0)
     why = "other pages have long recordings open: close one of them"
@@ -142,7 +144,7 @@ def test_viewers_are_offered_nothing_of_the_folder(tmp_path, monkeypatch):
 MESSAGES = [(0.0, "a", 0), (0.5, "b", 0), (1.0, "c", 0)]
 
 
-# After seek(position, 10.0): what is due at these times, one after the other.
+# After seek(position, 10.0): the messages that are due at each of these times.
 @pytest.mark.parametrize(
     ("position", "rate", "loop", "due"),
     [

@@ -36,11 +36,11 @@ def test_a_loss_sends_one_neutral_message_and_then_nothing_until_all_is_released
         room.say(DRIVE)
     assert room.lost == [(ANNA, why)]
     assert (room.session.state, room.session.stopped) == ((ANNA, "ada", False, False, why), "ada")
-    room.session.lose("hidden")  # it is lost already: nothing changes
+    room.session.lose("hidden")  # already lost: nothing changes
     at_rest = room.sent.index(("ada", *REST))
     assert room.sent[:at_rest] == at_rest * [("ada", *DRIVE)]
     room.say(REST)
-    assert room.session.state == (ANNA, "ada", False, True, why)  # which stays until it moves
+    assert room.session.state == (ANNA, "ada", False, True, why)  # the reason stays until it moves
     room.say(DRIVE)
     assert room.sent[at_rest:] == [("ada", *position) for position in (REST, REST, DRIVE)]
     assert (room.session.why, room.session.stopped) == ("", None)
@@ -98,7 +98,7 @@ def test_a_recording_takes_the_same_place_and_needs_no_beats(room):
     room.pass_time(10.0)
     assert room.session.state == (ANNA, "ada", True, True, "")
     room.session.play(*DRIVE)
-    room.say(DRIVE)  # a hand beside it has no say
+    room.say(DRIVE)  # the page's own input is ignored meanwhile
     assert room.sent == [("ada", *DRIVE)]
     with pytest.raises(RefusedError, match="only the page that drives may hand over"):
         room.session.hand_over(ANNA, BOB, room.now)
@@ -122,13 +122,13 @@ STICK = ((0.0, 0.5, 0.0, 0.0, 0.0, 0.0), DRIVE[1])
 
 
 def sit(room):
-    """Let Anna sit down, and the server beat once, with the number 1."""
+    """Give Anna the session, and send beat 1."""
     room.session.take(ANNA, "ada", 0.0)
     room.session.beat(1, 0.0)
 
 
 def hand(room, n, now, position=REST, *, t=None, beat=1, pad=None):
-    """Say one input as it is. t: 1000 now, unless it was on its way for a while."""
+    """Send one input. t: the page's time [ms], by default now: no time on the way."""
     message = PageInput(n, 1000 * now if t is None else t, beat, *position, pad)
     room.session.input(ANNA, message, now)
 
@@ -149,7 +149,7 @@ def test_silence_for_a_fifth_of_a_second_is_a_loss_and_for_five_frees_the_sessio
     assert room.session.why == ""  # it was at rest before
 
 
-FRESH = {  # inputs after the beat 1 at the time 0 -> the last that is taken; how many are sent
+FRESH = {  # inputs after beat 1 at 0 s -> the last number that is accepted; how many are sent on
     "others were lost on the way": ([{"n": 1, "now": 0.0}, {"n": 7, "now": 0.0}], 7, 2),
     "the same and an older one come after it": ([{"n": n, "now": 0.0} for n in (7, 7, 6)], 7, 1),
     "a beat of 0.2 s ago": ([{"n": 1, "now": 0.2}], 1, 1),
@@ -167,8 +167,8 @@ FRESH = {  # inputs after the beat 1 at the time 0 -> the last that is taken; ho
 def test_inputs_that_are_fresh(room, case):
     inputs, newest, sent = FRESH[case]
     sit(room)
-    for one in inputs:
-        hand(room, **one)
+    for fields in inputs:
+        hand(room, **fields)
     assert room.session.newest == newest
     assert room.sent == sent * [("ada", *REST)]
 
@@ -192,17 +192,17 @@ def test_a_page_clock_may_be_slow_by_a_thousandth(room, share, taken):
 
 
 def held(*pads, now=0.0):
-    """Hold the stick still while the gamepad's own time is this."""
+    """Return inputs of a stick held still, one for each of these times of the gamepad."""
     return [(now, STICK, pad) for pad in pads]
 
 
 def still(pad):
-    """Hold it for a fifth of a second, and for a moment longer."""
+    """Return the same input after a fifth of a second, and a moment later."""
     return held(pad, now=0.2) + held(pad, now=0.201)
 
 
 MOVED = [(0.0, ((0.0, 0.5 + n / 100, 0.0, 0.0, 0.0, 0.0), DRIVE[1]), n) for n in range(20)]
-PADS = {  # (time, position, the gamepad's own time) -> whether it is frozen at the last, not before
+PADS = {  # (time, position, the gamepad's own time) -> whether the last input shows it frozen
     "it went on 7 times": (held(*range(8)) + still(7), False),
     "8 times": (held(*range(9)) + still(8), True),
     "more often": (held(*range(20)) + still(19), True),

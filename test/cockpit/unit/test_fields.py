@@ -11,7 +11,7 @@ def test_fields_are_all_numbers_of_a_type_seldom_drawn_ones_last():
     assert fields[0] == "pose/pose/position/x"
     assert {"header/stamp", "pose/covariance"} < set(fields)
     assert not {"pose/covariance[0]", "header/frame_id"} & set(fields)
-    assert numbers_of("sensor_msgs/Joy")[:2] == ("axes", "buttons")  # which may be empty
+    assert numbers_of("sensor_msgs/Joy")[:2] == ("axes", "buttons")  # both may be empty
     assert "transforms[0]/transform/rotation/w" in numbers_of("tf2_msgs/TFMessage")
     assert numbers_of("no_such/Type") == numbers_of("std_msgs/String") == ()
 

@@ -64,7 +64,7 @@ def test_parameter_is_set_as_rosparam_does_and_shown_as_it_is_then(monkeypatch, 
 
 @pytest.mark.parametrize("written", ["null", "9" * 20, "[" * 2000, "1e999", "\0", "[NaN"])
 def test_hostile_parameter_is_one_line_or_a_value(monkeypatch, written):
-    """Whatever it is, it arrives as XML-RPC has it, or the page gets one line."""
+    """XML-RPC carries it, or the page gets one line."""
     arrived = []
     marshalled = lambda _name, value: arrived.append(xmlrpc.client.dumps((value,)))  # noqa: E731
     monkeypatch.setattr(forms.rospy, "set_param", marshalled)
@@ -106,7 +106,7 @@ def test_who_may_publish_what(role, driver, topic, kind, why):
     "A service that never answers is refused to the page that called it alone, and given up in time"
 )
 def test_a_service_that_never_answers_is_refused_to_its_page_alone(monkeypatch):
-    """Not to others, and not to their Reset; and not without end: call_service ends in time."""
+    """Other pages may call and reset; call_service gives up in time."""
     started = []
     later = lambda target, daemon: SimpleNamespace(start=lambda: started.append(target))  # noqa: E731
     monkeypatch.setattr(forms.threading, "Thread", later)

@@ -1,4 +1,4 @@
-"""The graph as pages get it, what the master is asked for it, and its bad answers."""
+"""The graph as pages get it: robots, their reset services, and what is left out."""
 
 import pytest
 
@@ -20,7 +20,7 @@ def test_reset_is_of_one_robot():
     assert (GRAPH.reset_service(""), GRAPH.why_no_reset("")) == ("/sim/reset", "")
     assert GRAPH.reset_service("robot_2") == "/robot_2/reset"
     with pytest.raises(RefusedError, match="no node has a service that resets robot_1"):
-        GRAPH.reset_service("robot_1")  # the node's own would reset both
+        GRAPH.reset_service("robot_1")  # the node's own service would reset both
 
 
 def test_robots_hear_a_joystick_or_have_an_odometry():

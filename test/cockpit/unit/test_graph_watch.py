@@ -1,4 +1,4 @@
-"""What the master is asked for the graph, and its bad answers."""
+"""What the graph is read from, and bad answers of the master."""
 
 import threading
 
@@ -24,7 +24,7 @@ GONE = [
 
 @pytest.fixture
 def master(monkeypatch):
-    """Answers by the name of the question, or with its address; a test may change them."""
+    """The answers by method, or by (URI, method); a test may change them."""
     answers = dict(WELL)
     answer = lambda uri, name, *_, **__: answers.get((uri, name)) or answers[name]  # noqa: E731
     monkeypatch.setattr(graph_watch, "call", answer)
@@ -51,9 +51,9 @@ def test_a_node_that_was_killed_is_not_shown_until_it_is_back(master):
     master["http://here:1/", "getPid"] = (Answer.REFUSED, None)
     watch = graph_watch.GraphWatch("/cockpit")
     assert watch.graph.published == ["/x"]
-    master["http://here:1/", "getPid"] = (Answer.SILENT, None)  # it is there, and busy
+    master["http://here:1/", "getPid"] = (Answer.SILENT, None)  # it runs, and is busy
     watch.look()
     assert watch.graph.published == ["/odom", "/x"]
-    master["http://here:1/", "getPid"] = (Answer.REFUSED, None)  # each is asked once
+    master["http://here:1/", "getPid"] = (Answer.REFUSED, None)  # a node is asked once
     watch.look()
     assert watch.graph.published == ["/odom", "/x"]

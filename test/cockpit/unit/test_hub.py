@@ -1,4 +1,4 @@
-"""What the hub sends and receives; a failure, a flood or a slow page does not hold up others."""
+"""What the hub sends and receives; no failure, flood or slow page delays the others."""
 
 import json
 import time
@@ -16,7 +16,7 @@ from tutorial_testing.session_room import page
 
 
 class Made(Hub):
-    """A hub of these sources, beside a driver that is a number."""
+    """A hub with these sources; its driver is the number of a page."""
 
     def __init__(self, *sources, tick=lambda now: None, clock=time):
         self.told, self.driver, self.closed = [], None, []
@@ -27,7 +27,7 @@ class Made(Hub):
         super().__init__({}, driving, sources, self.told.append, clock)
 
     def opened(self, role=DRIVER):
-        """(a page that has joined, what it is sent)."""
+        """Return (a page that has joined, what it is sent)."""
         client, sent = page(role, number=next(self.page_numbers))
         self.join(client)
         return client, sent
@@ -64,7 +64,7 @@ def test_failure_does_not_hold_up_other_sources_and_pages(clock):
         clock.now += 0.1
         hub.tick()
     assert [kinds(sent) for _, sent in others] == [["hello", "well", "well"]] * 2
-    assert len(hub.told) == 3  # each once: driving, the source, and one for that page
+    assert len(hub.told) == 3  # one line each: for driving, the source and that page
 
 
 @claim("Messages of pages that do not drive get 15 % of the thread, and wait for what they cost")
@@ -82,7 +82,7 @@ def test_page_waits_for_what_messages_cost_unless_it_drives(clock):
 def test_page_waits_for_what_reading_its_messages_costs(clock):
     hub = Made(clock=clock)
     guest, _ = hub.opened()
-    for _ in range(300):  # in no time
+    for _ in range(300):  # which take no time here
         wait_s = hub.wait_s(guest)
         hub.receive(guest, "no message")
     assert 0.9 < wait_s < 1.1

@@ -30,9 +30,8 @@ def ours(monkeypatch):
 
 def test_a_hand_that_is_still_trembles_and_only_the_driven_robot_has_a_publisher(ours, monkeypatch):
     sent, ended = [], []
-    publisher = SimpleNamespace(
-        publish=lambda joy: sent.append(tuple(joy.axes)), end=lambda: ended.append(len(sent))
-    )
+    publish, end = lambda joy: sent.append(tuple(joy.axes)), lambda: ended.append(len(sent))
+    publisher = SimpleNamespace(publish=publish, end=end)
     monkeypatch.setattr(joysticks, "PromptPublisher", lambda *_: publisher)
     monkeypatch.setattr(joysticks.rospy.Time, "now", rospy.Time)
     ours, _ = ours
@@ -53,10 +52,10 @@ def test_joystick_is_shown_finite_and_up_to_a_length():
 
 def test_other_joystick_is_a_rival_whatever_is_in_its_message(ours, monkeypatch):
     ours, topics = ours
-    one = page(look="ada", floor=True)
-    look(ours, one)
+    viewer = page(look="ada", floor=True)
+    look(ours, viewer)
     topics.hear("/ada/joy", Joy())
-    assert [len(look(ours, one)[0]) for _ in range(2)] == [1, 0]  # each is sent once
+    assert [len(look(ours, viewer)[0]) for _ in range(2)] == [1, 0]  # a message is sent once
     monkeypatch.setattr(joysticks, "shown", lambda data: [].pop())
     with pytest.raises(IndexError):
         topics.hear("/ada/joy", b"")

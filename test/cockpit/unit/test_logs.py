@@ -14,15 +14,15 @@ def test_page_that_watches_the_log_gets_each_line_once():
     client, sent = page()
 
     def lines(text, log):
-        for _ in range(2):  # a latched line comes again with a new connection
+        for _ in range(2):  # a new connection brings a latched line again
             topics.hear("/rosout", Log(msg=text))
         client.watch.log = log
-        [given], [again] = look(logs, (client, sent)), look(logs, (client, sent))
-        return [entry["text"] for message in given + again for entry in message["entries"]]
+        messages = [message for _ in range(2) for message in look(logs, (client, sent))[0]]
+        return [entry["text"] for message in messages for entry in message["entries"]]
 
     assert lines("b", log=True) == ["b"]
     assert lines("c", log=False) == []
-    assert lines("d", log=True) == ["c", "d"]  # the page has the others
+    assert lines("d", log=True) == ["c", "d"]  # the page already has the others
 
 
 @claim("Folders of the server are not shown")

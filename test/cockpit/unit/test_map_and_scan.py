@@ -2,7 +2,6 @@
 
 import base64
 from math import cos, inf, nan, pi
-from types import SimpleNamespace
 
 import pytest
 from geometry_msgs.msg import TransformStamped
@@ -14,7 +13,7 @@ from tf2_msgs.msg import TFMessage
 from cockpit_server.graph import ODOMETRY, Graph
 from cockpit_server.tabs import map_and_scan
 from tutorial_testing.claims import claim
-from tutorial_testing.session_room import Topics, look, page, serialised
+from tutorial_testing.session_room import Graphs, Topics, look, page, serialised
 
 TYPES = {
     "/map": "nav_msgs/OccupancyGrid", "/tf_static": "tf2_msgs/TFMessage",
@@ -37,18 +36,18 @@ def scan(ranges, **fields):
 
 
 class Seen(Topics):
-    """The MapAndScan of one robot, ada, and a page that looks at her."""
+    """The MapAndScan of the robot ada, and a page that shows her."""
 
     def __init__(self):
         super().__init__()
         published = {topic: {"/sim"} for topic in TYPES}
-        self.graphs = SimpleNamespace(graph=Graph(publishers=published, types=TYPES))
+        self.graphs = Graphs(Graph(publishers=published, types=TYPES))
         self.source = map_and_scan.MapAndScan(self, self.graphs)
         self.page = page(floor=True, look="ada")
         self.look()
 
     def look(self, now=0.0):
-        """Return what the page is sent at a time [s], by kind."""
+        """Return the messages that the page is sent at a time [s], by kind."""
         return {message["kind"]: message for message in look(self.source, self.page, now=now)[0]}
 
 
@@ -66,21 +65,21 @@ def test_a_page_gets_the_map_and_the_scan_when_they_change():
     assert (got["scan"]["robot"], got["scan"]["points"]) == ("ada", [[1.9, 0.0]])
     assert seen.look() == {}
     others = (TransformStamped(child_frame_id=f"link_{n}") for n in range(map_and_scan.MOST_FRAMES))
-    seen.hear("/tf_static", TFMessage([*others]))  # only so many are kept, the newest
+    seen.hear("/tf_static", TFMessage([*others]))  # only that many are kept, the newest
     seen.hear("/ada/scan", scan([inf, 3.0, nan]), now=0.2)
     assert seen.look()["scan"]["points"] == [[3.0, 0.0]]
     seen.graphs.graph = Graph()
-    gone = seen.look()  # with their last publishers
+    gone = seen.look()  # they go with their last publishers
     assert (gone["map"], gone["scan"]["points"]) == ({"kind": "map"}, [])
 
 
 def test_a_robot_without_a_map_has_a_scan_all_the_same():
-    """As a real TurtleBot has before gmapping is started."""
+    """A real TurtleBot has no map before gmapping is started."""
     seen = Seen()
     seen.hear("/ada/scan", scan([2.0, inf, nan]))
     assert len(seen.look()["scan"]["points"]) == 1
     assert seen.look(1.0) == {}
-    assert seen.look(3.0)["scan"]["points"] == []  # its scanner was killed
+    assert seen.look(3.0)["scan"]["points"] == []  # as after its scanner was killed
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,4 @@
-"""What a page publishes by a form ends when the page is silent, late, gone or must not; and what
-moves a robot makes its page the driver, so that Stop and every loss publish a zero.
-"""
+"""Forms that publish: when they end, and that one that moves a robot makes its page the driver."""
 
 from types import SimpleNamespace
 
@@ -35,16 +33,14 @@ def value_of(message):
 
 
 class Desk:
-    """Anna's page, which publishes since 100 s, Bob's, and a clock that is a number."""
+    """Anna's page, which publishes from 100 s on, Bob's page, and a clock that is a number."""
 
     def __init__(self, kind=VELOCITY, period=0.1):
         self.driving, self.now, self.published = Free(), 100.0, []
         kept = Outlets()
         self.repeats = Publishing(self.driving, Graphs(), kept)
-        publisher = SimpleNamespace(
-            publish=lambda message: self.published.append((self.now, value_of(message)))
-        )
-        kept._outlets["/cmd_vel", kind] = Outlet(99.0, 99.0, None, publisher)
+        publish = lambda message: self.published.append((self.now, value_of(message)))  # noqa: E731
+        kept._outlets["/cmd_vel", kind] = Outlet(99.0, 99.0, None, SimpleNamespace(publish=publish))
         self.anna, self.bob = page(number=ANNA), page(number=BOB)
         self.driving._pages.update({ANNA: self.anna[0], BOB: self.bob[0]})
         self.kind, self.period, self.n, self.network_s = kind, period, 0, 0.0
@@ -58,7 +54,7 @@ class Desk:
         self.repeats.on_publish(self.anna[0], self.now, period=self.period or None, **form)
 
     def pass_time(self, seconds):
-        """Let the server look at the time, and Anna's page send its signs of life."""
+        """Let time pass for the server, while Anna's page sends its signs of life."""
         for _ in range(round(seconds / TICK_S)):
             self.now += TICK_S
             self.driving.tick(self.now)
@@ -97,7 +93,7 @@ def clock(monkeypatch):
     monkeypatch.setattr(rospy.Time, "now", lambda: rospy.Time(7))
 
 
-# How the operator of a form is lost, or ends it.
+# How the operator of a form is lost, or stops publishing.
 ENDS = {
     "page closed, or killed": Desk.close,
     "page frozen, or its cable cut": Desk.fall_silent,
@@ -128,7 +124,7 @@ def test_each_end_of_a_motion_publishes_one_zero_in_time_and_nothing_more(end, p
     assert rest == [moving] * len(rest) and len(rest) <= 1 + 0.25 / (period or 1)
     count = len(desk.published)
     desk.is_silent, desk.network_s = False, 0.0
-    desk.pass_time(0.5)  # the page is back: a person has to begin
+    desk.pass_time(0.5)  # the page is back: a person has to start again
     assert len(desk.published) == count
 
 
@@ -152,12 +148,12 @@ def test_what_moves_nothing_ends_with_its_page_and_makes_no_driver():
 def test_the_page_of_a_form_is_the_driver_by_name_and_others_are_refused():
     desk = Desk(VELOCITY, ONCE)
     desk.pass_time(0.1)
-    for one, yours, who in (
+    for viewer, yours, who in (
         (desk.anna, True, "You drive by a form, on /cmd_vel."),
         (desk.bob, False, "Page 2 (10.0.0.1) drives by a form, on /cmd_vel."),
     ):
-        one[0].watch.look = "another"
-        said = {message["kind"]: message for message in look(desk.driving, one)[0]}
+        viewer[0].watch.look = "another"
+        said = {message["kind"]: message for message in look(desk.driving, viewer)[0]}
         assert (said["session"]["yours"], said["session"]["topic"]) == (yours, "/cmd_vel")
         assert said["drives"]["who"].replace("Page 1", "Page 2") == who
     bob = desk.bob[0]
@@ -167,7 +163,7 @@ def test_the_page_of_a_form_is_the_driver_by_name_and_others_are_refused():
     assert "Stop ends that" in desk.driving.session.refusal(BOB)
     with pytest.raises(RefusedError, match="only the page that drives"):
         desk.driving.on_hand_over(desk.anna[0], desk.now, BOB)
-    desk.repeats.on_publish(desk.anna[0], desk.now, **form)  # beside what moves
+    desk.repeats.on_publish(desk.anna[0], desk.now, **form)  # while the first form moves the robot
     assert desk.driving.session.driver == ANNA
 
 
@@ -184,7 +180,7 @@ def test_another_page_that_drives_ends_what_repeats():
 def test_a_page_repeats_one_message():
     desk = Desk()
     desk.publish({})
-    assert desk.values == [1.0, 0.0, 0.0]  # the end of the first one, and the second one
+    assert desk.values == [1.0, 0.0, 0.0]  # the zero of the first one's end, then the second one
 
 
 def test_a_hand_that_drives_lets_go_for_the_form():

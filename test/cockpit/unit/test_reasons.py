@@ -1,4 +1,4 @@
-"""One truth about who drives and why a robot stands: what pages say in each situation."""
+"""Who drives, and why a robot stands: what pages say in each situation."""
 
 import pytest
 
@@ -45,21 +45,18 @@ def test_who_drives(case):
 
 @claim("A page says how ...", because="every kind of node")
 def test_a_rival_is_paused_where_it_can_be_and_else_ended():
-    """The end of rosbag ends the launch file that started it, and with it the page."""
-    services = {"/rosbag/pause_playback"}
-    assert "(tab Topics, Show: services, /rosbag/pause_playback, data: true)" in reasons.rival(
-        "/rosbag", services
-    )
-    assert "(Ctrl-C in its terminal, or rosnode kill /joy_node)" in reasons.rival(
-        "/joy_node", services
-    )
+    """A rosbag that ends also ends the launch file that started it, and with it the page."""
+    rival = lambda node: reasons.rival(node, {"/rosbag/pause_playback"})  # noqa: E731
+    paused = "(tab Topics, Show: services, /rosbag/pause_playback, data: true)"
+    assert paused in rival("/rosbag")
+    assert "(Ctrl-C in its terminal, or rosnode kill /joy_node)" in rival("/joy_node")
 
 
 UNHEARD = "No node subscribes to /ada/joy: nothing moves before you start joy2twist for ada."
 BY_LB = "Hold LB (a thumb, a gamepad's button, the key Shift), then move the stick (or arrow keys)."
 BY_77 = "Hold button 77 (a gamepad's button), then move the stick (or arrow keys)."
 FREELY = "Move the stick (a thumb, a gamepad, the arrow keys)."
-READY = {  # -> why it stands and what to do now; how it is driven, without "Esc: stop."
+READY = {  # -> why the robot stands and what to do; how to drive it, without "Esc: stop."
     "drives": (SEAT, "Hold LB, then move the stick.", BY_LB),
     "pushes alone": (SEAT._replace(pushes=True),
         "The stick alone moves nothing: hold LB, too.", BY_LB),

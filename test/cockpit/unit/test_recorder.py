@@ -1,4 +1,4 @@
-"""Who records, how it ends, and that there is one recording."""
+"""Who may record, how a recording ends, and that only one runs."""
 
 import re
 from types import SimpleNamespace
@@ -16,7 +16,7 @@ pytestmark = claim(
     "A recording that cannot be made for lack of space, or ends by itself, says so; each has a "
     "name of its own"
 )
-# In the place of rosbag record: its file has a line once it has ended as it is asked to.
+# Replaces rosbag record: it writes a line into its file when it ends by SIGINT.
 FAKE = 'trap \'echo whole > "$0"; exit\' INT; touch "$0.active"; for n in {1..99}; do sleep 1; done'
 
 
@@ -50,7 +50,7 @@ def test_one_recording_ends_whole(one, tmp_path):
 
 @claim("Tab Bag records ...", because="a cockpit that is killed")
 def test_a_recording_ends_whole_with_the_thread_that_started_it(one, monkeypatch, tmp_path):
-    """As a cockpit does that is killed, all threads at once."""
+    """As in a cockpit that is killed, whose threads all end at once."""
     wait = lambda _: not wait_for(lambda: list(tmp_path.glob("*.active")), "begin")  # noqa: E731
     monkeypatch.setattr(recorder.Popen, "wait", wait)
     one.on_record(page()[0], 0.0, on=True)
@@ -74,7 +74,7 @@ def test_without_space_nothing_is_recorded_and_what_is_recorded_ends_with_the_re
     one.collect([], 1.0)
     free[0] -= 1
     one.collect([], 1.5)
-    assert one._why == ""  # it is looked at once a second
+    assert one._why == ""  # checked once a second
     one.collect([], 2.0)
     wait_for(lambda: one._name == "", "its end")
     one.send_to(driver, 0.0)

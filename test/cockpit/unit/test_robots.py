@@ -58,9 +58,9 @@ class Seen(Topics):
         self.robots, self.page = Robots(self, self.graphs), page(robots=True, floor=True)
         self.look()
 
-    def look(self):
-        """Return the robots that the page is sent."""
-        [[newest]] = look(self.robots, self.page)
+    def look(self, now=0.0):
+        """Return the robots that the page is sent at a time [s]."""
+        [[newest]] = look(self.robots, self.page, now=now)
         return newest["robots"]
 
     def place(self, topic, x):
@@ -74,7 +74,7 @@ def test_page_gets_all_robots_also_while_they_stand():
     assert seen.look() == {"ada": {}, "bob": {}, "robot_9": {}}
     for robot, x in (("ada", 1.0), ("bob", 2.0)):
         seen.place(f"/{robot}/odom", x)
-    for _ in range(2):  # which shows that the server is there
+    for _ in range(2):  # sent again, as a sign of the server's life
         assert [state.get("x") for state in seen.look().values()] == [1.0, 2.0, None]
     seen.graphs.graph = graph("bob")
     assert list(seen.look()) == ["bob", "robot_9"]
@@ -98,7 +98,7 @@ CORE = "/ada/mobile_base/sensors/core"
 
 
 def with_core():
-    """A page that looks at ada, which has the sensors of a Kobuki, beside bob, which has too."""
+    """Return a page that shows ada, which has a Kobuki's sensors, as bob has."""
     cores = {CORE: "kobuki_msgs/SensorState", CORE.replace("ada", "bob"): "kobuki_msgs/SensorState"}
     both = graph("ada", "bob")
     publishers = {**both.publishers, **{topic: {"/base"} for topic in cores}}
@@ -119,33 +119,32 @@ def with_core():
 )
 def test_the_chosen_robot_shows_battery_charger_buttons_and_wheel_drops(core, words):
     seen = with_core()
-    look(seen.robots, seen.page, now=100.0)
-    assert CORE.replace("ada", "bob") not in seen.handlers  # nobody looks at it
+    seen.look(100.0)
+    assert CORE.replace("ada", "bob") not in seen.handlers  # no page shows it
     buttons, drops, charger, battery = core
     message = SensorState(buttons=buttons, wheel_drop=drops, charger=charger, battery=battery)
     seen.hear(CORE, message, now=100.0)
     names = ("battery", "charger", "buttons", "wheel_drops")
-    for now, expected in ((101.9, words), (102.0, (None,) * 4)):  # silent for 2 s, it is not known
-        [[newest]] = look(seen.robots, seen.page, now=now)
-        assert tuple(newest["robots"]["ada"].get(name) for name in names) == expected
+    for now, expected in ((101.9, words), (102.0, (None,) * 4)):  # unknown after 2 s of silence
+        assert tuple(map(seen.look(now)["ada"].get, names)) == expected
 
 
 def test_malformed_sensors_show_nothing():
     seen = with_core()
-    look(seen.robots, seen.page, now=100.0)
+    seen.look(100.0)
     seen.hear(CORE, b"no sensors", now=100.0)
-    [[newest]] = look(seen.robots, seen.page, now=100.0)
-    assert newest["robots"]["ada"] == {}
+    assert seen.look(100.0)["ada"] == {}
 
 
 def test_a_page_whose_floor_is_hidden_gets_the_speed_of_its_robot_alone():
-    """All robots at first, as it has a list of them, and whenever there are others."""
+    """All robots at first, for its list of them, and again when others come or go."""
     seen = Seen(graph("ada", "bob"))
     hidden = page(robots=True, look="ada")
-    assert [one["kind"] for one in look(seen.robots, hidden)[0]] == ["robots"]
+    sent = lambda now: look(seen.robots, hidden, now=now)[0]  # noqa: E731
+    assert [message["kind"] for message in sent(0.0)] == ["robots"]
     seen.place("/ada/odom", 1.0)
-    speeds = [one for at in range(21) for one in look(seen.robots, hidden, now=1.0 + at / 20)[0]]
-    assert [one["kind"] for one in speeds] == ["speed"] * 5
+    speeds = [message for at in range(21) for message in sent(1.0 + at / 20)]
+    assert [message["kind"] for message in speeds] == ["speed"] * 5
     assert set(speeds[0]) == {"kind", "v", "w", "age"}
     seen.graphs.graph = graph("ada")
-    assert [one["kind"] for one in look(seen.robots, hidden, now=3.0)[0]] == ["robots"]
+    assert [message["kind"] for message in sent(3.0)] == ["robots"]

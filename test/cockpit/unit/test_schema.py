@@ -21,7 +21,7 @@ def say(kind, **fields):
 
 
 def taken(kind, name, value):
-    """What is kept of a field's value; the reason if it is refused."""
+    """Return a field's value as it is kept, or the reason why it is refused."""
     try:
         return SCHEMA.check(say(kind, **{**GOOD[kind], name: value}))[1][name]
     except ValueError as error:
@@ -58,7 +58,7 @@ def test_malformed_message_is_refused_and_the_longest_taken(data):
 WHOLE, UP_TO = "must be a whole number from 0", "must be a number from"
 
 
-# The last values on both sides that are taken, and the first ones that are not, with the reason.
+# The outermost values that are accepted, and the first ones beyond them, with the reason.
 @pytest.mark.parametrize(
     ("field", "good", "bad", "why"),
     [
@@ -85,7 +85,7 @@ WHOLE, UP_TO = "must be a whole number from 0", "must be a number from"
 def test_values_at_the_bounds_are_taken_and_beyond_them_refused(field, good, bad, why):
     kind, name = field.split()
     kept = [taken(kind, name, value) for value in good]
-    assert kept == good and str(kept) == str(good)  # a number is a float, a count stays whole
+    assert kept == good and str(kept) == str(good)  # a count stays an int
     assert {taken(kind, name, value) for value in bad} == {f"{kind}: {name} {why}"}
 
 

@@ -1,8 +1,7 @@
-"""Types that pages and other nodes name: nothing is imported for them, and nobody stops driving."""
+"""Types that pages and other nodes name: none is imported, and the driver goes on."""
 
 import string
 import sys
-from types import SimpleNamespace
 
 import pytest
 from hypothesis import given, settings
@@ -14,7 +13,7 @@ from cockpit_server.ros.tabs import forms, plots
 from cockpit_server.ros.tabs.outlets import Outlets
 from cockpit_server.tabs import topics
 from cockpit_server.tabs.publishing import Publishing
-from tutorial_testing.session_room import Free, Room, Topics, look, page
+from tutorial_testing.session_room import Free, Graphs, Room, Topics, look, page
 
 MODULES = st.sampled_from(["cockpit", "unittest.__main__", "antigravity", "this", "idlelib.idle"])
 words = st.text(string.ascii_letters + "_./\0é", max_size=8)
@@ -36,8 +35,8 @@ def test_hostile_types_of_a_page_or_of_the_graph_are_refused_and_import_nothing(
 
 
 def judge(name):
-    graphs = SimpleNamespace(graph=Graph(publishers={"/t": {"/x"}}, types={"/t": name}))
-    client, _ = one = page(fields=("/t/x",), field_list=True, topic="/t", rates=("/t",))
+    graphs = Graphs(Graph(publishers={"/t": {"/x"}}, types={"/t": name}))
+    client, _ = viewer = page(fields=("/t/x",), field_list=True, topic="/t", rates=("/t",))
     form = {"topic": "/t", "type": name, "values": {}, "period": None}
     with pytest.raises(RefusedError, match="no topic of the type"):
         Publishing(Free(), graphs, Outlets()).on_publish(client, 0.0, **form)
@@ -46,6 +45,6 @@ def judge(name):
     for kind in (plots.Plots, topics.Topics):
         feeds = Topics()
         source = kind(feeds, graphs)
-        look(source, one)
+        look(source, viewer)
         feeds.hear("/t", b"")
-        look(source, one, now=1.0)
+        look(source, viewer, now=1.0)

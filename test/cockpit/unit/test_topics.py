@@ -30,8 +30,8 @@ def test_page_gets_the_newest_messages_of_its_topic_once_and_the_rates_of_those_
     first, second = (page(topic="/x", rates=("/x", "/y", "/z")) for _ in range(2))
 
     def shown(*pages, now):
-        sent = look(source, *pages, now=now)
-        return [[text for _, text in one["echo"]] for part in sent for one in part[1:]]
+        sent = [message for part in look(source, *pages, now=now) for message in part[1:]]
+        return [[text for _, text in message["echo"]] for message in sent]
 
     assert shown(first, now=1.0) == []
     assert set(feeds.handlers) == {"/x", "/y"}

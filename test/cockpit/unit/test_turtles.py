@@ -1,4 +1,4 @@
-"""The pictures of turtlesims: asked for while a page shows them, each sent once."""
+"""The pictures of turtlesims: requested while a page shows them, each sent once."""
 
 import pytest
 
@@ -12,15 +12,15 @@ GRAPH = Graph(publishers={"/turtle1/pose": {"/sim"}}, types={"/turtle1/pose": PO
 
 @pytest.fixture
 def shown(monkeypatch):
-    """A function: what the page is sent while the node gives an answer, or none is asked for."""
+    """A function that returns the pictures that the page is sent when the node answers this."""
     source, now = turtles.Turtles(Graphs(GRAPH)), [0.0]
     monkeypatch.setattr(source._thread, "submit", lambda act, *given: act(*given))
-    one = page(turtles=True)
+    viewer = page(turtles=True)
 
     def shown(answer, value=None):
         monkeypatch.setattr(turtles, "call", lambda *_, **__: (answer, value))
         now[0] += 1
-        return [sent["pictures"] for sent in look(source, one, now=now[0])[0]]
+        return [sent["pictures"] for sent in look(source, viewer, now=now[0])[0]]
 
     return shown
 

@@ -1,4 +1,4 @@
-"""The driver and the pages around: who may drive, who stops it, and what pages are sent of it."""
+"""Who may drive, what stops a driver, and what pages are sent about it."""
 
 from types import SimpleNamespace
 
@@ -20,7 +20,7 @@ ADA = {"robot": "ada", "mode": "D"}
 
 
 class Made(Driving):
-    """The pages of Anna and Bob, the robot ada, its joy2twist, and what is published."""
+    """A Driving with the pages of Anna and Bob, the robot ada and its joy2twist."""
 
     def __init__(self, role=DRIVER):
         self.now, self.n = 100.0, 0
@@ -37,7 +37,7 @@ class Made(Driving):
         super().__init__(pages, self, joysticks, reports, lambda *_: False)
 
     def hold(self, position):
-        """Let Anna's page answer the next beat with this position."""
+        """Answer the next beat from Anna's page with this position."""
         client, sent = self.anna
         self.now += 0.1
         self.tick(self.now)
@@ -84,7 +84,7 @@ def test_stop_of_another_page_stops_the_driver_and_a_viewers_does_nothing(driven
     assert driven.session.armed
     driven.on_stop(driven.bob[0], driven.now)
     assert (driven.published, driven.session.driver) == ([("ada", *REST)], ANNA)
-    assert not driven.session.armed  # its hands must let go first
+    assert not driven.session.armed  # the driver must release all first
     assert "pressed Stop" in sent[-1]["text"]
     driven.on_stop(client, driven.now)
     assert driven.driven is None
@@ -111,7 +111,7 @@ def test_another_joystick_frees_the_session(driven):
         (VIEWER, "ada", "", None, LOOKS_ONLY),
         (DRIVER, "ada", "/player", None, "/player publishes the joystick topic of this robot"),
         (DRIVER, "ada", "", BOB, "another page drives"),
-        (DRIVER, "ada", "/player", ANNA, ""),  # the own session
+        (DRIVER, "ada", "/player", ANNA, ""),  # the page's own session
     ],
 )
 def test_page_is_told_beforehand_why_it_may_not_drive(role, robot, rival, driver, refusal):
@@ -138,17 +138,11 @@ def test_without_a_robot_the_page_says_what_is_running_and_resets_none(nodes, re
 
 def test_pages_are_sent_each_change_of_the_driver(driven):
     def sessions():
-        found = look(driven, driven.anna, driven.bob)
-        return [[one for one in sent if one["kind"] == "session"] for sent in found]
+        pages = look(driven, driven.anna, driven.bob)
+        return [[message for message in sent if message["kind"] == "session"] for sent in pages]
 
-    state = {
-        "kind": "session",
-        "driver": ANNA,
-        "robot": "ada",
-        "plays": False,
-        "topic": "",
-        "armed": True,
-    }
+    state = {"kind": "session", "driver": ANNA, "robot": "ada"}
+    state.update(plays=False, topic="", armed=True)
     assert sessions() == [[{**state, "yours": True}], [{**state, "yours": False}]]
     assert sessions() == [[], []]
     driven.on_drive(driven.anna[0], driven.now, **ADA)  # again
@@ -178,7 +172,7 @@ def test_robot_is_not_reset_while_another_drives_it():
     made.graph.publishers["/ada/joy"] = {"/rosbag_play"}
     made.session.why, made.session.stopped = "hidden", "ada"
     look(made, made.anna)
-    assert made.session.stopped is None  # it stands no longer
+    assert made.session.stopped is None  # the robot moves again
     with pytest.raises(RefusedError, match="/rosbag_play drives this robot: stop it"):
         made.must_rest(made.anna[0], "ada")
     made.session.take(BOB, "ada", 0.0)
@@ -189,7 +183,7 @@ def test_robot_is_not_reset_while_another_drives_it():
     look(made, made.anna)
     made.session.leave(BOB)
     look(made, made.anna)
-    assert made.outdated == ["ada"]  # that joy2twist was driving is no longer true
+    assert made.outdated == ["ada"]  # joy2twist's report of driving is outdated
 
 
 def test_reports_of_joy2twist_are_read_by_robot_and_outdated_once_its_driver_has_left():

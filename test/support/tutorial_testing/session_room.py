@@ -1,4 +1,4 @@
-"""A driver's session, pages and what they look at, without ROS: time is a number, nothing waits."""
+"""A driver's session, pages and what they show, without ROS: time is a number, nothing waits."""
 
 import json
 from types import SimpleNamespace
@@ -29,7 +29,7 @@ class Room:
         self.now, self.n, self.beats = 100.0, 0, 0
 
     def pass_time(self, seconds):
-        """Let the page be silent, while the server keeps beating and looking at the time."""
+        """Let time pass without input, while the server goes on sending beats."""
         end = self.now + seconds
         while self.now < end - 1e-9:
             self.now = min(end, self.now + PERIOD_S / 5)
@@ -41,7 +41,7 @@ class Room:
         self.session.beat(self.beats, self.now)
 
     def say(self, position, client=ANNA, n=None):
-        """One input, a PERIOD_S after the last one."""
+        """Send an input, a PERIOD_S after the last one."""
         self.now += PERIOD_S
         self.beat()
         self.n += 1
@@ -51,7 +51,7 @@ class Room:
         self.session.tick(self.now)
 
     def drive(self):
-        """Sit down, release, hold LB and the stick."""
+        """Take the session, release all, then hold LB and the stick."""
         self.session.take(ANNA, "ada", self.now)
         self.beat()
         self.say(REST)
@@ -61,12 +61,11 @@ class Room:
 
 
 class Free(Driving):
-    """Without a robot. driver: a page that drives, by its number, or None."""
+    """A Driving without a robot. driver: the number of the page that drives, or None."""
 
     def __init__(self, driver=None):
-        joysticks = SimpleNamespace(
-            send=lambda *_: None, advertise=lambda *_: None, rival=lambda *_: ""
-        )
+        nothing = lambda *_: ""  # noqa: E731
+        joysticks = SimpleNamespace(send=nothing, advertise=nothing, rival=nothing)
         super().__init__({}, Graphs(), joysticks, None, None)
         if driver is not None:
             self.session.take(driver, "", 0.0)
@@ -75,18 +74,17 @@ class Free(Driving):
 def page(role="driver", number=7, **watch):
     """Return (a Page that watches this, what it is sent as dicts)."""
     sent = []
-    no = lambda: False  # noqa: E731  short
+    no = lambda: False  # noqa: E731
     close = lambda: sent.append("closed")  # noqa: E731
     write = lambda text: sent.append(json.loads(text))  # noqa: E731
     client = Page(number, role, "10.0.0.1", write, is_behind=no, is_cut=no, close=close)
-    client.watch = SimpleNamespace(
-        **{"robots": False, "floor": False, "look": None, "bag": False, **watch}
-    )
+    watched = {"robots": False, "floor": False, "look": None, "bag": False, **watch}
+    client.watch = SimpleNamespace(**watched)
     return client, sent
 
 
 def look(source, *pages, now=0.0):
-    """Let these pages look at a source; return what each of them is sent now."""
+    """Return what a source sends to each of these pages at a time [s]."""
     for _, sent in pages:
         sent.clear()
     source.collect([client for client, _ in pages], now)
@@ -96,14 +94,14 @@ def look(source, *pages, now=0.0):
 
 
 class Graphs:
-    """In the place of GraphWatch: a graph that a test makes up."""
+    """Replaces GraphWatch: the graph is the test's."""
 
     def __init__(self, graph=None):
         self.graph = graph or Graph()
 
 
 class Topics:
-    """In the place of Feeds: the topics that are subscribed to, whose messages a test makes up."""
+    """Replaces Feeds: the topics that are subscribed to; hear() brings their messages."""
 
     def __init__(self):
         self.handlers, self.every = {}, set()  # by topic; of which every message is needed
@@ -113,6 +111,6 @@ class Topics:
         self.every.update(handlers if every else ())
 
     def hear(self, topic, message, now=0.1):
-        """Let a message of ROS, or bytes, arrive at a time [s], from the node /other."""
+        """Deliver a message of ROS, or bytes, from the node /other at a time [s]."""
         data = message if isinstance(message, bytes) else serialised(message)
         self.handlers[topic](ReceivedMessage(topic, data, "/other", now))
