@@ -1,1 +1,1 @@
-"""What several tests use."""
+"""What tests share."""

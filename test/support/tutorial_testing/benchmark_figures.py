@@ -1,4 +1,4 @@
-"""Collect the figures of benchmarks, and print them as the table of each package's README."""
+"""Collect the figures of benchmarks, and print them as the tables of the READMEs."""
 
 import os
 import platform
@@ -7,12 +7,12 @@ from collections import defaultdict
 import pytest
 
 _rows = defaultdict(list)  # package -> rows
-_load = os.getloadavg()[0]  # when the run begins: other work on the machine spoils the figures
+_load = os.getloadavg()[0]  # at the start: other work on the machine distorts the figures
 
 
 @pytest.fixture
 def figure(request):
-    """Take (what, measured, demanded) for the table of the package that is measured."""
+    """A function that adds a row (what, measured, demanded) to the table of the test's package."""
     return lambda *row: _rows[request.path.parents[1].name].append(row)
 
 

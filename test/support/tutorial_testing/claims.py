@@ -1,4 +1,4 @@
-"""What a test shows: `@claim("sentence")`, from which test/claims.py writes test/CLAIMS.md."""
+"""`@claim("sentence")` says what a test shows; test/claims.py writes test/CLAIMS.md from them."""
 
 import pytest
 

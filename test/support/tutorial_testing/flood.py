@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Viewers that send what the schema allows, as fast as the server takes it.
+"""Viewers that send what the schema allows, as fast as the server accepts it.
 
-flood.py PORT TOKEN VIEWERS SECONDS: "ready" when all are connected; how many they sent at the end.
+flood.py PORT TOKEN VIEWERS SECONDS: prints "ready" once all are connected, and how many they sent.
 """
 
 import asyncio
@@ -12,11 +12,11 @@ import time
 
 from tornado.websocket import WebSocketClosedError, websocket_connect
 
-from tutorial_testing.socket_page import GOOD, request
+from tutorial_testing.socket_page import GOOD, page_request
 
 WATCH = {"kind": "watch", **GOOD["watch"], "graph": True,
          "fields": [f"/odom/pose/covariance[{i}]" for i in range(10)], "bag": True}  # fmt: skip
-# What costs most, each as often as all others together.
+# The most expensive messages, each sent as often as all others together.
 WORST = [
     {"kind": "bag_open", "name": "joy.bag"},
     {"kind": "bag_open", "name": "no.bag"},
@@ -45,9 +45,9 @@ async def send(socket, dice, end):
 
 
 async def flood(port, token, viewers, seconds):
-    requests = [request(port, token) for _ in range(viewers)]
-    sockets = [await websocket_connect(one) for one in requests]
-    tasks = [read(one) for i, one in enumerate(sockets) if i % (READERS + 1) != READERS]
+    requests = [page_request(port, token) for _ in range(viewers)]
+    sockets = [await websocket_connect(request) for request in requests]
+    tasks = [read(socket) for i, socket in enumerate(sockets) if i % (READERS + 1) != READERS]
     readers = [asyncio.ensure_future(task) for task in tasks]
     print("ready", flush=True)
     end = time.monotonic() + seconds

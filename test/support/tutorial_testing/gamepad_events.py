@@ -1,4 +1,4 @@
-"""Bytes as a gamepad sends them, and a driver that reads them."""
+"""The bytes that a gamepad sends, and a driver that reads them."""
 
 import struct
 

@@ -1,4 +1,4 @@
-"""Hands on a virtual F710, and a record of what they showed."""
+"""Hands on a virtual F710, and a record of their positions."""
 
 import threading
 import time
@@ -16,17 +16,17 @@ SHOWN = {  # turn and forward of the left stick, buttons that are held
     RELEASED: (0.0, 0.0, ()),
     DRIVE: (0.0, 0.8, ("LB",)),
     TURN: (0.6, 0.7, ("LB",)),
-    TURBO: (0.2, 0.8, ("LB", "RB")),  # LB, too: between LB and RB alone there is a release
+    TURBO: (0.2, 0.8, ("LB", "RB")),  # with LB: a change from LB to RB would be a release
     STICK: (0.0, 0.8, ()),
 }
 PERIOD_S = 0.05  # how often they move
-NUDGE = 0.1  # the stick never rests, so that stillness never stops the robot
+NUDGE = 0.1  # the stick is never still, so that the vigilance timeout does not stop the robot
 
 
 def record(path):
-    """Write a bag of 6 s in which they hold LB and the stick for 1.6 s, at full deflection."""
+    """Write a bag of 6 s in which LB and the stick are held for 1.6 s, at full deflection."""
     with rosbag.Bag(path, "w") as bag:
-        for k in range(300):  # at rest until all are connected: who comes later is held
+        for k in range(300):  # at rest until all nodes are connected
             held = int(200 <= k < 280)
             joy = Joy(axes=[0.0, held, 0.0, 0.0, 0.0, 0.0], buttons=[0] * 4 + [held] + [0] * 7)
             bag.write("/joy", joy, rospy.Time(1 + k / 50))
@@ -37,7 +37,7 @@ class Hands:
     """Move the gamepad from a thread; a context manager."""
 
     def __init__(self, path):
-        """path: of the FIFO that joy_node reads; it is made."""
+        """path: of the FIFO that joy_node reads, which this creates."""
         self._path = path
         self._shown, self._plugged, self._frozen, self._is_radio = RELEASED, True, False, False
         self._wake, self._done, self._lock = threading.Event(), threading.Event(), threading.Lock()
@@ -54,7 +54,7 @@ class Hands:
         self._thread.join()
 
     def show(self, what):
-        """Show a key of SHOWN from now on."""
+        """Hold a position, a key of SHOWN, from now on."""
         with self._lock:
             if what != self._shown:
                 self._shown = what
@@ -62,7 +62,7 @@ class Hands:
         self._wake.set()
 
     def new_record(self):
-        """Return a new list of (time [s], what is shown from then on), which keeps growing."""
+        """Return a new list of (time [s], position from then on), which grows with each change."""
         with self._lock:
             self._changes = [(time.time(), self._shown)]
         return self._changes
@@ -77,7 +77,7 @@ class Hands:
         self._wake.set()
 
     def be_radio(self, is_radio):
-        """Be a radio gamepad, whose receiver gives no sign of life."""
+        """Act as a radio gamepad, whose receiver sends no signs of life."""
         self._is_radio = is_radio
 
     def _move(self):

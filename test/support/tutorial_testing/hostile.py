@@ -1,4 +1,4 @@
-"""A child process that reads a file that someone damaged, or made to do harm."""
+"""A child process that reads a damaged or malicious file."""
 
 import os
 import resource
@@ -7,7 +7,7 @@ import sys
 import tempfile
 import traceback
 
-# [s of processor time], four times what the slowest needs; beyond what the test has.
+# Processor time [s], four times what the slowest file needs; memory beyond the test's own.
 MOST_S, MOST_MORE_KB = 20.0, 130_000
 
 
@@ -27,7 +27,7 @@ def end_of(main):
 
 
 def _be(main, said):
-    """Be the child: run main and exit, whatever comes."""
+    """Run main as the child, and exit in any case."""
     code, before_kb = 70, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     try:
         os.dup2(said, 2)

@@ -1,4 +1,4 @@
-"""Older ways to isolate, imitated on this system."""
+"""Older isolation tools, imitated on this system."""
 
 from pathlib import Path
 
@@ -14,7 +14,7 @@ exec /usr/bin/bwrap "$@"
 
 
 def old_bubblewrap(folder: Path) -> str:
-    """Return a folder for PATH, with a bwrap that knows what bubblewrap 0.4 does."""
+    """Return a folder for PATH with a bwrap that has the options of bubblewrap 0.4."""
     place = folder / "bwrap_0.4"
     place.mkdir()
     (place / "bwrap").write_text(OLD_BUBBLEWRAP)

@@ -35,7 +35,7 @@ class Tmux:
 
     @property
     def history(self):
-        """All that was written, also what has left the screen."""
+        """All output, including lines that have left the screen."""
         return self._run("capture-pane", "-p", "-J", "-S", "-")
 
     @property
@@ -46,11 +46,11 @@ class Tmux:
         self._run("send-keys", key)
 
     def hold(self, key, until, what):
-        """Repeat a key as a keyboard does, until something is true."""
+        """Repeat a key as a keyboard does, until until() is true."""
         wait_for(lambda: self.press(key) or until(), what, seen=lambda: self.screen)
 
     def close(self):
-        """Close it, as the X of its window does; return when what ran in it has exited."""
+        """Close it, as a window's X does; return when its programs have exited."""
         self._run("kill-server", check=False)
         wait_for(lambda: not lives(self._pid), "end of what ran in the terminal")
 
@@ -71,7 +71,7 @@ class DiagnosedRobot(Robot):
         self._states += [s.message for s in message.status if s.name.startswith("myjoystick2twist")]
 
     def wait_for_state(self, state):
-        """Wait until the robot is there, and joy2twist reports a state."""
+        """Wait until the robot runs, and joy2twist reports a state."""
         wait_for(lambda: self.odometry, "robot")
         wait_for(lambda: self._states and self._states[-1] == state, f"joy2twist that is {state}")
 
@@ -85,7 +85,7 @@ class KeyboardRig(DiagnosedRobot):
         self.terminal = Tmux(" ".join([*LAUNCH, "virtual:=true", f"joy_dev:={self.device}"]))
         self._stack.callback(self.terminal.close)
         wait_for(lambda: "Opened joystick" in self.terminal.history, "driver")
-        # The gamepad was seen released; a key before that would not drive.
+        # A key that is pressed before the gamepad was seen released would not drive.
         self.wait_for_state(State.ARMED.value)
 
     def drive(self):

@@ -1,7 +1,7 @@
-"""The firmware's side of a Kobuki's serial line on a pseudo terminal, as simple as can be.
+"""The firmware's side of a Kobuki's serial line, on a pseudo terminal, as simple as possible.
 
-It obeys the last base control at once, counts ticks and turns; a test switches it off, restarts it
-and unplugs its cable.
+It obeys base controls at once, and counts ticks and turns. Tests switch it off, restart it and
+unplug its cable.
 """
 
 import contextlib
@@ -37,12 +37,12 @@ class KobukiOnALine:
         self.restart()
 
     def restart(self):
-        """Count from zero, as a robot that is switched on."""
+        """Count from zero, as after being switched on."""
         self._started_s = time.monotonic()
         self.ticks, self.heading, self.velocity = [0.0, 0.0], 0.0, (0.0, 0.0)
 
     def plug(self):
-        """Put the cable in; each time the port has another name."""
+        """Plug the cable in; the port gets a new name each time."""
         master, slave = os.openpty()
         tty.setraw(slave)
         os.set_blocking(master, False)
@@ -53,7 +53,7 @@ class KobukiOnALine:
         os.symlink(os.ttyname(slave), self.link)
 
     def unplug(self):
-        """Pull the cable out."""
+        """Unplug the cable."""
         os.unlink(self.link)
         with self._lock:
             os.close(self._master)
@@ -71,8 +71,8 @@ class KobukiOnALine:
 
     @property
     def controls(self):
-        """The base controls that came, each with its time [s]."""
-        return [(at, one) for at, one in self.received if isinstance(one, commands.BaseControl)]
+        """The base controls so far, as (time [s], control)."""
+        return [pair for pair in self.received if isinstance(pair[1], commands.BaseControl)]
 
     @property
     def moves(self):

@@ -1,4 +1,4 @@
-"""The nodes that tests start, the node that a test is, and its messages."""
+"""Nodes that tests start, the test's own node, and messages."""
 
 from functools import lru_cache
 from io import BytesIO
@@ -14,9 +14,9 @@ from tutorial_testing.waiting import wait_for
 
 @lru_cache(maxsize=None)
 def node_path(package, name):
-    """Return the path of a node's program, found as roslaunch finds it.
+    """Return the path of a node's program, as roslaunch finds it.
 
-    rosrun finds the same, but works for half a second, about as long as the node itself to start.
+    rosrun finds the same one, but takes half a second, about as long as the node takes to start.
     """
     return roslib.packages.find_node(package, name)[0]
 
@@ -32,7 +32,7 @@ def pid_of(node):
 
 
 def init_node(name, **options):
-    """Call rospy.init_node(); a fault of rospy would otherwise fail the test."""
+    """Call rospy.init_node(), without a race in rospy that could fail the test."""
     connect_once()
     rospy.init_node(name, **options)
 

@@ -1,4 +1,4 @@
-"""ROS Noetic's own metapackages, of https://ros.org/reps/rep-0150.html and their package.xml."""
+"""ROS Noetic's metapackages, from https://ros.org/reps/rep-0150.html and their package.xml."""
 
 META = {
     "ros_base": "ros_core actionlib bond_core class_loader dynamic_reconfigure nodelet_core"

@@ -1,4 +1,4 @@
-"""Starting programs as a user does in a terminal, and ending them as Ctrl-C does."""
+"""Start programs as a user does in a terminal, and end them as Ctrl-C does."""
 
 import contextlib
 import os
@@ -12,8 +12,8 @@ from pathlib import Path
 
 from tutorial_testing.waiting import DEADLINE_S, descendants, wait_for  # noqa: F401  for tests
 
-# As a terminal has it: tests that run in the background inherit that Ctrl-C is ignored, and what
-# they start would inherit it from them.
+# As in a terminal: tests in the background inherit an ignored Ctrl-C, which the programs that they
+# start would inherit, too.
 for number in (signal.SIGINT, signal.SIGHUP):
     if signal.getsignal(number) is signal.SIG_IGN:
         signal.signal(number, signal.default_int_handler)
@@ -23,12 +23,12 @@ MARK = "STARTED_BY_A_TEST"  # environment variable by which a program's descenda
 
 
 def environment(**more):
-    """Return that of a program that a test starts: Python prints at once in it, to a pipe, too."""
+    """Return a program's environment, in which Python does not buffer output to a pipe."""
     return {**os.environ, "PYTHONUNBUFFERED": "1", **more}
 
 
 def lives(pid):
-    """Return whether a process is there and has not exited, as a zombie has."""
+    """Return whether a process exists and is no zombie."""
     try:
         return Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] != "Z"
     except OSError:
@@ -36,7 +36,7 @@ def lives(pid):
 
 
 def with_environment(text):
-    """Return the ids of the processes whose environment has this text, and that still run."""
+    """Return the ids of the running processes whose environment has this text."""
     pids = []
     for process in Path("/proc").glob("[0-9]*"):
         with contextlib.suppress(OSError):  # ended meanwhile, or another user's
@@ -46,7 +46,7 @@ def with_environment(text):
 
 
 def command_line(pid):
-    """Return that of a process; empty if it has exited."""
+    """Return the command line of a process; "" if it has exited."""
     try:
         return Path(f"/proc/{pid}/cmdline").read_text(errors="replace")
     except OSError:
@@ -54,7 +54,7 @@ def command_line(pid):
 
 
 def signal_all(pids, number):
-    """Send a signal to processes as far as they live; return the time [s] just before."""
+    """Send a signal to those processes that still run; return the time [s] just before."""
     now = time.time()
     for pid in pids:
         with contextlib.suppress(ProcessLookupError):
@@ -63,7 +63,7 @@ def signal_all(pids, number):
 
 
 def suspend(pids):
-    """Stop all threads of processes, as Ctrl-Z does; return the time [s] just before."""
+    """Suspend all threads of processes, as Ctrl-Z does; return the time [s] just before."""
     now = signal_all(pids, signal.SIGSTOP)
     wait_for(lambda: all(map(_is_stopped, pids)), f"end of the work of {pids}")
     return now
@@ -71,7 +71,7 @@ def suspend(pids):
 
 @contextlib.contextmanager
 def suspended(pids):
-    """Suspend processes for a while. A master takes connections then, and does not answer."""
+    """Suspend processes for a while. A suspended master accepts connections, but does not answer."""
     suspend(pids)
     try:
         yield
@@ -83,15 +83,12 @@ def _is_stopped(pid):
     try:
         threads = [path.read_text() for path in Path(f"/proc/{pid}/task").glob("*/stat")]
     except OSError:
-        return False  # one has ended meanwhile
+        return False  # a thread has ended meanwhile
     return all(text.rsplit(")", 1)[1].split()[0] in "TtZ" for text in threads)
 
 
 class Started:
-    """A context manager: begin() starts what is needed, and what is on self._stack ends it.
-
-    It ends what has started, too, if begin() fails.
-    """
+    """A context manager: begin() starts things, and self._stack ends them, also if begin() fails."""
 
     def __init__(self):
         self._stack = contextlib.ExitStack()
@@ -111,7 +108,7 @@ class Started:
 
 
 class Program:
-    """A program and all that it starts; its output, both streams together, is kept.
+    """A program and all that it starts, with its output: both streams together.
 
     Use it as a context manager, so that nothing keeps running after the test.
     """
@@ -140,8 +137,8 @@ class Program:
 
     @property
     def output(self):
-        """All that was printed so far."""
-        # Not by read(): the program writes at the position that the two share.
+        """The output so far."""
+        # Not by read(), which would move the position at which the program writes.
         descriptor = self._output.fileno()
         return os.pread(descriptor, os.fstat(descriptor).st_size, 0).decode(errors="replace")
 
@@ -154,17 +151,17 @@ class Program:
         return self._process.poll() is not None
 
     def signal(self, number):
-        """Send a signal to all that comes from this program; return the time [s] just before."""
+        """Send a signal to all processes of this program; return the time [s] just before."""
         return signal_all(self.left_behind(), number)
 
     def kill(self):
-        """End all of it as by a lack of memory; return the time [s] just before."""
+        """Kill all of it, as a lack of memory does; return the time [s] just before."""
         now = self.signal(signal.SIGKILL)
         self._process.wait()
         return now
 
     def interrupt(self):
-        """Press Ctrl-C: SIGINT to the group in the foreground."""
+        """Press Ctrl-C: send SIGINT to the foreground group."""
         with contextlib.suppress(ProcessLookupError):  # it has ended
             os.killpg(self._process.pid, signal.SIGINT)
 
@@ -174,25 +171,22 @@ class Program:
         self._process.stdin.flush()
 
     def close_input(self):
-        """End the input of such a program."""
+        """Close the input of such a program."""
         self._process.stdin.close()
 
     def wait(self, deadline_s=DEADLINE_S):
-        """Wait for the end; return the exit code. If it is late, AssertionError with the output."""
+        """Wait for the end; return the exit code. AssertionError with the output if it is late."""
         what = f"end of {self._process.args}"
         wait_for(lambda: self.ended, what, deadline_s, lambda: self.output)
         return self._process.returncode
 
     def left_behind(self):
-        """Return the ids of all processes that come from this program and still run.
-
-        Known by their environment: roslaunch gives each node a session of its own.
-        """
+        """Return the ids of all running processes of this program, known by their environment."""
         return with_environment(f"{MARK}={self._mark}")
 
 
 def free_port():
-    """Return a TCP port of this machine that no program uses now."""
+    """Return a free TCP port of this machine."""
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         return probe.getsockname()[1]

@@ -1,4 +1,4 @@
-"""A robot that is driven through every node of the suite, and hands that never let go of LB.
+"""A robot that is driven through every node of the suite, by hands that never release LB.
 
 a FIFO -> joy_node -> joy2twist [-> cmd_vel_mux] -> fake_turtlebot -> /odom
 """
@@ -22,9 +22,9 @@ from tutorial_testing.waiting import Stopwatch
 
 JOYSTICK, DRIVER, MUX, BASE = "/joy_node", "/NewJoy2Twist", "/cmd_vel_mux", "/fake_turtlebot"
 TIMEOUT_S = 0.6  # the base's
-# As the launch files have it.
+# As in the launch files.
 LAUNCHED = {"arm_on_neutral": True, "joy_timeout": 0.5, "log_rate": 0}
-REST_S = 0.6  # for which all is shown released, until each node has seen it
+REST_S = 0.6  # for which all stays released, so that each node sees it
 
 
 def config(package, name):
@@ -37,9 +37,9 @@ class Rig(Robot):
     base = BASE
 
     def __init__(self, with_mux=True, screen=None, **joy2twist):
-        """screen: path of what the nodes write to, or None. joy2twist: more of its parameters."""
+        """screen: the path that the nodes write to, or None. joy2twist: more of its parameters."""
         super().__init__()
-        # From hand to wheel.
+        # In the order from the hand to the wheels.
         self.nodes = [JOYSTICK, DRIVER, *([MUX] if with_mux else []), self.base]
         self._screen, self._joy2twist = screen, joy2twist
         self._velocities = "cmd_vel_mux/input/teleop" if with_mux else "cmd_vel"
@@ -85,14 +85,14 @@ class Rig(Robot):
             old.__exit__()
 
     def kill(self, node, number=signal.SIGKILL, pid=None):
-        """Send a signal to a node; return how long it took to exit [s]. pid: if it is known."""
+        """Send a signal to a node; return how long it took to exit [s]. pid: its own, if known."""
         pid, watch = pid or pid_of(node), Stopwatch()
         os.kill(pid, number)
         self.programs[node].wait()
         return watch.took_s
 
     def hold(self):
-        """Release all until the robot has rested, and hold LB and the stick."""
+        """Release all until the robot has rested, then hold LB and the stick."""
         self.hands.show(RELEASED)
         self.wait_for_rest()
         time.sleep(REST_S)

@@ -1,6 +1,6 @@
-"""A robot as its odometry shows it: what every test of motion looks at, and the loop that drives.
+"""A robot as its odometry shows it, which every test of motion observes and drives.
 
-As a program of its own it prints the odometry of the robot of its master, for another host's test.
+As a program it prints the odometry of its master's robot, for a test on another host.
 """
 
 import contextlib
@@ -55,7 +55,7 @@ class Moment(NamedTuple):
 
 
 class Robot(Started):
-    """A robot, and what a test starts to see it: a context manager that ends all of that."""
+    """A robot, and the programs that a test starts to observe it, which end with the context."""
 
     odometry_topic = "odom"
 
@@ -69,14 +69,14 @@ class Robot(Started):
         self.listen()
 
     def listen(self):
-        """Hear the odometry in this process."""
+        """Subscribe to the odometry in this process."""
         hear = lambda message: self.odometry.append(Moment.of(message))  # noqa: E731
         topic = f"{self.namespace}{self.odometry_topic}"
         subscriber = rospy.Subscriber(topic, Odometry, hear, queue_size=1000, tcp_nodelay=True)
         self._stack.callback(subscriber.unregister)
 
     def observe(self, command, **environment):
-        """Hear it from another master or host, where a command starts OBSERVER."""
+        """Receive the odometry of another master or host, where a command starts OBSERVER."""
         environment = {**os.environ, **environment}
         observer = subprocess.Popen(command, stdout=subprocess.PIPE, env=environment, text=True)
         self._stack.enter_context(observer)
@@ -106,9 +106,9 @@ class Robot(Started):
         return wait_for(lambda: next(filter(condition, list(self.odometry)), None), what)
 
     def wait_for_rest(self, after=None):
-        """Wait for odometry of after a time [s], by default the newest one's, that says it stands.
+        """Wait for odometry at rest after a time [s], by default that of the newest message.
 
-        Return the stamp [s] of the message that first says so.
+        Return the stamp [s] of the first message at rest.
         """
         if after is None:
             after = self.now.stamp if self.odometry else 0.0
@@ -122,7 +122,7 @@ class Robot(Started):
         return moments[last + 1].stamp
 
     def more(self, count=RESTING):
-        """Wait for the next odometry messages, by default a second of them; return these."""
+        """Wait for the next odometry messages, by default a second of them; return them."""
         begin = len(self.odometry)
         wait_for(lambda: len(self.odometry) >= begin + count, "odometry")
         return self.odometry[begin:]
@@ -134,8 +134,8 @@ class Robot(Started):
     def drive_by(self, hold, until=None, try_s=TRY_S, deadline_s=DEADLINE_S):
         """Call hold(), which releases all first, until the robot moves, or until a condition().
 
-        On a machine that is busy with much else it may take more than one go. Return what the last
-        hold() returned, or True; it returns False where it could not hold.
+        On a busy machine this may take several attempts. Return what the last hold() returned, or
+        True; hold() returns False if it could not hold.
         """
 
         def once():

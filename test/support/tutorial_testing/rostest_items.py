@@ -1,7 +1,7 @@
-"""Collect each rostest as a test of pytest: in a folder ros a NAME.test, or a NAME.py alone.
+"""Collect each rostest as a pytest item: a NAME.test in a folder ros, or a NAME.py alone.
 
-Each has a network of its own where that is granted (to root): a master still calls the port of a
-node that died, which may by then be the port of another test's node.
+Where permitted (to root), each gets its own network: a master still calls the port of a node that
+died, which by then another test's node may use.
 """
 
 import functools
@@ -30,14 +30,14 @@ def pytest_addoption(parser):
 
 
 def starts_rostests(config):
-    """Return whether this process is asked for rostests, and not one of its workers."""
+    """Return whether this process is to run rostests, and is no worker of xdist."""
     is_asked = any("ros" in Path(argument).parts for argument in config.args)
     return is_asked and not hasattr(config, "workerinput")
 
 
 def pytest_configure(config):
     if starts_rostests(config):
-        signal.signal(signal.SIGHUP, signal.default_int_handler)  # ends all, as Ctrl-C does
+        signal.signal(signal.SIGHUP, signal.default_int_handler)  # as Ctrl-C, it ends all
         shutil.rmtree(RESULTS, ignore_errors=True)
         RESULTS.mkdir(parents=True)
 
@@ -91,7 +91,7 @@ class RosTest(pytest.Item):
                 end_all(home)
             output.seek(0)
             print(output.read())
-        # A file that was cut short raises ParseError; failures without a name are in the exit code.
+        # A truncated file raises ParseError; failures without a name show in the exit code.
         files = [ElementTree.parse(path) for path in home.rglob("rosunit-*.xml")]
         cases = [case for file in files for case in file.iter("testcase")]
         failed = [case.get("name") for case in cases for note in case if note.tag in BROKEN]
@@ -104,14 +104,14 @@ class RosTest(pytest.Item):
 
 @functools.lru_cache(1)
 def own_network():
-    """Return the words before a command that give it a network of its own; none if refused."""
+    """Return the command prefix that gives a command its own network; empty if not permitted."""
     words = ["unshare", "--net", "sh", "-c", 'ip link set lo up && exec "$@"', "-"]
     done = subprocess.run([*words, "true"], stderr=subprocess.DEVNULL, check=False)
     return words if done.returncode == 0 else []
 
 
 def end_all(home):
-    """Kill what rostests started, known by ROS_HOME: roslaunch gives each node its own session."""
+    """Kill the processes of rostests, known by ROS_HOME: roslaunch gives each node a session."""
 
     def left():
         pids = with_environment(f"ROS_HOME={home}")

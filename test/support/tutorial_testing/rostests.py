@@ -14,7 +14,7 @@ class RosTest(unittest.TestCase):
     """A test case whose programs, publishers, subscribers and folders end with each test."""
 
     def enter(self, context):
-        """Enter a context that is left after the test; return what it gives."""
+        """Enter a context until the end of the test; return its value."""
         value = context.__enter__()
         self.addCleanup(context.__exit__, None, None, None)
         return value
@@ -43,7 +43,7 @@ class RosTest(unittest.TestCase):
         return subscriber
 
     def record(self, topic, kind):
-        """Return the list of the messages of a topic, which grows."""
+        """Return the growing list of a topic's messages."""
         messages = []
         self.hear(topic, kind, messages.append)
         return messages

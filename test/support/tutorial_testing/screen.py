@@ -1,4 +1,4 @@
-"""A screen without a screen."""
+"""A virtual screen, for tests of windows."""
 
 import contextlib
 import os
@@ -7,7 +7,7 @@ import subprocess
 
 @contextlib.contextmanager
 def virtual_screen(width, height):
-    """Yield the name of a virtual screen of so many pixels, on a display number that Xvfb finds."""
+    """Yield the name of a virtual screen of this size [pixels], on a free display number."""
     read, write = os.pipe()
     # Without noreset it restarts when its last client leaves, and refuses others for a moment.
     command = ["Xvfb", "-displayfd", str(write), "-noreset", "-nolisten", "tcp"]

@@ -14,7 +14,7 @@ from tutorial_testing.waiting import wait_for
 
 
 class SerialKobuki(Started):
-    """serial_kobuki, with its link in a folder of its own: a context manager that ends it."""
+    """serial_kobuki with its link in a temporary folder: a context manager that ends it."""
 
     def __init__(self, *arguments, **environment):
         super().__init__()
@@ -45,13 +45,14 @@ class Driver:
         os.close(self._descriptor)
 
     def read(self):
-        """Return the parts of all packets that have come since; EOFError if the cable is out."""
+        """Return the parts of all new packets; EOFError if the cable is unplugged."""
         data = b""
         with contextlib.suppress(BlockingIOError):
             data = os.read(self._descriptor, 1 << 16)
             if not data:
                 raise EOFError
-        return [one for payload in self._framer.feed(data) for one in robot_packets.parse(payload)]
+        payloads = self._framer.feed(data)
+        return [part for payload in payloads for part in robot_packets.parse(payload)]
 
     def wait_for(self, kind, condition=lambda part: True):
         """Return the next part of a kind for which the condition holds."""

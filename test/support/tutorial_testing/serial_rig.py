@@ -1,4 +1,4 @@
-"""A Kobuki's driver in the place of the simulator, its robot on a serial line.
+"""A Kobuki's driver in place of the simulator; its robot is on a serial line.
 
 a FIFO -> joy_node -> joy2twist -> cmd_vel_mux -> kobuki_node -> a pseudo terminal -> serial_kobuki
 """
@@ -14,7 +14,7 @@ BASE = "/mobile_base"
 
 
 class SerialRig(rig.Rig):
-    """As the Rig; what is seen of the wheels is the robot's truth, and not what the driver says."""
+    """A Rig whose odometry is the robot's ground truth, not the driver's."""
 
     odometry_topic, base = "base_pose_ground_truth", BASE
 

@@ -1,4 +1,4 @@
-"""A page of the cockpit without a browser: it sends over a WebSocket, in a thread of its own."""
+"""A page of the cockpit without a browser, which uses a WebSocket in its own thread."""
 
 import asyncio
 import contextlib
@@ -15,7 +15,7 @@ from tutorial_testing.waiting import wait_for
 PERIOD_S = 0.05
 REST = ([0.0] * 6, [0] * 12)
 DRIVE = ([0.0, 1.0, 0.0, 0.0, 0.0, 0.0], [0, 0, 0, 0, 1] + [0] * 7)
-# A message of each kind as the schema allows it, without its kind.
+# A valid message of each kind, without its kind.
 GOOD = {
     "watch": {
         "robots": True, "look": None, "graph": False, "topic": "/odom",
@@ -45,7 +45,7 @@ GOOD = {
 }  # fmt: skip
 
 
-def request(port, token=None, **headers):
+def page_request(port, token=None, **headers):
     address = f"127.0.0.1:{port}"
     query = f"?token={token}" if token else ""
     headers = {"Origin": f"http://{address}", **headers}
@@ -53,14 +53,14 @@ def request(port, token=None, **headers):
 
 
 class SocketPage(Started):
-    """A context manager; while hand is not None, that position is sent as a page does. While signs,
-    so are signs of life, as of a page that publishes at each of them.
+    """A context manager. While hand is not None, it sends that position as a page does; while signs
+    is true, also signs of life, as a page that publishes.
     """
 
     def __init__(self, port, token=None, **headers):
         super().__init__()
-        self._request = request(port, token, **headers)
-        self.messages = []  # all that came but beats
+        self._request = page_request(port, token, **headers)
+        self.messages = []  # all that arrived, except beats
         self.refusal = None  # HTTP status, where the WebSocket was refused
         self.hand, self.signs = None, False
         self._beat, self._n = 0, 0
@@ -134,7 +134,7 @@ class SocketPage(Started):
         return wait_for(lambda: next(filter(fits, self.of(kind)), None), f"message {kind}")
 
     def sit_down(self, then=REST):
-        """Take the session, with a joystick that is released until it is armed."""
+        """Take the session, with a joystick that stays released until it is armed."""
         count = len(self.of("session"))
         self.say("drive", robot="", mode="D")
         self.hand = REST

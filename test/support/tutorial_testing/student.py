@@ -1,4 +1,4 @@
-"""A student who types what a page says, in the terminals of a workspace of their own."""
+"""A student who types a page's commands in the terminals of a new workspace."""
 
 import contextlib
 import functools
@@ -11,18 +11,18 @@ import subprocess
 from tutorial_testing.processes import signal_all
 from tutorial_testing.waiting import descendants, wait_for
 
-SHORT = "1"  # the terminal of commands that end; in the others each goes on until CTRL_C
+SHORT = "1"  # the terminal for commands that end; in the others they run until CTRL_C
 CTRL_C, END = "Ctrl-C", "^done-1007"
 
 
 def interrupt(shell):
-    """Send SIGINT to what runs in the group of a shell (its id), but not to the shell itself.
+    """Send SIGINT to the programs in the process group of a shell, but not to the shell (its id).
 
-    A shell without job control is in the same group; SIGINT may cost it what is typed next.
+    Without job control the shell is in the same group, and SIGINT may discard its next input.
     """
 
     def running():
-        with contextlib.suppress(ProcessLookupError):  # one has ended
+        with contextlib.suppress(ProcessLookupError):  # a process has ended
             return [pid for pid in descendants(shell)[1:] if os.getpgid(pid) == shell]
 
     signal_all(wait_for(running, "program to interrupt"), signal.SIGINT)
@@ -32,19 +32,19 @@ class Student:
     """A home, a workspace in it, and terminals: shells in which lines are typed."""
 
     def __init__(self, home, host, tutorial, suite_workspace):
-        """home: a folder; tutorial: the command ./tutorial; suite_workspace: which is built."""
+        """home: a folder; tutorial: the command ./tutorial; suite_workspace: the built one."""
         self.workspace, self._terminals, self._begin = home / "ros/hydro/catkin_ws", {}, {}
         environment = {
             "HOME": str(home), "ROS_HOME": str(home / ".ros"), "DISPLAY": "",
             "ROS_MASTER_URI": "http://localhost:11311",
-            "TUTORIAL_WORKSPACE": suite_workspace,  # not of this home
+            "TUTORIAL_WORKSPACE": suite_workspace,  # not in this home
         }  # fmt: skip
         self._start = functools.partial(host.start, tutorial, **environment)
 
     def type(self, name, lines, seen):
-        """Type lines in a terminal, which is opened if it is not; wait for what must be seen.
+        """Type lines in a terminal, opened if needed; wait for a pattern in its output.
 
-        Without lines, wait for what the last ones print.
+        Without lines, wait for it in the output of the last ones.
         """
         if name not in self._terminals:
             shell = self._start("shell", "--in", str(self.workspace), stdin=subprocess.PIPE)
@@ -75,7 +75,7 @@ class Student:
             shutil.copyfile(path, self.workspace / "src" / folder / path.name)
 
     def do(self, rows):
-        """Type rows of (terminal, lines, what must be seen); ("write", folder, source) writes."""
+        """Type rows of (terminal, lines, pattern to wait for); ("write", folder, source) writes."""
         for name, lines, third in rows:
             if name == "write":
                 self.write(lines, third)
@@ -83,7 +83,7 @@ class Student:
                 self.type(name, lines, third)
 
     def run(self, line):
-        """Return what a command prints in a terminal that has just been opened."""
+        """Return a command's output in a new terminal."""
         command = ("run", "--in", str(self.workspace), "bash", "-c", line)
         with self._start(*command) as program:
             program.wait()

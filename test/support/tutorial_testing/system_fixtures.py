@@ -1,5 +1,6 @@
-"""Fixtures of the tests of the whole system: a ROS master's port of their own, a clean clone."""
+"""Fixtures for tests of the whole system: a free port for a ROS master, a clean clone, hosts."""
 
+import contextlib
 import os
 import shutil
 from pathlib import Path
@@ -17,7 +18,7 @@ from tutorial_tools.io.command.lock import WAITS
 
 @pytest.fixture
 def master_uri(monkeypatch):
-    """ROS_MASTER_URI of a port of our own, so that a master of the user's is left alone."""
+    """A ROS_MASTER_URI with a free port, so that the user's master is left alone."""
     uri = f"http://localhost:{free_port()}"
     monkeypatch.setenv("ROS_MASTER_URI", uri)
     return uri
@@ -25,13 +26,13 @@ def master_uri(monkeypatch):
 
 @pytest.fixture
 def host():
-    """A host of the test's own, on which each port is free, as on a user's machine."""
+    """The test's own host, on which every port is free, as on a user's machine."""
     try:
-        one = Host()
+        own = Host()
     except PermissionError as error:
         pytest.skip(f"no network namespace for the ports 11311 and 8080: {error}")
-    yield one
-    one.close()
+    yield own
+    own.close()
 
 
 @pytest.fixture(scope="session")
@@ -43,7 +44,7 @@ def tutorial():
 def call(tutorial):
     """A function that runs ./tutorial to its end, and returns (exit code, output).
 
-    Without the line that it waits for another test's, which may come at any call.
+    The output lacks the line that it waits for another test's ./tutorial.
     """
 
     def run(*words, deadline_s=DEADLINE_S, **environment):
@@ -60,15 +61,14 @@ def suite_workspace():
 
 @pytest.fixture
 def student(tmp_path, host, tutorial, suite_workspace):
-    """On a host of their own: roscore takes the port 11311 whatever ROS_MASTER_URI says."""
-    one = Student(tmp_path, host, tutorial, suite_workspace)
-    yield one
-    one.close()
+    """A Student on a separate host: roscore uses port 11311 whatever ROS_MASTER_URI says."""
+    with contextlib.closing(Student(tmp_path, host, tutorial, suite_workspace)) as typist:
+        yield typist
 
 
 @pytest.fixture(scope="session")
 def clone(tmp_path_factory):
-    """A copy of the repository as it is now, in a folder with a space in its name."""
+    """A copy of the repository, in a folder with a space in its name."""
     folder = tmp_path_factory.mktemp("clone") / "ros1 tutorial"
     ignored = shutil.ignore_patterns(".git", "__pycache__", ".*_cache", ".hypothesis")
     shutil.copytree(REPOSITORY, folder, symlinks=True, ignore=ignored)
@@ -77,10 +77,7 @@ def clone(tmp_path_factory):
 
 @pytest.fixture
 def own_workspace(suite_workspace, tmp_path, monkeypatch):
-    """A TUTORIAL_WORKSPACE of the test: built like ours, and with nothing else in it yet.
-
-    In the environment of a user who has sourced no workspace.
-    """
+    """A TUTORIAL_WORKSPACE with only our build in it, and no workspace sourced."""
     for name in ("CMAKE_PREFIX_PATH", "ROS_PACKAGE_PATH", "PYTHONPATH"):
         monkeypatch.delenv(name, raising=False)
     own = tmp_path / "ws"
@@ -99,7 +96,7 @@ def screen():
 
 @pytest.fixture
 def scene():
-    """Robot and workstation, two hosts with a cable between them: a two_hosts.scene.Scene."""
+    """A two_hosts.scene.Scene: robot and workstation, two hosts joined by a cable."""
     try:
         with Scene() as scene:
             yield scene
