@@ -1,4 +1,4 @@
-"""What is wrong with a trial, by what the hands showed and what the wheels did (pure).
+"""What is wrong with a trial, by what the hands showed and what the wheels did.
 
 The nodes under test are not asked. Times [s] are of the system clock, as the stamps of /odom.
 """

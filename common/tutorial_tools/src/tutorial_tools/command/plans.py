@@ -9,18 +9,8 @@ from pathlib import Path
 from typing import Callable, Dict, List
 
 from node_kit.ros2_python import installed
-from tutorial_tools.command import ros2_programs
-from tutorial_tools.command.subcommands import (
-    COMPLETION,
-    HELP,
-    OWN_PARSER,
-    SUBCOMMANDS,
-    WITH_IN,
-    candidates,
-    fail,
-    parser_of,
-    show_help,
-)
+from tutorial_tools.command import ros2_programs, subcommands
+from tutorial_tools.command.subcommands import HELP, OWN_PARSER, fail, parser_of
 from tutorial_tools.paths import REPOSITORY
 
 SCRIPTS = REPOSITORY / "common" / "tutorial_tools" / "scripts"
@@ -157,19 +147,19 @@ def read(workspace: Path, typed: list[str], confirm: Confirm) -> Plan | None:
     """Return the plan for what the user typed; None if nothing is left to do. Exits at a misuse."""
     word, arguments = "".join(typed[:1]), typed[1:]
     if word == "":
-        show_help(sys.stderr)
+        subcommands.show_help(sys.stderr)
         sys.exit(2)
     if word in {"help", *HELP}:
-        show_help(sys.stdout)
+        subcommands.show_help(sys.stdout)
         return None
     if word == "completion":
-        print("\n".join(candidates(arguments)) if arguments else COMPLETION)
+        print("\n".join(subcommands.candidates(arguments)) if arguments else subcommands.COMPLETION)
         return None
-    if word not in SUBCOMMANDS:
-        near = difflib.get_close_matches(word, SUBCOMMANDS, 1)
+    if word not in subcommands.SUBCOMMANDS:
+        near = difflib.get_close_matches(word, subcommands.SUBCOMMANDS, 1)
         meant = f"; did you mean {near[0]}?" if near else ""
         fail(f'"{word}" is no command{meant}; ./tutorial help lists them')
-    if arguments[:1] == ["--in"] and word not in WITH_IN:
+    if arguments[:1] == ["--in"] and word not in subcommands.WITH_IN:
         fail(f"{word}: knows no --in; shell, run, doctor and check do")
     if word == "ros2":
         return plan_of_ros2(workspace, arguments, confirm)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from node_kit.rules.answer import Answer
 from tutorial_tools.doctor.facts import Facts, Finding, some, wrong
 
 ANY = ("*", "")  # `rostopic echo` asks for any type; and an unknown type.
@@ -61,7 +60,7 @@ def cuts(facts: Facts) -> list[Cut]:
             for receiver, kind in sorted(wanted.items()):
                 fits = sent == kind or sent in ANY or kind in ANY
                 linked = sender in facts.nodes and (topic, receiver) in facts.nodes[sender].links
-                if fits and not linked and _answers(facts, sender) and _answers(facts, receiver):
+                if fits and not linked and facts.answers(sender) and facts.answers(receiver):
                     pairs.append(Cut(topic, sender, receiver))
     return pairs
 
@@ -76,10 +75,6 @@ def mismatched(facts: Facts) -> set[str]:
 def _kinds(facts: Facts, topic: str, inwards: bool) -> list[str]:
     kinds = set(facts.kinds(topic, inwards).values())
     return sorted(kinds.difference(ANY))
-
-
-def _answers(facts: Facts, name: str) -> bool:
-    return name in facts.nodes and facts.nodes[name].answer is Answer.WELL
 
 
 def _is_old(facts: Facts, cut: Cut) -> bool:

@@ -178,6 +178,10 @@ class Facts:
         ends = (True, False)
         return [t for t in self.used() if any(self.users(t, kind, inwards) for inwards in ends)]
 
+    def answers(self, name: str) -> bool:
+        """Return whether the master lists a node, and the node answers."""
+        return name in self.nodes and self.nodes[name].answer is Answer.WELL
+
     def dead(self) -> set[str]:
         """Return the nodes that have died; the master still lists them."""
         return {name for name, node in self.nodes.items() if node.answer in DEAD}

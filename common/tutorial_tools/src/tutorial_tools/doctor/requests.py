@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from node_kit.rules.answer import Answer
 from tutorial_tools.doctor.facts import JOY, Facts
 from tutorial_tools.doctor.transforms import TOPICS as TRANSFORM_TOPICS
 
@@ -27,15 +26,15 @@ class TopicRequest(NamedTuple):
     most: int = 1  # messages
 
 
-def requests(facts: Facts) -> list[TopicRequest]:
-    """Return all that is needed from the nodes that answer."""
+def of_graph(facts: Facts) -> list[TopicRequest]:
+    """Return all requests to the nodes that answer."""
     needed = [request for host in for_clocks(facts).values() for request in host]
     needed += [TopicRequest(name, DIAGNOSTICS) for name in reporters(facts)]
     for topic in (*active_topics(facts), CLOCK):
         needed += [TopicRequest(name, topic) for name in facts.publishers.get(topic, [])[:1]]
     for topic in TRANSFORM_TOPICS:
         needed += [TopicRequest(name, topic, STAMPED_MESSAGES) for name in facts.senders(topic)]
-    return [request for request in needed if _answers(facts, request.node)]
+    return [request for request in needed if facts.answers(request.node)]
 
 
 def for_clocks(facts: Facts) -> dict[str, list[TopicRequest]]:
@@ -43,7 +42,7 @@ def for_clocks(facts: Facts) -> dict[str, list[TopicRequest]]:
     stamped = [topic for kind in STAMPED for topic in facts.topics(kind)]
     needed: dict[str, list[TopicRequest]] = {}
     for name, node in facts.nodes.items():
-        if _answers(facts, name) and node.here is False:
+        if facts.answers(name) and node.here is False:
             sent = [topic for topic in stamped if name in facts.publishers.get(topic, [])]
             host = needed.setdefault(node.host, [])
             host += [TopicRequest(name, topic, STAMPED_MESSAGES) for topic in sent]
@@ -52,7 +51,7 @@ def for_clocks(facts: Facts) -> dict[str, list[TopicRequest]]:
 
 def reporters(facts: Facts) -> set[str]:
     """Return the nodes whose diagnostics are needed."""
-    bridge = {BRIDGE} if _answers(facts, BRIDGE) else set()
+    bridge = {BRIDGE} if facts.answers(BRIDGE) else set()
     return {*facts.converters(), *joystick_nodes(facts), *kobuki_nodes(facts), *bridge}
 
 
@@ -71,7 +70,3 @@ def kobuki_nodes(facts: Facts) -> set[str]:
 def active_topics(facts: Facts) -> list[str]:
     """Return the topics on which multiplexers publish their active input."""
     return [topic for topic in facts.topics("std_msgs/String") if topic.endswith("/active")]
-
-
-def _answers(facts: Facts, name: str) -> bool:
-    return name in facts.nodes and facts.nodes[name].answer is Answer.WELL

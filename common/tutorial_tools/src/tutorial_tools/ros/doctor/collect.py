@@ -25,19 +25,9 @@ from node_kit.manifests import broken_manifests
 from node_kit.message_types import message_class
 from node_kit.ros.graph.ros_api import TIMEOUT_S, way_out
 from node_kit.rules.answer import Answer
+from tutorial_tools.doctor import requests
 from tutorial_tools.doctor.connections import cuts
 from tutorial_tools.doctor.facts import Facts, Joystick, Mux, MuxInput, Node
-from tutorial_tools.doctor.requests import (
-    BRIDGE,
-    CLOCK,
-    DIAGNOSTICS,
-    active_topics,
-    for_clocks,
-    joystick_nodes,
-    kobuki_nodes,
-    reporters,
-    requests,
-)
 from tutorial_tools.hidden_stand_ins import hidden_stand_ins
 from tutorial_tools.io.environment import environment
 from tutorial_tools.paths import REPOSITORY, SHARE
@@ -150,7 +140,9 @@ def graph(uri: str, joysticks: list[Joystick]) -> dict[str, Any]:
     facts.update(settled(uri, Facts(**facts)))
     known = Facts(**facts)
     devices = [
-        parameter(uri, f"{node}/dev") for node in joystick_nodes(known) if known.nodes[node].here
+        parameter(uri, f"{node}/dev")
+        for node in requests.joystick_nodes(known)
+        if known.nodes[node].here
     ]
     there = {joystick.path for joystick in joysticks}
     paths = {device for device in devices if isinstance(device, str)}
@@ -207,19 +199,22 @@ def heard(uri: str, facts: Facts) -> dict[str, Any]:
         lambda request: network.listen(
             facts.nodes[request.node].uri, request.topic, LISTEN_S, request.most
         ),
-        requests(facts),
+        requests.of_graph(facts),
         LISTEN_S + TIMEOUT_S,
     )
     of = {(request.node, request.topic): messages for request, messages in came.items()}
     on = {topic: messages for (_, topic), messages in of.items()}
-    said = {name: statuses(of.get((name, DIAGNOSTICS), [])) for name in reporters(facts)}
-    active = active_topics(facts)
+    said = {
+        name: statuses(of.get((name, requests.DIAGNOSTICS), []))
+        for name in requests.reporters(facts)
+    }
+    active = requests.active_topics(facts)
     names = [topic[: -len("/active")] for topic in active if facts.publishers.get(topic)]
     return {
-        "clock_ticks": bool(on.get(CLOCK)),
+        "clock_ticks": bool(on.get(requests.CLOCK)),
         "clocks": {
             host: nearest([offset(topic, of.get((name, topic), [])) for name, topic, _ in needed])
-            for host, needed in for_clocks(facts).items()
+            for host, needed in requests.for_clocks(facts).items()
         },
         "transforms": transforms_in(of),
         "muxes": {name: mux(uri, name, on.get(f"{name}/active", [])) for name in names},
@@ -229,13 +224,16 @@ def heard(uri: str, facts: Facts) -> dict[str, Any]:
             for status in said[name]
             if status.name == f"{name.strip('/')}: joystick"
         },
-        "bases": dict(filter(None, (base(name, said[name]) for name in kobuki_nodes(facts)))),
+        "bases": dict(
+            filter(None, (base(name, said[name]) for name in requests.kobuki_nodes(facts)))
+        ),
         "bridge": [
-            (status.level == DiagnosticStatus.OK, status.message) for status in said.get(BRIDGE, [])
+            (status.level == DiagnosticStatus.OK, status.message)
+            for status in said.get(requests.BRIDGE, [])
         ],
         "silent_s": {
             name: float(pair.value)
-            for name in joystick_nodes(facts)
+            for name in requests.joystick_nodes(facts)
             for status in said[name]
             for pair in status.values
             if pair.key == SILENT_FOR and pair.value.replace(".", "", 1).isdigit()
