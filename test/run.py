@@ -86,7 +86,7 @@ def quick(package, given):
 def faults(arguments):
     """Hit the live system with random faults; with --bridge the one between ROS 1 and ROS 2."""
     if BRIDGE not in arguments:
-        return run("/usr/bin/python3", "-m", "tutorial_faults.live.program", *arguments)
+        return run("/usr/bin/python3", "-m", "tutorial_faults.live.hunt", *arguments)
     rest = [argument for argument in arguments if argument != BRIDGE]
     file = "test/ros2_bridge/ros2/test_faults.py"
     return tests("ros2", ["-q", "-s", file, "-k", "random", *rest])

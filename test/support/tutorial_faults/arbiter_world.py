@@ -1,4 +1,4 @@
-"""The multiplexer (Arbiter, BacklogFilter), judged by (c) to (f), asked as the node asks."""
+"""The multiplexer (Arbiter, BacklogFilter), called as the node calls it, judged by (c) to (f)."""
 
 import math
 from typing import Any, NamedTuple
@@ -23,8 +23,8 @@ class Command(NamedTuple):
 class Lateness:
     """(f) Which commands of one sender are late after a silence in a motion.
 
-    Of those that come at once none moves; one that comes alone may be a slow sender's. A stick must
-    rest before it moves.
+    Commands that arrive at once must not move the robot; one alone may be a slow sender's. A stick
+    must rest before it moves.
     """
 
     def __init__(self, is_stick):
@@ -60,8 +60,8 @@ class ArbiterWorld(World):
     """The real Arbiter, and the invariants that it must keep."""
 
     def __init__(self, inputs):
-        self._inputs = sorted(inputs, key=lambda one: one.priority, reverse=True)
-        self._spoke_s = {one.name: -math.inf for one in inputs}
+        self._inputs = sorted(inputs, key=lambda source: source.priority, reverse=True)
+        self._spoke_s = {source.name: -math.inf for source in inputs}
         self._arbiter = Arbiter(inputs)
         self._waiting = {}  # sender -> its Command that waits
         self._lateness = {}  # sender -> Lateness
@@ -73,10 +73,11 @@ class ArbiterWorld(World):
     def _speaking(self):
         """Return the inputs that send, the highest first."""
         spoke_s = self._spoke_s
-        return [one for one in self._inputs if self.now < spoke_s[one.name] + one.timeout]
+        inputs = self._inputs
+        return [source for source in inputs if self.now < spoke_s[source.name] + source.timeout]
 
     def _is_highest(self, name):
-        return [name] == [one.name for one in self._speaking()[:1]]
+        return [name] == [source.name for source in self._speaking()[:1]]
 
     def _tick(self):
         due = {
@@ -93,18 +94,18 @@ class ArbiterWorld(World):
                 yield from self._through(due[sender])
             else:
                 yield "f", f"{velocity} goes through, and did not wait"
-        if not through and any(self._is_highest(one.input) for one in due.values()):
+        if not through and any(self._is_highest(command.input) for command in due.values()):
             yield "e", "the highest that sends has waited, and does not go through"
         if self._arbiter.must_stop(self.now):
             self._sent = ZERO
         yield from self._must_look_in_time()
 
     def _must_look_in_time(self):
-        ends_s = [self._spoke_s[one.name] + one.timeout - self.now for one in self._speaking()]
+        ends_s = [self._spoke_s[s.name] + s.timeout - self.now for s in self._speaking()]
         if moves(self._sent) and not ends_s:
             yield "d", "no stop, though all inputs are silent"
         lull_s = self._arbiter.lull(self.now)
-        shortest_s = min(one.timeout for one in self._inputs)
+        shortest_s = min(source.timeout for source in self._inputs)
         if not 0 < lull_s <= shortest_s or (moves(self._sent) and lull_s > max(ends_s, default=0)):
             yield "d", f"sleeping for {lull_s} s, and something is due sooner"
 

@@ -1,4 +1,4 @@
-"""Real objects, what never happens to them (FAULTS.md), and a clock.
+"""Real objects, the invariants of FAULTS.md that they must keep, and a clock.
 
 What they are judged by is written from the documentation, and knows nothing of their code. A
 velocity is linear x, y, z [m/s] and angular x, y, z [rad/s], in the frame of the base.

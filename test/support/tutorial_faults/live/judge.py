@@ -1,4 +1,4 @@
-"""What is wrong with a trial, by what the hands showed and what the wheels did.
+"""Judges a trial by what the hands showed and what the wheels did.
 
 The nodes under test are not asked. Times [s] are of the system clock, as the stamps of /odom.
 """
@@ -16,11 +16,11 @@ LIMIT_S = TIMEOUT_S + 0.02  # from a loss to wheels at rest; /odom comes every 0
 SLACK_S = 0.05  # between the stamps of this process and those of the nodes
 # What the preset of the F710 allows with RB held, and the mux and the base with it.
 MAX_LINEAR, MAX_ANGULAR = 0.7, 2.0
-STARTS_S = 0.3  # a node that is restarted does nothing sooner: it loads rospy
-LATE_S = 0.15  # a gap in the odometry, or a fault that was not there at once
+STARTS_S = 0.3  # a restarted node first loads rospy for so long
+LATE_S = 0.15  # a gap in the odometry, or a fault that began late
 LINE_LATE_S = 0.08  # a gap of the truth: after 0.1 s without a packet a driver's robot is offline
 
-# What an Event is about; of the last two the value is a velocity.
+# What an Event is about; the value of the last two is a velocity.
 HANDS, BEGINS, ENDS, LATE = "hands show", "begins:", "ends:", "late by [s]:"
 SEEN = "seen:"  # a Violation that wheels do not show
 VELOCITIES = COMMAND, WHEELS = "the base receives", "wheels turn at"
@@ -33,7 +33,7 @@ class Event(NamedTuple):
 
 
 def velocity(linear, angular):
-    """Return that of a robot that drives so fast [m/s], and turns so fast [rad/s]."""
+    """Return the velocity of a robot that drives [m/s] and turns [rad/s]."""
     return linear, 0.0, 0.0, 0.0, 0.0, angular
 
 
@@ -44,14 +44,14 @@ class Violation(NamedTuple):
 
 
 def spans(changes):
-    """Return (begin, end) of each time in which something is so, from [(when, whether)]."""
-    found = []
-    for at_s, is_so in changes:
-        if is_so and (not found or found[-1][1] < math.inf):
-            found.append((at_s, math.inf))
-        elif not is_so and found:
-            found[-1] = found[-1][0], min(at_s, found[-1][1])
-    return found
+    """Return (begin, end) of the spans that are true, from [(time, whether true from then on)]."""
+    true = []
+    for at_s, is_true in changes:
+        if is_true and (not true or true[-1][1] < math.inf):
+            true.append((at_s, math.inf))
+        elif not is_true and true:
+            true[-1] = true[-1][0], min(at_s, true[-1][1])
+    return true
 
 
 class Trial:
@@ -71,7 +71,7 @@ class Trial:
 
     @property
     def was_late(self):
-        """Whether what was seen may be the lateness of this machine."""
+        """Whether this machine was too slow for a verdict."""
         stamps = [event.at_s for event in self.of(WHEELS)]
         gaps_s = [after - before for before, after in zip(stamps, stamps[1:])]
         is_base_hit = not self._sees_truth and any(fault.part == BASE for fault in self.hits)
@@ -83,15 +83,16 @@ class Trial:
 
     def _judge(self):
         """Return the first Violation of each invariant."""
-        must, found = {fault.must for fault in self.hits}, [one.value for one in self.of(SEEN)]
+        must = {fault.must for fault in self.hits}
+        violations = [event.value for event in self.of(SEEN)]
         for at_s, _, velocity in self.of(*VELOCITIES):
             wrong = beyond(velocity, MAX_LINEAR, MAX_ANGULAR)
-            found += [Violation(letter, at_s, what) for letter, what in wrong]
-        found += self._rests()
-        found += self._waits() if not {MAY_STOP, PAUSES} & must else []
-        found += self._drives_on() if must == {DRIVES_ON} else []
+            violations += [Violation(letter, at_s, what) for letter, what in wrong]
+        violations += self._rests()
+        violations += self._waits() if not {MAY_STOP, PAUSES} & must else []
+        violations += self._drives_on() if must == {DRIVES_ON} else []
         first = {}
-        for violation in sorted(found, key=lambda one: one.at_s):
+        for violation in sorted(violations, key=lambda violation: violation.at_s):
             first.setdefault(violation.invariant, violation)
         return [*first.values()]
 

@@ -45,7 +45,7 @@ class Chromium(WebDriver):
 
     @contextlib.contextmanager
     def tab_of(self, width, height, touch=False):
-        """Have another tab of a size, which starts in far less time than another browser."""
+        """Open a tab of this size, which takes far less time than another browser."""
         first = self.driver.current_window_handle
         self.driver.switch_to.new_window("tab")
         self.resize(width, height, touch)
@@ -93,7 +93,7 @@ class Chromium(WebDriver):
         self.click(name, "[role=tab]")
 
     def errors(self):
-        """Return what the console reports, but for a connection that the page did not wait for."""
+        """Return the console's errors, except for a connection that the page gave up."""
         found = [e["message"] for e in self.driver.get_log("browser") if e["level"] != "INFO"]
         return [one for one in found if "closed before the connection is established" not in one]
 
@@ -117,7 +117,7 @@ class Chromium(WebDriver):
         self.send("Input.dispatchTouchEvent", type=kind, touchPoints=fingers)
 
     def middle(self, css):
-        """The middle of an element in the window [pixel], however the page is scrolled."""
+        """Return the middle of an element in the window [pixel], however the page is scrolled."""
         box = self.driver.execute_script(
             "return arguments[0].getBoundingClientRect()", self.one(css)
         )
@@ -128,9 +128,9 @@ class Chromium(WebDriver):
         return descendants(self.driver.service.process.pid)[1:]
 
     def signal(self, number):
-        """Send a signal to all of the browser; returns the time [s] just before."""
+        """Send a signal to all of the browser; return the time [s] just before."""
         return signal_all(self.pids, number)
 
     def kill(self):
-        """kill -9; returns the time [s] just before."""
+        """Send SIGKILL; return the time [s] just before."""
         return self.signal(signal.SIGKILL)

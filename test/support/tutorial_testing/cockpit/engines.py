@@ -22,14 +22,14 @@ class Browser(Started):
         self.wait_for_text("#connection", "Connected")
 
     def text(self, css):
-        """The text of an element, seen or not; "" if it is not there."""
+        """Return the text of an element, visible or not; "" if there is none."""
         return self.ask(f"document.querySelector({json.dumps(css)})?.textContent ?? ''")
 
     def wait_for_text(self, css, text):
         wait_for(lambda: text in self.text(css), f"{text} in {css}", seen=lambda: self.text(css))
 
     def press(self, css):
-        """Click on an element, seen or not."""
+        """Click on an element, visible or not."""
         click = "dispatchEvent(new MouseEvent('click', {bubbles: true}))"  # SVG has no click()
         self.ask(f"document.querySelector({json.dumps(css)}).{click}")
 
@@ -82,7 +82,7 @@ class Firefox(Browser):
         return self._loop.run_until_complete(waited())
 
     def send(self, method, **parameters):
-        """A command; returns its result. RuntimeError with Firefox's words if it refuses."""
+        """Send a command; return its result. Raises RuntimeError with Firefox's message."""
         self._number += 1
         command = {"id": self._number, "method": method, "params": parameters}
         self._wait(self._socket.write_message, json.dumps(command))
@@ -97,7 +97,7 @@ class Firefox(Browser):
         self.send("browsingContext.navigate", context=self._context, url=address, wait="complete")
 
     def ask(self, expression):
-        """The value of a JavaScript expression: a text, a number or a truth value."""
+        """Return the value of a JavaScript expression: a text, a number or a truth value."""
         target = {"context": self._context}
         said = self.send(
             "script.evaluate", expression=expression, target=target, awaitPromise=False

@@ -1,4 +1,4 @@
-"""./tutorial test faults: hit the live system with random faults, and report what it did."""
+"""./tutorial test faults: hits the live system with random faults, and reports what it did."""
 
 import contextlib
 import itertools
@@ -21,7 +21,7 @@ from tutorial_faults.worlds import moves
 from tutorial_testing.hands import DRIVE, RELEASED, STICK, TURBO, TURN
 from tutorial_testing.processes import free_port
 
-# The handout's own class, as printed there, by the name under which --node knows it.
+# The handout's own class, as printed there, and its name for --node.
 HANDOUT = "handout"
 LITERAL = "test/tutorial_check/exercises/literal/joy2twist/scripts/new_joy2twist.py"
 SHORTEST_S = 60.0  # without --for and --trials
@@ -40,9 +40,9 @@ class Plan(NamedTuple):
 
 
 def draw(seed, names):
-    """Return the Plan of a seed, with faults of these names; the same for the same arguments.
+    """Return the Plan of a seed, with faults of these names; always the same Plan.
 
-    Mostly the hands hold on; some let go, and some of these take hold again.
+    Most hands hold on; some let go, and some of these take hold again.
     """
     dice = random.Random(seed)
     hands, hits, at_s = [(0.0, DRIVE)], [], dice.uniform(0.05, 0.3)
@@ -70,9 +70,9 @@ def parse(arguments):
     add("--seed", type=int, default=1, help="of the first trial (1); the next one has the next")
     names = sorted({*FAULTS, *(fault.family for fault in FAULTS.values())})
     add("--kinds", choices=names, nargs="+", metavar="KIND", help=", ".join(FAULTS))
-    text = f"a command in place of joy2twist; {HANDOUT}: the handout's own class"
     text = "a Kobuki's driver and a robot on a serial line, in place of the simulated base"
     add("--serial", action="store_true", help=text)
+    text = f"a command in place of joy2twist; {HANDOUT}: the handout's own class"
     add("--node", type=shlex.split, default=[], metavar="COMMAND", help=text)
     options = parser.parse_args(arguments)
     if options.kinds and not named(options):
@@ -81,7 +81,7 @@ def parse(arguments):
 
 
 def named(options):
-    """Return the names of the faults that are wanted, and that hit what there is."""
+    """Return the names of the chosen faults that this world can have."""
     wanted = {*(options.kinds or FAULTS)}
     return [
         name
@@ -120,7 +120,7 @@ def show(options, plan, trial):
 
 
 def hunt(options):
-    """Yield a Trial after the other; the world is replaced when it cannot be repaired."""
+    """Yield the Trials; replace the world when it cannot be repaired."""
     names = named(options)
     node = [LITERAL] if options.node == [HANDOUT] else options.node
     end_s = time.monotonic() + (math.inf if options.trials else options.seconds or SHORTEST_S)
@@ -156,11 +156,11 @@ def main():
             for trial in hunt(options):
                 trials.append(trial)
     print(
-        f"{len(trials)} trials, {sum(len(one.hits) for one in trials)} faults,"
-        f" {sum(bool(one.violations) for one in trials)} violations,"
-        f" worst time to rest {max((one.rest_s for one in trials), default=0.0):.2f} s"
+        f"{len(trials)} trials, {sum(len(trial.hits) for trial in trials)} faults,"
+        f" {sum(bool(trial.violations) for trial in trials)} violations,"
+        f" worst time to rest {max((trial.rest_s for trial in trials), default=0.0):.2f} s"
     )
-    return int(any(one.violations for one in trials)) if trials else CANNOT
+    return int(any(trial.violations for trial in trials)) if trials else CANNOT
 
 
 if __name__ == "__main__":
