@@ -61,7 +61,7 @@ class Mapping:
             velocity[5] = -velocity[5]
         return limit_speed(tuple(velocity), self._max_linear, self._max_angular)
 
-    def rests(self, axes: Sequence[float], velocity: Velocity | None) -> bool:
+    def released(self, axes: Sequence[float], velocity: Velocity | None) -> bool:
         """Return whether everything is released. velocity: what velocity() returned."""
         sticks = (axes[index] for _, index, _, _ in self._axes)
         return (velocity is None or self._free) and are_released(sticks)

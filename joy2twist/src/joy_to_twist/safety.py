@@ -78,19 +78,19 @@ class Safety:
     @property
     def released(self) -> bool:
         """Whether to drive a lost robot again: all released or, without arming, zero sent."""
-        return self.arming.rests if self._parameters.arm_on_neutral else self._sent == ZERO
+        return self.arming.released if self._parameters.arm_on_neutral else self._sent == ZERO
 
     def drive(
         self,
         velocity: Velocity | None,
-        rests: bool,
+        released: bool,
         now: float,
         sender: object = None,
         changed: bool = True,
     ) -> Velocity | None:
         """Take the velocity of a good message; None if its dead-man button is released.
 
-        rests: whether everything is released. sender: an object that identifies the joystick node.
+        released: whether everything is. sender: an object that identifies the joystick node.
         changed: whether an axis or a button differs from the message before.
         """
         if changed:
@@ -100,7 +100,7 @@ class Safety:
                 self._wake()  # for the next warning
         why = None
         is_still = now >= self._still_at and velocity not in (None, ZERO)
-        rests = rests and not is_still
+        released = released and not is_still
         if is_still and self.arming.armed:
             why = State.STILL
         elif now >= self._silent_at:  # tick() was not called in time
@@ -114,15 +114,15 @@ class Safety:
         if stop is not None and not self._parameters.arm_on_neutral:
             return stop  # the next message arrives in time again
         self._sender = sender
-        answer = self._obey(velocity, rests, now)
+        answer = self._obey(velocity, released, now)
         return answer or stop
 
-    def _obey(self, velocity: Velocity | None, rests: bool, now: float) -> Velocity | None:
+    def _obey(self, velocity: Velocity | None, released: bool, now: float) -> Velocity | None:
         self._silent_at = now + self._silence_s
         if not self._hears:
             self._hears = True
             self._wake()  # the silence timeout starts
-        if not self.arming.hear(rests):
+        if not self.arming.hear(released):
             if self._unarmed is State.NOT_ARMED and velocity not in (None, ZERO):
                 self._warn_at_times(Notice.NOT_ARMED, now)
             return self._refuse(self._unarmed, now)
@@ -141,7 +141,7 @@ class Safety:
 
     def reject(self, now: float) -> Velocity | None:
         """Stop at a bad message, which does not count as a sign of life."""
-        self.arming.rests = False
+        self.arming.released = False
         return self._refuse(State.BAD_MESSAGE, now)
 
     def latch(self, now: float) -> Velocity | None:
@@ -217,8 +217,8 @@ class Safety:
 
     def _step(self, now: float) -> Velocity:
         velocity = approach(self._sent, self._target, *self._changes)
-        rests = velocity == self._target == ZERO
-        self._schedule(math.inf if rests else now + self._period)
+        stands = velocity == self._target == ZERO
+        self._schedule(math.inf if stands else now + self._period)
         return self._answer(velocity)
 
     def _schedule(self, next_output: float) -> None:

@@ -98,8 +98,8 @@ class Teleoperation:
         if hint:
             self._warn(hint)
         matters = self._parameters.arm_on_neutral or not self._safety.arming.armed
-        rests = matters and self._mapping.rests(axes, velocity)
-        return self._safety.drive(velocity, rests, now, sender, last != self._last)
+        released = matters and self._mapping.released(axes, velocity)
+        return self._safety.drive(velocity, released, now, sender, last != self._last)
 
     def suspended(self, number: int, now: float) -> Velocity | None:
         """Take the number of suspensions of this node; return the velocity to send at once."""

@@ -1,6 +1,6 @@
 """A replay without ROS: how many times faster than real time."""
 
-from fake_turtlebot_sim.io.bag_replay import replay
+from fake_turtlebot_sim.ros.bag_replay import replay
 from fake_turtlebot_sim.simulator.parameters import SimulatorParameters
 from tutorial_testing.claims import claim
 

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from sensor_msgs.msg import Joy
 
 from cockpit_server.ros.tabs import bag_files
-from fake_turtlebot_sim.io import replay_bag as replay_command
+from fake_turtlebot_sim.ros import replay_bag as replay_command
 from gamepad.ros.bags import check_recording
 from tutorial_testing.claims import claim
 from tutorial_testing.hostile import end_of

@@ -77,7 +77,7 @@ def test_a_bad_message_is_named(given, axes, buttons, words):
 ])  # fmt: skip
 def test_a_rest_is_released_sticks_in_use_and_a_released_dead_man(given, axes, buttons, rests):
     mapping = Mapping(load(given))
-    assert mapping.rests(axes, mapping.velocity(axes, buttons)) is rests
+    assert mapping.released(axes, mapping.velocity(axes, buttons)) is rests
 
 
 def test_the_stop_button_counts_in_a_message_that_is_cut_and_wins_over_reset():

@@ -5,8 +5,8 @@ import socket
 
 import pytest
 
-from node_kit.ros.rospy_patches import newest_only
-from node_kit.ros.rospy_patches.newest_only import NewestOnly
+from node_kit.io import newest_only
+from node_kit.io.newest_only import NewestOnly
 from tutorial_testing.claims import claim
 
 pytestmark = claim(

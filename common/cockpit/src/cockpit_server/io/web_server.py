@@ -9,7 +9,6 @@ import socket
 from pathlib import Path
 from typing import Any, Awaitable
 
-import rospkg
 from tornado.httpserver import HTTPServer
 from tornado.iostream import StreamClosedError
 from tornado.web import Application, RequestHandler, StaticFileHandler
@@ -19,7 +18,7 @@ from cockpit_server import limits
 from cockpit_server.access import DRIVER, Access, without_token
 from cockpit_server.hub import Hub
 from cockpit_server.pages import Page
-from node_kit.ros.rospy_patches.newest_only import CUT_AFTER_RESENDS, resends
+from node_kit.io.newest_only import CUT_AFTER_RESENDS, resends
 from tutorial_tools.io.command.charts import FETCHED, OF_DEBIAN
 
 HEADERS = {
@@ -216,12 +215,11 @@ def folder_of_charts() -> Path:
     return OF_DEBIAN if OF_DEBIAN.exists() else fetched
 
 
-def server(hub: Hub, access: Access) -> HTTPServer:
-    """Return the HTTP server; it does not listen yet."""
+def server(hub: Hub, access: Access, folder: Path) -> HTTPServer:
+    """Return the HTTP server of the page in a folder; it does not listen yet."""
     for name in ("tornado.access", "tornado.general"):
         logging.getLogger(name).setLevel(logging.CRITICAL)  # Anyone could fill the log.
     logging.getLogger("tornado.application").addFilter(_hide_token)
-    folder = Path(rospkg.RosPack().get_path("cockpit")) / "page"
     application = Application(
         [
             ("/", _Index),

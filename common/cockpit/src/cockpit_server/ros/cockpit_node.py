@@ -7,8 +7,10 @@ import socket
 import sys
 import threading
 import time
+from pathlib import Path
 from typing import Callable
 
+import rospkg
 import rospy
 from tornado.ioloop import PeriodicCallback
 
@@ -71,7 +73,8 @@ class Cockpit:
             Turtles(graphs),
         )  # fmt: skip
         self._hub = Hub(pages, driving, sources, log.warn, time)
-        self._server = server(self._hub, access)
+        page = Path(rospkg.RosPack().get_path("cockpit"), "page")
+        self._server = server(self._hub, access, page)
         self.has_lost_master = False
         self._has_ended = threading.Event()
 

@@ -22,16 +22,16 @@ class Arming:
     def __init__(self, armed: bool = True) -> None:
         """Start armed, or wait until everything is released."""
         self.armed = armed
-        self.rests = armed  # whether the newest message has everything released
+        self.released = armed  # whether the newest message has everything released
 
     def lose(self) -> None:
         """Disarm: the joystick or the robot was lost."""
-        self.armed = self.rests = False
+        self.armed = self.released = False
 
-    def hear(self, rests: bool) -> bool:
+    def hear(self, released: bool) -> bool:
         """Take whether a message has everything released; return whether it may move the robot."""
-        self.armed = self.armed or rests
-        self.rests = rests
+        self.armed = self.armed or released
+        self.released = released
         return self.armed
 
 

@@ -15,8 +15,8 @@ import rospy
 from geometry_msgs.msg import Twist
 from rospy.msg import serialize_message
 
+from node_kit.io.newest_only import NewestOnly
 from node_kit.ros.rospy_patches.connections import header_of
-from node_kit.ros.rospy_patches.newest_only import NewestOnly
 from node_kit.rules.arming import ZERO, Velocity
 
 Peers = Dict[Any, NewestOnly]  # by rospy's connection

@@ -15,7 +15,7 @@ from geometry_msgs.msg import Twist
 from sensor_msgs.msg import Joy
 
 from fake_turtlebot_sim.errors import ReplayError
-from fake_turtlebot_sim.io.bag_replay import read_commands, replay, topics_of
+from fake_turtlebot_sim.ros.bag_replay import read_commands, replay, topics_of
 from fake_turtlebot_sim.simulator.differential_drive import Velocity
 from fake_turtlebot_sim.simulator.parameters import SimulatorParameters, parse_parameters
 from fake_turtlebot_sim.simulator.simulated_robot import RobotState
