@@ -170,7 +170,7 @@ def test_without_pypi_only_replay_bag_is_missing(call, bare_system):
     code, first = call("run", "echo", "went on", **offline)
     assert code == 0 and "ERROR" not in first  # Only pip's log has its errors.
     assert "not installed from PyPI: rosbags vermin" in first.replace("\n", " ")
-    assert first.endswith("tutorial: all but replay_bag works without\nwent on\n")
+    assert first.endswith("tutorial: everything except replay_bag works without it\nwent on\n")
     assert call("run", "echo", "went on", **offline) == (0, "went on\n")
 
 

@@ -38,7 +38,7 @@ def student_of(word: str, given: str | None) -> str:
     if not given:
         fail(f"--in: the workspace is missing, for example: ./tutorial {word} --in ~/catkin_ws")
     if word == "doctor" and not Path(given, "src").is_dir():
-        fail(f"doctor: --in {given}: no workspace, it has no folder src")
+        fail(f"doctor: --in {given}: not a workspace, as it has no folder src")
     return os.path.realpath(given)
 
 
@@ -160,7 +160,7 @@ def read(workspace: Path, typed: list[str], confirm: Confirm) -> Plan | None:
         meant = f"; did you mean {near[0]}?" if near else ""
         fail(f'"{word}" is no command{meant}; ./tutorial help lists them')
     if arguments[:1] == ["--in"] and word not in subcommands.WITH_IN:
-        fail(f"{word}: knows no --in; shell, run, doctor and check do")
+        fail(f"{word}: has no --in; shell, run, doctor and check do")
     if word == "ros2":
         return plan_of_ros2(workspace, arguments, confirm)
     return plan(word, arguments)

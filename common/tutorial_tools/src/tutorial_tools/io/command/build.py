@@ -263,7 +263,7 @@ def install_from_pypi(workspace: Path, name: str, requirements: str, kind: str) 
             errors = [line for line in log.read_text().splitlines() if line.startswith("ERROR")]
             print(*errors[:3], sep="\n", file=sys.stderr)
             raise SetUpError(line)
-        say(f"{line}\ntutorial: all but replay_bag works without")
+        say(f"{line}\ntutorial: everything except replay_bag works without it")
         shutil.copyfile(wanted, failed)
 
 

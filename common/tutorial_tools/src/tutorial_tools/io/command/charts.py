@@ -32,7 +32,7 @@ def fetch_charts(workspace: Path, again: bool) -> None:
         with urllib.request.urlopen(URL, timeout=TIMEOUT_S) as answer:
             data = answer.read()
         if hashlib.sha256(data).hexdigest() != SHA256:
-            raise OSError("it is not the file that this suite knows")
+            raise OSError("its checksum is wrong")
         with tarfile.open(fileobj=io.BytesIO(data)) as archive:
             contents = {name: archive.extractfile(f"package/dist/{name}") for name in FILES}
             texts = {name: file.read() for name, file in contents.items() if file}
@@ -40,7 +40,7 @@ def fetch_charts(workspace: Path, again: bool) -> None:
         workspace.mkdir(parents=True, exist_ok=True)
         failed.touch()
         say(f"not fetched: {error}. Check the network, then run ./tutorial setup again")
-        say("all but the curves of the cockpit works without")
+        say("everything except the cockpit's curves works without it")
         return
     folder.mkdir(parents=True, exist_ok=True)
     for name, text in texts.items():
