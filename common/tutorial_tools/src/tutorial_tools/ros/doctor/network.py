@@ -123,7 +123,7 @@ def _receive(
     name = f"{CALLER}_{next(_number)}"
     fields = {"callerid": name, "topic": topic, "md5sum": "*", "type": "*"}
     begin = b""
-    with suppress(OSError, ValueError, TypeError, struct.error):  # late, or the node has exited
+    with suppress(OSError, ValueError, TypeError, struct.error):  # too late, or the node has exited
         _, (_, host, port) = call(node_uri, "requestTopic", topic, [["TCPROS"]])
         with socket.create_connection((host, port), TIMEOUT_S) as connection:
             connection.sendall(rosgraph.network.encode_ros_handshake_header(fields))
