@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Write test/CLAIMS.md from the claims of the tests, or --check it; exit code 1 if one is wrong.
 
-`@claim("sentence")` stands above a test or a class, or is a file's pytestmark; a .mjs file has a
-comment. A second test says why, `because=`, and may begin the sentence only: "Each Joy ...".
+`@claim("sentence")` is above a test or class, or a file's pytestmark; a .mjs file has a comment.
+A second test gives a reason, `because=`, and may shorten the sentence: "Each Joy ...".
 """
 
 import ast
@@ -22,7 +22,7 @@ What the suite promises, and the test that shows it; a second one for what the f
 
 
 def claims_of(test, body, expressions, bare, inherited=False):
-    """Yield (sentence, because, test) of a file, class or test; append those without to bare."""
+    """Yield (sentence, because, test) of a file, class or test; append tests without to bare."""
     expressions = [*expressions, *(node.value for node in body if isinstance(node, ast.Assign))]
     nodes = itertools.chain.from_iterable(map(ast.walk, expressions))
     calls = [node for node in nodes if getattr(getattr(node, "func", None), "id", "") == "claim"]
@@ -50,7 +50,7 @@ def claims_in(path, wrong):
 
 def page(claims, wrong):
     """Return the text of the page; append what is wrong."""
-    shown = {}  # the tests of each sentence
+    shown = {}  # {sentence: its tests}
     for sentence, because, test in sorted(claims, key=lambda claim: bool(claim[1])):
         if not because and sentence in shown:
             wrong.append(f"{test}: another test shows this, too; say because=: {sentence}")

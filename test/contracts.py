@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""Print pyproject.toml for import-linter, with the modules that its contracts are about filled in.
+"""Print pyproject.toml for import-linter, with the modules of its contracts filled in.
 
-Arguments: the folders of the libraries. A contract without source_modules is about all modules
-outside of folders ros and io; one with "io" is about those in io. The checker has its own
+Arguments: the folders of the libraries. A contract without source_modules covers all modules
+outside of folders ros and io; one with "io" covers those in io. The checker has its own
 contracts, by the folders of its pipeline.
 """
 

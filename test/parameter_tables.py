@@ -14,7 +14,7 @@ SOURCES = [
     "common/node_kit/src", "common/gamepad/src", "common/kobuki_protocol/src",
     "common/stand_ins/kobuki_node/src", "fake_turtlebot_sim/src", "joy2twist/src",
 ]  # fmt: skip
-TABLES = [  # README, dataclass; what stands before each name
+TABLES = [  # README, dataclass, prefix of each name
     ("joy2twist/README.md", "joy_to_twist.parameters.Parameters", "~"),
     (
         "fake_turtlebot_sim/README.md",
@@ -55,7 +55,7 @@ def main() -> int:
                 readme.write_text(after)
     if "--check" not in sys.argv or not old:
         return 0
-    print("tables of parameters that are old, which ./tutorial lint --fix renews:", *old)
+    print("tables of parameters are out of date; ./tutorial lint --fix renews:", *old)
     return 1
 
 

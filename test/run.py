@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Run tests: ./tutorial test [KIND|PACKAGE] [ARGUMENT ...], in the environment of the workspace.
 
-What failed is in pytest's caches, one for each kind, and one for what ./tutorial test runs.
+Failed tests are in pytest's caches: one for each kind, and one for a plain ./tutorial test.
 """
 
 import os
@@ -16,10 +16,10 @@ CACHES = Path(os.environ["TUTORIAL_RESULTS"]) / "pytest"
 PYTEST = ["/usr/bin/python3", "-m", "pytest"]
 JOBS = int(os.environ.get("TUTORIAL_JOBS", "2"))  # tests at a time
 NUMBER_OF_INTERRUPT = 130
-TOGETHER = "launch ros system"  # they mostly wait, so they run at the same time
+TOGETHER = "launch ros system"  # they mostly wait, so they run together
 ALL = "all"  # the cache of ./tutorial test
 BRIDGE = "--bridge"  # option of the faults
-MUTATE = CACHES.parent / "mutation/bin/python"  # with the lowest priority, as it takes hours
+MUTATE = CACHES.parent / "mutation/bin/python"  # at the lowest priority, because it takes hours
 BY_GROUP = ("--dist", "loadgroup")
 
 
@@ -28,19 +28,19 @@ def interrupt(number, _):
 
 
 def run(*command):
-    """Run a command in the repository; return its exit code. Ctrl-C reaches it, too."""
+    """Run a command in the repository; return its exit code. Ctrl-C also reaches the command."""
     process = subprocess.Popen(list(map(str, command)), cwd=TESTS.parent)
     try:
         return process.wait()
     except KeyboardInterrupt as error:
-        if error.args == (signal.SIGTERM,):  # which arrives at this process alone
+        if error.args == (signal.SIGTERM,):  # only this process receives it
             process.send_signal(signal.SIGINT)
         process.wait()
         raise
 
 
 def folders(kinds, package="*"):
-    """Return the folders of some kinds of tests, of one package or of all, from the repository."""
+    """Return the folders of these kinds of tests, of one package or all."""
     paths = [path for kind in kinds.split() for path in sorted(TESTS.glob(f"{package}/{kind}"))]
     return [path.relative_to(TESTS.parent) for path in paths]
 
@@ -52,7 +52,7 @@ def within(argument, kinds):
 
 
 def tests(kinds, given, *options, package="*", cache=""):
-    """Run pytest on the folders of some kinds, or on what is named in them; it notes what fails."""
+    """Run pytest on the folders of these kinds, or on given paths; its cache notes what fails."""
     given = [path for argument in given for path in within(argument, kinds)]
     is_named = any(Path(argument).parts[:1] == ("test",) for argument in given)
     where = [] if is_named else folders(kinds, package)
@@ -61,30 +61,30 @@ def tests(kinds, given, *options, package="*", cache=""):
 
 
 def run_all(_):
-    """Run unit tests, then the others at once."""
-    shutil.rmtree(CACHES / ALL, ignore_errors=True)  # a killed run may have left some
+    """Run the unit tests, then the others together."""
+    shutil.rmtree(CACHES / ALL, ignore_errors=True)  # a killed run may have left one
     options = os.environ.get("TUTORIAL_UNIT", f"-n {JOBS}").split()  # .ci/run sets it
     failed = tests("unit", options, cache=ALL)
     return tests(TOGETHER, [], "-n", 5 * JOBS, *BY_GROUP, cache=ALL) or failed
 
 
 def again(given):
-    """Run what failed of all once more, one by one: there may be less beside it."""
+    """Run what failed once more, one by one, with less load."""
     if not (CACHES / ALL).exists():
         sys.exit("tutorial: test again: first run ./tutorial test to its end")
-    # Distributed as before, so that a test of a group has the same name, and nothing else runs.
+    # Distributed as before, so that tests of a group keep their names and nothing else runs.
     only = ["--last-failed", "--last-failed-no-failures", "none", "-n", "1", *BY_GROUP]
     return tests(f"unit {TOGETHER}", given, *only, cache=ALL)
 
 
 def quick(package, given):
-    """Run what is quick about a package."""
+    """Run the quick tests of a package."""
     options = ["-n", 2 * JOBS, *BY_GROUP, "-m", "not night and not long"]
     return tests(f"unit {TOGETHER}", given, *options, package=package, cache=package)
 
 
 def faults(arguments):
-    """Hit the live system with random faults; with --bridge the one between ROS 1 and ROS 2."""
+    """Cause random faults in the live system; with --bridge, in the bridge to ROS 2."""
     if BRIDGE not in arguments:
         return run("/usr/bin/python3", "-m", "tutorial_faults.live.hunt", *arguments)
     rest = [argument for argument in arguments if argument != BRIDGE]
@@ -94,10 +94,10 @@ def faults(arguments):
 
 KINDS = {
     "": run_all,
-    # Several at a time; with arguments in turn, so that -s shows what they print.
+    # Several at a time; with arguments one by one, so that -s shows their output.
     "unit": lambda given: tests("unit", given or ["-n", str(JOBS)]),
     "launch": lambda given: tests("launch", given, "-n", JOBS),
-    # More at a time: they wait more than they work.
+    # More at a time, because they mostly wait.
     "ros": lambda given: tests("ros", given, "-n", 2 * JOBS),
     "exercises": lambda given: tests("exercises", given, "-n", 4 * JOBS),
     "system": lambda given: tests("system", given, "-n", JOBS + 2, *BY_GROUP),
@@ -121,7 +121,7 @@ def main():
     try:
         code = KINDS[what](arguments) if what in KINDS else quick(what, arguments)
     except KeyboardInterrupt:
-        shutil.rmtree(CACHES / ALL, ignore_errors=True)  # what failed is not known
+        shutil.rmtree(CACHES / ALL, ignore_errors=True)  # it does not know what failed
         print("tutorial: test: interrupted", file=sys.stderr)
         sys.exit(NUMBER_OF_INTERRUPT)
     if code and what not in ("again", "faults", "bench"):

@@ -1,4 +1,4 @@
-"""The course that COURSES.md begins with, copied from the page: a right and a wrong program."""
+"""The first course of COURSES.md, copied from the page, judges a right and a wrong program."""
 
 import re
 import subprocess
@@ -26,7 +26,7 @@ rospy.spin()
 
 @pytest.fixture
 def report(tmp_path):
-    """report(text of greeter.py): (exit code, report) by the page's own two files."""
+    """report(text of greeter.py): check it with the page's two files; (exit code, report)."""
 
     def check(program):
         for language, name in (("yaml", "course.yaml"), ("python", "greetings.py")):

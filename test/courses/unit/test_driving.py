@@ -1,4 +1,4 @@
-"""What is said of joy2twist from recorded facts, where no program shows it reliably."""
+"""Diagnoses of joy2twist from recorded facts that no program produces reliably."""
 
 from types import SimpleNamespace
 
@@ -35,7 +35,7 @@ LATCHED = "from sensor_msgs.msg import Joy\npub = rospy.Publisher('/cmd_vel', Tw
 
 
 def answers_with(*kinds):
-    """All Twists, if each answer comes with these."""
+    """All Twists, if these precede each answer."""
     return [twist for answer in ANSWERS for twist in [*kinds, answer]]
 
 
@@ -49,7 +49,7 @@ def connected(publishers=("/node",), kind="geometry_msgs/Twist", topic=CMD_VEL):
 
 
 def node(text, connections=None, stray_zeros=0, verdict=None, **numbered):
-    """A node with a program of that text, of which this was recorded."""
+    """A node whose program has this text, with these recorded facts."""
     about_files = {"scripts": lambda _: {SCRIPT: PythonFacts(text)}, "text": lambda *_: text}
     run = Joy2TwistRun(
         SCRIPT,
@@ -90,11 +90,11 @@ def test_recorded_facts_that_are_right_have_none(diagnoses, recorded):
 
 
 @pytest.mark.parametrize(("twists", "expected"), [
-    ([], (1, False)),  # there was no second pass
-    ([*answers_with(), ZERO], (1, False)),  # a late one of before
+    ([], (1, False)),  # no second pass was recorded
+    ([*answers_with(), ZERO], (1, False)),  # a late Twist from before
     (answers_with(ZERO, ZERO), (3, True)),
-    (sorted(2 * ANSWERS)[1:], (2, False)),  # each of the second ones late
-    ([*answers_with(), *10 * [ZERO]], (1, False)),  # by now and then
+    (sorted(2 * ANSWERS)[1:], (2, False)),  # every second Twist is late
+    ([*answers_with(), *10 * [ZERO]], (1, False)),  # zeros sent now and then
 ])  # fmt: skip
 def test_how_often_each_twist_comes(twists, expected):
     assert repetition(ANSWERS, twists) == expected

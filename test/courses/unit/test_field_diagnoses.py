@@ -1,4 +1,4 @@
-"""From pairs of Joy and Twist to the rule, in words; what no program of exercises/ shows."""
+"""From pairs of Joy and Twist to the rule in words, where no program of exercises/ shows it."""
 
 import pytest
 
@@ -26,7 +26,7 @@ NAN, INF = float("nan"), float("inf")
 
 
 def evidence(text):
-    """Of a program that answers the Joys: linear.x, angular.z, linear.y, by their axes."""
+    """Evidence of a program that answers Joys; text: its linear.x, angular.z and linear.y."""
     convert = eval(f"lambda a: ({text})")
     values = [(axes, (*convert(axes), 0.0)) for axes in AXES]
     return Evidence([(axes, (x, y, 0.0, 0.0, 0.0, z)) for axes, (x, z, y, *_) in values])
@@ -47,7 +47,7 @@ def test_the_rule_is_found_and_named(text, wrong, remark):
     kind = Wrong if wrong else Note if remark else type(None)
     assert isinstance(verdict, kind)
     assert verdict is None or (wrong or remark) in verdict.seen
-    # The recorder sends probes to a program whose rule is right, without asking a diagnosis.
+    # The recorder sends probes to a program with a right rule, without asking for a diagnosis.
     assert evidence(text).is_right == (not wrong)
 
 
@@ -71,8 +71,8 @@ def test_the_recorder_and_the_diagnoses_of_probes_agree(text, wrong):
 
 
 @pytest.mark.parametrize(("sent", "received", "factor", "found"), [
-    ([1.0, 1.1], [(1.0, NAN), (1.0, INF), (1.5, 0.3)], 1.0, [0.5]),  # no number answers no Joy
-    ([1.0, 3.0], [(1.1, 0.305)], 1.0, []),  # the value of a Joy yet to come
+    ([1.0, 1.1], [(1.0, NAN), (1.0, INF), (1.5, 0.3)], 1.0, [0.5]),  # NaN answers no Joy
+    ([1.0, 3.0], [(1.1, 0.305)], 1.0, []),  # the value of a later Joy
     ([1.0, 2.0], [(1.5, 0.01), (2.25, 0.02)], None, [0.5, 0.25]),
 ])  # fmt: skip
 def test_which_twist_answers_which_joy(sent, received, factor, found):

@@ -1,4 +1,4 @@
-"""What is said of talker and listener from recorded facts, where no program shows it reliably."""
+"""Diagnoses of talker and listener from recorded facts that no program produces reliably."""
 
 from dataclasses import replace
 
@@ -29,7 +29,7 @@ RIGHT = Talk(
 
 @pytest.fixture
 def asked(make_submission):
-    """asked(check, text, **recorded): what a check says of a program of that text, or raises."""
+    """asked(check, text, **recorded): run a check on a program with this text; it may raise."""
     submission = make_submission(BEGINNER, "3")
 
     def ask(check, text, **recorded):
@@ -50,7 +50,7 @@ def printed(output):
     (judge.talker, TALKER + "while True: pass", TORRENT, "thousands of messages"),
     (judge.listener, LISTENER, {"listener": printed(STRINGS[0])}, "1 of 5 displayed"),
     (judge.graph, "", {}, "no such connection in the graph"),
-    # C9 and C10 look again, and talker and listener do not come as far as they did before.
+    # C9 and C10 run the programs again, which then do not get as far as before.
     (judge.anonymous, TALKER, {}, "not one message"),
     (judge.ctrl_c, TALKER, ENDED, "it ended, exit code"),
 ])  # fmt: skip

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The least that a rospy node can do to publish the simulation's three messages at 50 Hz."""
+"""The minimum in rospy to publish the simulation's three messages at 50 Hz."""
 
 import rospy
 from geometry_msgs.msg import TransformStamped

@@ -1,4 +1,4 @@
-"""Runs nodes beside an observer of their topics, or a probe, on a master of their own."""
+"""Run nodes together with an observer of their topics, or a probe, on a separate master."""
 
 import json
 import os
@@ -52,21 +52,21 @@ def observe(commands, topics, seconds):
         nodes = [stack.enter_context(running(command, **QUIET)) for command in commands]
         watcher = stack.enter_context(running(observer, stdout=subprocess.PIPE, text=True))
         assert watcher.stdout.readline().strip() == "ready"
-        began_s, before_s = time.monotonic(), [processor_time(one.pid) for one in nodes]
+        began_s, before_s = time.monotonic(), [processor_time(node.pid) for node in nodes]
         heard = json.loads(watcher.stdout.readline())
         took_s = time.monotonic() - began_s
-        used_s = [processor_time(one.pid) - b for one, b in zip(nodes, before_s)]
-    return heard, [each_s / took_s for each_s in used_s]
+        used_s = [processor_time(node.pid) - b for node, b in zip(nodes, before_s)]
+    return heard, [node_s / took_s for node_s in used_s]
 
 
 def delays(kind, rate, count):
-    """Return how long each message of probe.py took until it was answered [s], in order of size."""
+    """Return the times [s] until each message of probe.py was answered, sorted."""
     with probing(kind, rate, count) as probe:
         return json.loads(probe.stdout.readline())
 
 
 def delays_and_processor(kind, rate, count, pid):
-    """Return (delays, processor time [s] that the process took for each of these messages)."""
+    """Return (delays, processor time [s] of the process per message)."""
     with probing(kind, rate, count) as probe:
         before_s = processor_time(pid)
         took_s = json.loads(probe.stdout.readline())
@@ -75,7 +75,7 @@ def delays_and_processor(kind, rate, count, pid):
 
 @contextmanager
 def probing(kind, rate, count):
-    """Run probe.py, as soon as all is connected and warm."""
+    """Run probe.py, and yield it when everything is connected and warm."""
     command = [sys.executable, str(HERE / "probe.py"), kind, str(rate), str(count)]
     with running(command, stdout=subprocess.PIPE, text=True) as probe:
         assert probe.stdout.readline() == "ready\n"
@@ -95,6 +95,7 @@ def topics_of(count, *names):
 
 
 def lost_periods(heard):
-    """Return how many periods of 50 Hz the stamps of all topics leave out."""
-    pairs = [pair for one in heard.values() for pair in zip(one["stamps"], one["stamps"][1:])]
+    """Return how many periods of 50 Hz are missing in the stamps of all topics."""
+    series = [record["stamps"] for record in heard.values()]
+    pairs = [pair for stamps in series for pair in zip(stamps, stamps[1:])]
     return sum(round((b - a) / PERIOD_NS) - 1 for a, b in pairs)

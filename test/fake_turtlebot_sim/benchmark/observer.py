@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""Subscribes to topics for a while and prints what came, as JSON.
+"""Subscribe to topics for a while and print what arrived, as JSON.
 
     observer.py SECONDS TOPIC ...
 
-For each topic: {"stamps": [ns], "arrivals": [ns, monotonic]}. Messages are not decoded, as that
-would take more time than the simulation: of each only the stamp is read from the bytes.
+For each topic: {"stamps": [ns], "arrivals": [ns, monotonic]}. Only the stamp is read from the
+bytes: decoding the messages would take more time than the simulation does.
 """
 
 import json
@@ -14,7 +14,7 @@ import time
 
 import rospy
 
-# These begin with a Header: seq, secs, nsecs. TFMessage has a length before.
+# These begin with a Header: seq, secs, nsecs. In TFMessage a length comes first.
 HEADED = ("nav_msgs/Odometry", "sensor_msgs/JointState", "kobuki_msgs/SensorState")
 STAMP = {**dict.fromkeys(HEADED, 4), "tf2_msgs/TFMessage": 8}
 

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""Times numbered messages until each is answered. probe.py KIND RATE COUNT -> JSON: times [s].
+"""Time numbered messages until each is answered. probe.py KIND RATE COUNT -> JSON: times [s].
 
-A line "ready" comes before, when all is connected and warm.
+It first prints "ready", when everything is connected and warm.
 
-KIND: joy, which a Twist answers; cmd_vel, which an Odometry answers; or page:PORT:TOKEN, for the
-inputs of a page of the cockpit, which a Twist answers.
+KIND: joy or, for inputs of a cockpit page, page:PORT:TOKEN, both answered by a Twist; or cmd_vel,
+answered by an Odometry.
 """
 
 import gc
@@ -19,11 +19,11 @@ from sensor_msgs.msg import Joy
 
 from tutorial_testing.socket_page import SocketPage
 
-# Of the stick or the speed: the first, and from each message to the next. Exact as float32.
+# Stick or speed: the first value, and the step between messages; exact as float32.
 FIRST, STEP = 2.0**-3, 2.0**-14
 WARM_PERIOD_S = 0.02
 kind, rate, count = sys.argv[1], float(sys.argv[2]), int(sys.argv[3])
-heard_s = {}  # when the answer to each number came
+heard_s = {}  # time of the answer to each number
 
 
 def hand(number, held):
@@ -56,14 +56,14 @@ def fill_twist(twist, number, held):
 
 
 def of_page(port, token):
-    """Return a function (number, held) of a page that drives; it sits down again where it must."""
+    """Return a function (number, held) of a page that drives; it takes the seat again if needed."""
     page = SocketPage(port, token).__enter__()
-    page.wait_for("drives", lambda message: not message["refusal"])  # it has found the robot
+    page.wait_for("drives", lambda message: not message["refusal"])  # the page knows the robot
 
     def send(number, held=1):
         sessions = page.of("session")
         if not (sessions and sessions[-1]["yours"] and sessions[-1]["armed"]):
-            page.sit_down()  # at first, and where a busy machine has lost the operator
+            page.sit_down()  # at first, and when a busy machine has lost the operator
             page.hand = None
         page.say(**page.input(*hand(number, held)))
 
@@ -83,10 +83,10 @@ else:
     rospy.Subscriber("cmd_vel", Twist, answered, tcp_nodelay=True)
     ask = of_page(*kind.split(":")[1:]) if ":" in kind else publishing("joy", Joy, fill_joy)
 gc.freeze()
-for _ in range(10):  # released first: a node that arms waits for that
+for _ in range(10):  # released first, for a node with arming
     ask(0, held=0)
     time.sleep(WARM_PERIOD_S)
-while count + 1 not in heard_s:  # all is connected and warm
+while count + 1 not in heard_s:  # until everything is connected and warm
     ask(count + 1)
     time.sleep(WARM_PERIOD_S)
 print("ready", flush=True)
@@ -99,5 +99,5 @@ deadline_s = time.monotonic() + 5
 while count not in heard_s and time.monotonic() < deadline_s:
     time.sleep(0.01)
 if count not in heard_s:
-    sys.exit("probe.py: the newest is not answered")
+    sys.exit("probe.py: the last message was not answered")
 print(json.dumps(sorted(heard_s[n] - when for n, when in sent_s.items() if n in heard_s)))

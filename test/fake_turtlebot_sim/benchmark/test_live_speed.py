@@ -1,4 +1,4 @@
-"""The running node: rate, jitter, latency, processor time; beside a bare rospy node."""
+"""The running node: rate, jitter, latency, processor time; compared with a bare rospy node."""
 
 import live
 import numpy as np
@@ -9,7 +9,7 @@ from tutorial_testing.claims import claim
 
 pytestmark = claim("The simulator's figures, of a class that scans too")
 MESSAGES = ["/odom", "/tf", "/joint_states"]
-BEAMS, ROBOTS, SECONDS, MOST_LOAD = 640, 30, 20, 0.3  # A whole class scans.
+BEAMS, ROBOTS, SECONDS, MOST_LOAD = 640, 30, 20, 0.3  # a whole class that scans
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -23,7 +23,7 @@ def test_a_minute_of_one_robot(figure):
     stamps = np.array(heard["/odom"]["stamps"])
     elapsed_ns = stamps - stamps[0]
     rate = (len(stamps) - 1) / (elapsed_ns[-1] * 1e-9)
-    # How far each stamp is from a grid of exact periods, laid through the middle of them.
+    # The distance of each stamp from a grid of exact periods through their median.
     off = elapsed_ns - np.rint(elapsed_ns / PERIOD_NS) * PERIOD_NS
     jitter_ms = np.quantile(np.abs(off - np.median(off)), 0.99) * 1e-6
     gap_ms = max(np.diff(heard["/odom"]["arrivals"]).max(), np.diff(stamps).max()) * 1e-6
@@ -37,7 +37,7 @@ def test_a_minute_of_one_robot(figure):
 
 def test_a_new_command_shows_at_once(figure):
     with live.running(FAKE_TURTLEBOT):
-        took_s = live.delays("cmd_vel", 13.7, 200)  # any moment of the period
+        took_s = live.delays("cmd_vel", 13.7, 200)  # at any moment of the period
     median_ms, worst_ms = np.quantile(took_s, [0.5, 0.99]) * 1e3
     what = "command to /odom, median and 99 of 100"
     figure(what, f"{median_ms:.1f}, {worst_ms:.1f} ms", "≤ 25 ms")
@@ -46,7 +46,7 @@ def test_a_new_command_shows_at_once(figure):
 
 def test_processor_time_beside_a_bare_node(figure):
     ours_s = bare_s = 0.0
-    for _ in range(2):  # by turns, so that what else the machine does hits both
+    for _ in range(2):  # alternating, so that other load affects both
         bare_s += observe([BARE_NODE], MESSAGES, 20)[1][0]
         ours_s += observe([FAKE_TURTLEBOT], [*MESSAGES, "/diagnostics"], 20)[1][0]
     ratio = ours_s / bare_s
@@ -69,8 +69,8 @@ def test_growth_with_the_number_of_robots(figure):
 def test_a_class_that_scans_in_the_maze(figure):
     robots = [*FAKE_TURTLEBOT, "_world:=maze", f"_robots:={ROBOTS}"]
     heard, (load,) = observe([robots], topics_of(ROBOTS, "odom", "scan"), SECONDS)
-    lost = lost_periods({one: heard[one] for one in topics_of(ROBOTS, "odom")[1:]})
-    rate = sum(len(heard[one]["arrivals"]) for one in topics_of(ROBOTS, "scan")[1:]) / SECONDS
+    lost = lost_periods({name: heard[name] for name in topics_of(ROBOTS, "odom")[1:]})
+    rate = sum(len(heard[name]["arrivals"]) for name in topics_of(ROBOTS, "scan")[1:]) / SECONDS
     shown = f"{rate:,.0f} scans a second, {lost} periods lost, {load:.0%} of a core"
     figure(f"{ROBOTS} robots that scan with {BEAMS} beams in the maze", shown, "0 lost, ≤ 30 %")
     assert lost == 0

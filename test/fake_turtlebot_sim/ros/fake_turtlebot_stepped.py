@@ -1,6 +1,6 @@
-"""Commands in, pose out, step by step: the test is the source of /clock, so no machine is late.
+"""From commands to the pose, step by step; the test publishes /clock, so no machine is too slow.
 
-A step is over when the odometry with its stamp has come.
+A step ends when the odometry with its stamp arrives.
 """
 
 from math import cos, dist, nan, pi, sin
@@ -21,11 +21,11 @@ from tutorial_testing.waiting import wait_for
 
 PERIOD_NS = 20_000_000
 START = (1.0, -2.0, pi / 2)
-BACK_NS, COAST_M = 10 * 10**9, 0.7 * 0.6  # a jump of time; the farthest that it carries the robot
+BACK_NS, COAST_M = 10 * 10**9, 0.7 * 0.6  # a jump of time, and how far the robot coasts in it
 
 
 def after(v, w, seconds):
-    """The pose after an arc from the start."""
+    """Return the pose after an arc from the start."""
     ahead, left = v / w * sin(w * seconds), v / w * (1 - cos(w * seconds))
     return START[0] - left, START[1] + ahead, START[2] + w * seconds
 
@@ -47,7 +47,7 @@ class SteppedRobotTest(RosTest):
     def test_it_is_limited_stops_by_itself_is_put_elsewhere_and_bears_a_clock_set_back(self):
         transforms = self.record("/tf", TFMessage)
         told, truths = (self.record(one, Odometry) for one in ("odom", "base_pose_ground_truth"))
-        # When the robot is connected to /clock is unknown: time goes on until it answers.
+        # The test does not know when the robot connects to /clock: time goes on until it answers.
         wait_for(lambda: self.tell(PERIOD_NS) or (self.robot.odometry and truths), "odometry")
         self.check_a_drive(told, truths)
         self.assertEqual(transforms, [])  # ~publish_tf is false
@@ -55,11 +55,11 @@ class SteppedRobotTest(RosTest):
         self.check_clock()
 
     def check_a_drive(self, told, truths):
-        self.command(1.4, 1.0, (0.7, 0.5))  # the radius stays
+        self.command(1.4, 1.0, (0.7, 0.5))  # scaled down, with the same radius
         self.step(0.2)
-        self.command(nan, 0.0, (0.7, 0.5))  # neither obeyed nor a sign of life
+        self.command(nan, 0.0, (0.7, 0.5))  # ignored; it does not feed the timeout either
         self.step(1.0)
-        # Wheels of 0.8 and 1.2 of nominal, 0.2 m apart: in truth 0.52 and 0.9 m/s.
+        # Wheels of 0.8 and 1.2 times the nominal radius, 0.2 m apart, truly drive 0.52 and 0.9 m/s.
         for messages, arc in ((told, (0.7, 0.5)), (truths, (0.71, 1.9))):
             self.check_near(Moment.of(self.newest(messages)).pose, after(*arc, 0.6))
         self.assertFalse(self.robot.moves)
@@ -99,7 +99,7 @@ class SteppedRobotTest(RosTest):
         self.command(0.7, 0.0)
         begin = self.robot.now
         at = begin
-        self.tell(-BACK_NS)  # it answers with that very stamp, and keeps its pose
+        self.tell(-BACK_NS)  # it answers with this stamp and keeps its pose
         self.wait_for_answer()
         self.assertEqual(self.robot.now.pose, at.pose)
         self.step(0.1)  # each period is published again
@@ -110,7 +110,7 @@ class SteppedRobotTest(RosTest):
         self.assertFalse(self.robot.now.moves)
 
     def tell(self, later_ns):
-        """Let time go on, or back; nobody need answer."""
+        """Let time go on, or back, without waiting for an answer."""
         self.now_ns += later_ns
         self.clock.publish(Clock(rospy.Time(0, self.now_ns)))
 
@@ -139,14 +139,14 @@ class SteppedRobotTest(RosTest):
         self.reach(shown or (v, w), "velocity")
 
     def newest(self, messages):
-        """Return the message of a topic that is of now."""
+        """Return the current message of a topic."""
         stamp = self.robot.now.stamp
         is_there = lambda: messages and messages[-1].header.stamp.to_sec() == stamp  # noqa: E731
         return wait_for(is_there, "message of now") and messages[-1]
 
     def check_near(self, pose, expected):
-        for value, one in zip(pose, expected):
-            self.assertAlmostEqual(value, one, delta=1e-9)
+        for value, wanted in zip(pose, expected):
+            self.assertAlmostEqual(value, wanted, delta=1e-9)
 
     def warnings(self):
         return [line.msg for line in self.log if line.level >= Log.WARN]

@@ -1,4 +1,4 @@
-"""A Kobuki on a pseudo terminal: a device without a master, and what one sees of it."""
+"""A Kobuki on a pseudo terminal: it needs no master, and appears at any that runs."""
 
 import os
 import subprocess
@@ -81,7 +81,7 @@ class SerialKobukiTest(RosTest):
             with self.assertRaises(EOFError):
                 wait_for(lambda: driver.read() and False, "end of the line")
         self.assertFalse(os.path.lexists(device.port))
-        os.mkdir(device.port)  # in the way
+        os.mkdir(device.port)  # a folder in the place of the link
         call_service("plug_in", SetBool, True)
         device.wait_for_line("File exists")
         os.rmdir(device.port)

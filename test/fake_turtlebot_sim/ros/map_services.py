@@ -1,4 +1,4 @@
-"""The map's topics and services, as map_server has them."""
+"""The map's topics and services, like those of map_server."""
 
 import rospy
 from nav_msgs.msg import MapMetaData, OccupancyGrid
@@ -10,11 +10,11 @@ from tutorial_testing.rostests import RosTest
 from tutorial_testing.waiting import wait_for
 
 ABOUT = "resolution: 0.05\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n"
-FAILURE = 255  # map_server's only one
+FAILURE = 255  # map_server has no other
 
 
 def write_map(folder, name, size):
-    """Write a square map, free but for its first row; return the path of its YAML file."""
+    """Write a square map that is free except for its first row; return its YAML file."""
     shades = bytes(size) + b"\xfe" * (size * (size - 1))
     (folder / f"{name}.pgm").write_bytes(b"P5 %d %d 255\n" % (size, size) + shades)
     path = folder / f"{name}.yaml"
@@ -44,7 +44,7 @@ class MapServicesTest(RosTest):
         self.assertEqual(change_map(str(second)).result, 0)
         check(50)
         self.assertEqual(grids[-1].header.frame_id, "map")
-        for path in (folder / "third.yaml", f"file://{first}"):  # map_server takes a path, too
+        for path in (folder / "third.yaml", f"file://{first}"):  # map_server accepts a path, too
             self.assertEqual(change_map(str(path)).result, FAILURE)
             words = f"change_map: {path}: cannot be read: No such file"
             wait_for(lambda words=words: any(words in log.msg for log in list(logs)), words)

@@ -1,6 +1,6 @@
-"""The whole of minimal.launch, seen from outside as a TurtleBot 2 in a room is.
+"""minimal.launch as a whole, seen from outside like a TurtleBot 2 in a room.
 
-Its topics; map, scan, bumpers, frames, and the way back from a wall; the mux after a suspension.
+Topics, map, scan, bumpers and frames; the way back from a wall; the mux after a suspension.
 """
 
 import functools
@@ -27,7 +27,7 @@ from tutorial_testing.rostests import RosTest
 from tutorial_testing.waiting import Stopwatch, wait_for
 
 BASE, MUX = "/mobile_base", "/cmd_vel_mux"
-KOBUKI = {  # below /mobile_base: the type in kobuki_msgs
+KOBUKI = {  # below /mobile_base, with the type in kobuki_msgs
     "events/bumper": "BumperEvent", "events/button": "ButtonEvent", "events/cliff": "CliffEvent",
     "events/digital_input": "DigitalInputEvent", "events/power_system": "PowerSystemEvent",
     "events/robot_state": "RobotStateEvent", "events/wheel_drop": "WheelDropEvent",
@@ -58,10 +58,10 @@ TOPICS = {
 }
 TURN = Twist(Vector3(0.2, 0.01, 0.02), Vector3(0.03, 0.04, 0.5))
 AT_THE_WALL = 4.0 - 0.178  # x of the robot's middle [m]
-BEHIND_M = 0.087  # by which the camera is behind the robot's middle
+BEHIND_M = 0.087  # distance of the camera behind the robot's middle
 LONGEST_PUSH_S = 0.5
 OUTAGE_S = 1.0
-BACKLOG = ([0.3] * 500 + [0.0] * 500) * 3 + [0.3] * 500  # [m/s], more than is read at once
+BACKLOG = ([0.3] * 500 + [0.0] * 500) * 3 + [0.3] * 500  # [m/s], more than one read takes
 
 
 def ahead(speed):
@@ -75,9 +75,9 @@ class MinimalTest(RosTest):
         markers, frames = self.record("world_markers", MarkerArray), {}
 
         def on_tf(message):
-            for one in message.transforms:
-                x = round(one.transform.translation.x, 6)
-                frames[one.header.frame_id, one.child_frame_id] = x
+            for link in message.transforms:
+                x = round(link.transform.translation.x, 6)
+                frames[link.header.frame_id, link.child_frame_id] = x
 
         for topic in ("/tf", "/tf_static"):
             self.hear(topic, TFMessage, on_tf)
@@ -92,7 +92,7 @@ class MinimalTest(RosTest):
 
     @claim("A bumped robot backs off and turns away", because="end to end")
     def test_2_at_the_wall_it_backs_off_however_the_stick_is_held(self):
-        events, unmeasured = [], set()  # (when, event); ranges that are no numbers
+        events, unmeasured = [], set()  # (time, event); ranges that are not numbers
         truths = self.record("base_pose_ground_truth", Odometry)
         shown = self.record("bumper_markers", MarkerArray)
         self.hear(
@@ -101,7 +101,7 @@ class MinimalTest(RosTest):
         )  # fmt: skip
         self.hear(
             "scan", LaserScan,
-            lambda scan: unmeasured.update(str(one) for one in scan.ranges if not isfinite(one)),
+            lambda scan: unmeasured.update(str(r) for r in scan.ranges if not isfinite(r)),
         )  # fmt: skip
         teleop = self.connected("cmd_vel_mux/input/teleop", Twist, queue_size=1)
 
@@ -117,7 +117,7 @@ class MinimalTest(RosTest):
         pushes = [off - on for (on, _), (off, _) in zip(events[::2], events[1::2])]
         self.assertLess(max(pushes), LONGEST_PUSH_S + watch.lost_s)
         self.assertTrue(shown)
-        self.assertEqual(unmeasured, {"nan"})  # at the wall, as on a real TurtleBot
+        self.assertEqual(unmeasured, {"nan"})  # at the wall, like on a real TurtleBot
         drive(-0.5, lambda: truths[-1].pose.pose.position.x < 3.0, "way back, by the stick")
 
     def test_3_it_has_the_topics_of_a_turtlebot_2(self):
@@ -133,7 +133,7 @@ class MinimalTest(RosTest):
             ]
 
         wait_for(lambda: not missing(), "topics of a TurtleBot 2")
-        # The base subscribes to the mux alone.
+        # The base subscribes only to the mux.
         self.assertNotIn("/cmd_vel", dict(master.getTopicTypes()))
 
     def test_4_the_base_has_encoders_imu_motors_and_buttons_of_a_kobuki(self):
@@ -144,7 +144,7 @@ class MinimalTest(RosTest):
         navi = self.connected("cmd_vel_mux/input/navi", Twist)
         motors = self.connected("mobile_base/commands/motor_power", MotorPower)
         press = self.connected("mobile_base/press", ButtonEvent)
-        robot.wait_for_rest()  # after the test before
+        robot.wait_for_rest()  # after the previous test
         core.clear()
         wait_for(lambda: core and imu, "first messages")
 
@@ -191,7 +191,7 @@ class MinimalTest(RosTest):
         self.assertEqual((info.type, info.p_gain, info.i_gain, info.d_gain), (0, 100.0, 0.1, 2.0))
 
         def pairs():
-            stamps = [one.header.stamp.to_nsec() for one in list(raw)]
+            stamps = [reading.header.stamp.to_nsec() for reading in list(raw)]
             return sum(b - a == 10_000_000 for a, b in zip(stamps, stamps[1:]))
 
         wait_for(lambda: pairs() >= 10, "pairs of readings, 10 ms apart")
@@ -219,11 +219,11 @@ class MinimalTest(RosTest):
             ends_s = time.monotonic() + OUTAGE_S
             for speed in BACKLOG:
                 teleop.publish(ahead(speed))
-            # All of it on its way: what a busy machine sends afterwards is of then, and not late.
-            waits = lambda: any(one._queue for one in teleop.impl.connections)  # noqa: E731
+            # All must be sent by now: what a busy machine sends later would not be late.
+            waits = lambda: any(link._queue for link in teleop.impl.connections)  # noqa: E731
             wait_for(lambda: not waits(), "end of sending")
             wait_for(lambda: time.monotonic() > ends_s, "end of the outage")
         wait_for(lambda: any("suspended" in line.msg for line in log), "warning that it was")
         wait_for(lambda: teleop.publish(ahead(0.4)) or driven[-1] == 0.4, "a command of now")
-        # What was sent before it on the same connection was also received before it.
+        # On one connection, earlier messages arrive earlier.
         self.assertEqual(set(driven), {0.2, 0.0, 0.4})

@@ -1,4 +1,4 @@
-"""Two TurtleBots in groups: each is driven by its own topics, and has its own frames and place."""
+"""Two TurtleBots in groups: each has its own topics, frames and starting place."""
 
 from geometry_msgs.msg import Twist, Vector3
 from sensor_msgs.msg import LaserScan
@@ -38,8 +38,10 @@ class TwoTurtlebotsTest(RosTest):
         scans = self.record("/tb2/laser", LaserScan)
 
         def links():
-            found = [one for of in both for message in list(of) for one in message.transforms]
-            return {(one.header.frame_id, one.child_frame_id) for one in found}
+            transforms = [
+                link for sent in both for message in list(sent) for link in message.transforms
+            ]
+            return {(link.header.frame_id, link.child_frame_id) for link in transforms}
 
         wanted = {
             (prefix + parent, prefix + child)

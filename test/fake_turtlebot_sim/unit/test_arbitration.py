@@ -1,4 +1,4 @@
-"""Programs that are obeyed; the machine Mux of test_stateful.py judges any commands."""
+"""Programs that the mux obeys; TestMux in test_stateful.py covers arbitrary commands."""
 
 import pytest
 
@@ -7,7 +7,7 @@ from fake_turtlebot_sim.mux.parameters import Input
 from tutorial_testing.claims import claim
 
 INPUTS = (Input("navi", "navi", 1.0, 5), Input("safety", "safety", 0.2, 10),
-          Input("teleop", "teleop", 1.0, 7))  # their order means nothing  # fmt: skip
+          Input("teleop", "teleop", 1.0, 7))  # their order has no meaning  # fmt: skip
 HERE, FAR = PublishingNode("/here"), PublishingNode("/far", is_remote=True)
 
 
@@ -25,7 +25,7 @@ def test_the_highest_input_that_is_not_silent_drives():
 
 
 class Running:
-    """An Arbiter that is looked at in time, as the node does; what goes through, and when."""
+    """An Arbiter asked in time, as the node does; through: the commands that pass, with times."""
 
     def __init__(self):
         self.arbiter, self.through, self._now = Arbiter(INPUTS), [], 0.0
@@ -44,11 +44,11 @@ class Running:
 
 
 def key(delay_s):
-    """Times [s] at which a held key sends: at once, after the delay, then repeated."""
+    """Return the times [s] at which a held key sends: at once, after the delay, then repeated."""
     return [0.0] + [delay_s + k / 30 for k in range(30)]
 
 
-# When an ordinary program sends, and never a zero.
+# Times at which ordinary programs send; they never send a zero.
 PROGRAMS = {
     "1 Hz": [float(k) for k in range(20)],
     "10 Hz, a busy machine": [k / 10 + 0.7 * (k > 50) for k in range(100)],
@@ -77,15 +77,15 @@ def test_of_two_that_waited_only_the_higher_drives():
 
 
 def test_of_this_host_none_is_late():
-    """The safety controller sends what it must, when it must, and falls silent."""
+    """The safety controller sends only when it must, then falls silent."""
     running = Running()
     for now in (0.0, 5.0, 5.001, 5.002):
         assert running.send(0.1, now, HERE) is Ruling.OBEYED
 
 
 def test_what_one_sender_left_is_not_held_against_the_next():
-    """A program that is ended in the middle of a motion and restarted drives at once."""
+    """A program that exits during a motion and restarts drives at once."""
     running, restarted = Running(), PublishingNode("/rostopic_2", is_remote=True)
     assert running.send(0.2, 0.0) is running.send(0.2, 5.0, restarted) is Ruling.OBEYED
     assert running.arbiter.command("teleop", (0.2,), 5.1, FAR) is Ruling.WAITS
-    assert running.arbiter.active(9.0) == IDLE  # what waits, or is late, keeps nobody active
+    assert running.arbiter.active(9.0) == IDLE  # late and waiting commands keep no input active

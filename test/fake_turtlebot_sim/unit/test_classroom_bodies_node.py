@@ -1,4 +1,4 @@
-"""Bodies and names of a classroom's robots."""
+"""Markers for the bodies and names of a classroom's robots."""
 
 import pytest
 
@@ -13,7 +13,7 @@ def test_a_body_and_the_name_above_it():
     *body, name = everything = markers("ada", "ada/base_footprint")
     assert {m.header.frame_id for m in everything} == {"ada/base_footprint"}
     assert all(m.frame_locked and m.color.a == 1.0 for m in everything)
-    # A namespace and a number make a marker; of two that are alike only one would be shown.
+    # Namespace and number identify a marker: RViz shows only one of two equal ones.
     assert len({(m.ns, m.id) for m in everything}) == len(everything)
     assert (name.type, name.text) == (name.TEXT_VIEW_FACING, "ada")
     top = max(m.pose.position.z + m.scale.z / 2 for m in body)

@@ -1,4 +1,4 @@
-"""Time that never decreases, and periods that never drift."""
+"""Time never decreases, and periods never drift."""
 
 from hypothesis import given
 from hypothesis import strategies as st

@@ -29,13 +29,13 @@ velocities = st.tuples(
 
 
 @claim("Contact with walls, posts and robots is exact, and the robot is never inside")
-@example(  # a circle of 0.1 um beside the end of a wall, whose gap is a rounding
+@example(  # a circle of 0.1 um beside the end of a wall; the gap is a rounding error
     [post(0.0, 0.0, 0.0), (0.0, 0.0, 0.0, -1.0, 0.0)], (-1.0, 0.0, 0.0),
     [((1.0, 0.0), (1.0, 0.0), 1.0), ((-1.4901161193847696e-07, pi),) * 2 + (2.0,)],
 )  # fmt: skip
 @example([WALL], (1 - R - 1e-11, 0.0, pi / 2), [((0.0, 0.0), (0.7, 0.0), 1.0)])  # along it
 @example([WALL], (0.7, 0.0, 1.0), [((-0.4, 3.0), (-0.4, -0.5), 5.0)])  # turning there and back
-@example([WALL], (0.622, 0.0, 1.6), [((0.6, -1.1), (0.6, -0.2), 1.0)])  # at first away from it
+@example([WALL], (0.622, 0.0, 1.6), [((0.6, -1.1), (0.6, -0.2), 1.0)])  # first away from it
 @example([WALL], (0.422, 0.0, 0.0), [((0.3, 0.9), (0.3, 0.3), 3.0)])  # towards it, then along
 @example([WALL], (0.4, 0.0, 0.0), [((0.7, 2.5), (0.7, 2.5), 3.0)])  # towards it, then away
 @example([WALL], (0.8, 0.0, 1.0), [((0.5, 0.5), (0.5, 0.5), 4.0)])  # it turns there for a moment
@@ -44,13 +44,13 @@ velocities = st.tuples(
     st.tuples(places, places, st.floats(-pi, pi)),
     st.lists(
         st.tuples(velocities, velocities, st.floats(0.001, 3.0))
-        | st.tuples(velocities, st.floats(0.001, 3.0)).map(lambda one: (one[0], *one)),
+        | st.tuples(velocities, st.floats(0.001, 3.0)).map(lambda steady: (steady[0], *steady)),
         min_size=1,
         max_size=6,
     ),
 )
 def test_a_robot_is_never_inside_and_stops_only_where_it_touches(obstacles, pose, commands):
-    clear = lambda x, y: min(gap(x, y, R, one) for one in obstacles)  # noqa: E731
+    clear = lambda x, y: min(gap(x, y, R, obstacle) for obstacle in obstacles)  # noqa: E731
     assume(clear(*pose[:2]) > 0.0)
     for velocity, end_velocity, dt in commands:
         pieces, contact = drive_among(pose, Piece(velocity, end_velocity, dt), R, obstacles)
@@ -61,13 +61,13 @@ def test_a_robot_is_never_inside_and_stops_only_where_it_touches(obstacles, pose
                 assert clear(x, y) > -EXACT
             pose = drive(pose, *piece[:2], piece.dt)
             if piece is not pieces[-1] and piece.is_blocked and piece.dt > EXACT:
-                # It turns until it may go on, and no longer.
-                touched = [one for one in obstacles if gap(*pose[:2], R, one) < EXACT]
-                turned = [abs(cos(direction_to(pose, one) - pose[2])) for one in touched]
+                # It turns only until it can drive on.
+                touched = [piece for piece in obstacles if gap(*pose[:2], R, piece) < EXACT]
+                turned = [abs(cos(direction_to(pose, wall) - pose[2])) for wall in touched]
                 assert min(turned) < 1e-6
         assert sum(piece.dt for piece in pieces) == pytest.approx(dt)
         assert contact is None or abs(clear(*pose[:2])) < EXACT
-        # It drives towards what it touches: backing off is never kept.
+        # It drives towards what it touches: nothing prevents it from backing off.
         if contact is not None and velocity == end_velocity:
             ahead = pose[2] if velocity[0] > 0 else pose[2] + pi
             assert cos(contact - ahead) > -EXACT

@@ -1,4 +1,4 @@
-"""The firmware's side of the serial line: literal bytes in, and what its packets say."""
+"""The firmware's side of the serial line: literal bytes in, packets out."""
 
 import pytest
 
@@ -33,7 +33,7 @@ def kobuki(equipment=Equipment(), **given):  # noqa: B008
 
 
 def sent(firmware, now_ns):
-    """Return the parts of the packet that is sent at a time."""
+    """Return the parts of the packet sent at a time."""
     (payload,) = Framer().feed(firmware.feedback(now_ns))
     return robot_packets.parse(payload)
 
@@ -72,7 +72,7 @@ def test_the_encoders_count_ticks_of_their_wheels_and_wrap():
     firmware.receive(STRAIGHT_ON, 0)
     assert core(firmware, 1000 * MS).left_encoder == 1172  # 0.1 m by 85.29 um a tick
     firmware.receive(ON_THE_SPOT, 1000 * MS)
-    left, right = 1172 - 668, 1172 + 668  # 57 mm each way
+    left, right = 1172 - 668, 1172 + 668  # 57 mm in each direction
     turned = core(firmware, 2000 * MS)
     assert (turned.left_encoder, turned.right_encoder) == (left, right)
     assert core(firmware, 4000 * MS).left_encoder == 65536 + 1172 - 3 * 668 - 1
@@ -84,7 +84,7 @@ def test_the_gyro_has_the_heading_since_the_start_in_hundredths_of_a_degree():
     _, _, inertia, _, _, gyro, _ = sent(firmware, 1000 * MS)
     assert (inertia.angle, inertia.rate) == (2840, 2840)  # 57 / 115 rad
     assert gyro.frame == 100
-    assert [z for *_, z in gyro.readings] == [1622, 3245]  # the middle of the period, its end
+    assert [z for *_, z in gyro.readings] == [1622, 3245]  # middle and end of the period
     assert sent(firmware, 10_000 * MS)[2].angle == 28399 - 36000
 
 
@@ -153,7 +153,7 @@ def test_switched_off_and_on_it_stands_is_silent_for_a_while_and_counts_from_zer
     parts = sent(firmware, ready_ns)
     assert (parts[0].time_stamp, parts[0].left_encoder, parts[0].right_encoder) == (0, 0, 0)
     assert parts[2].angle == 0
-    assert firmware.receive(OUTPUTS, ready_ns)  # all were forgotten
+    assert firmware.receive(OUTPUTS, ready_ns)  # all outputs were reset
 
 
 def test_switched_off_it_stays_off():
@@ -165,7 +165,7 @@ def test_switched_off_it_stays_off():
 def test_buttons_charger_and_battery_are_in_the_core_packet():
     firmware = kobuki(Equipment(battery=131, charger=22))
     firmware.press(1, True)
-    firmware.press(7, True)  # there is none
+    firmware.press(7, True)  # no such button
     now = core(firmware, 0)
     assert (now.buttons, now.battery, now.charger) == (2, 131, 22)
     firmware.press(1, False)

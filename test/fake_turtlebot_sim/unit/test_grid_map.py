@@ -1,4 +1,4 @@
-"""Maps as map_server reads them: values of cells, the message, the place where a robot starts."""
+"""Maps, read like map_server does: values of cells, the message, a robot's starting place."""
 
 import struct
 import sys
@@ -59,13 +59,13 @@ CLEAR_SOLID = bytes((100, 100, 100, 0, 100, 100, 100, 255))  # B, G, R, A
     (Image.fromarray(GREY.astype(np.uint16) << 8 | 255), {}, [100, -1, 0]),
     (COLOURS, {"mode": "scale"}, [-1, 66]),
     (CLEAR, {"mode": "scale"}, [100, 0, 66]),
-    (INDEXED, {}, [100, 100]),  # the number of the colour, as SDL gives it
+    (INDEXED, {}, [100, 100]),  # the index of the colour, as SDL gives it
     (b"P5 4 1 255\n" + bytes([0, 100, 255, 200]), {"mode": "raw", **PNM}, [0, 100, -1, -56]),
     (b"P2 3 1 255\n0 50 # a comment\n100\n", {"mode": "raw", **PNM}, [0, 50, 100]),
-    (b"P2 1 2 255 0 254 ", PNM, [0, 100]),  # the lowest row first
+    (b"P2 1 2 255 0 254 ", PNM, [0, 100]),  # the lowest row comes first
     (b"P6 1 1 255\n\0\xff\0", PNM, [100]),
-    # What follows was measured: map_server's rules over the pixels of SDL_image 1.2.12.
-    (ONE_BIT, BMP, [100] * 8),  # the number of the colour, 0 or 1
+    # Measured from here on: map_server's rules with the pixels of SDL_image 1.2.12.
+    (ONE_BIT, BMP, [100] * 8),  # the index of the colour, 0 or 1
     (ONE_BIT, PBM, [100] * 8),
     (b"P1 4 1\n0110\n", {**PBM, "negate": 1}, [0] * 4),
     (b"P1 4 1\n0 1 1 0\n", {**PBM, **RAW}, [0, 1, 1, 0]),
@@ -80,7 +80,7 @@ CLEAR_SOLID = bytes((100, 100, 100, 0, 100, 100, 100, 255))  # B, G, R, A
     (bmp(32, CLEAR_SOLID, 2, 3, struct.pack("<IIII", 255 << 16, 255 << 8, 255, 0)),
      {**BMP, **RAW}, [75, -118]),
     (b"P5 4 1 127\n\0\x28\x7f\x40", {**PNM, **RAW}, [0, 80, -1, -128]),
-    (b"P2 3 1 100\n0 50 100\n", {**PNM, **RAW}, [0, 127, -1]),  # cut off: not -128
+    (b"P2 3 1 100\n0 50 100\n", {**PNM, **RAW}, [0, 127, -1]),  # truncated, so not -128
     (b"P5 3 1 15\n\0\x07\x0f", {**PNM, **SCALED}, [100, 73, 0]),
 ])  # fmt: skip
 def test_cells_are_those_of_map_server(tmp_path, image, given, values):
@@ -95,7 +95,7 @@ def test_cells_are_those_of_map_server(tmp_path, image, given, values):
 @pytest.mark.parametrize(("image", "transparency", "values"), [
     (HOLED, 205, [-1, -1, 0, -1]),  # gray and alpha, averaged
     (HOLED.point(lambda shade: shade // 16 * 17), 204, [-1, -1, 0, -1]),
-    (COLOURS, (170, 170, 0), [-1, -1]),  # It has no effect in RGB.
+    (COLOURS, (170, 170, 0), [-1, -1]),  # no effect in RGB
     (INDEXED, b"\xff\0", [100, 100]),
     (INDEXED, b"\xff\xff", [100, 100]),
     (INDEXED, b"\xff\x80", [0, 100]),  # half of a colour: RGBA
@@ -125,7 +125,7 @@ def test_all_but_png_are_read_without_pillow(tmp_path, monkeypatch, data):
 
 
 def write_map(folder, shades, **given):
-    """Write a map with its lowest row last, as in an image; return the path."""
+    """Write a map, its lowest row last as in an image; return the path."""
     rows, columns = shades.shape
     (folder / "map.pgm").write_bytes(b"P5 %d %d 255\n" % (columns, rows) + shades.tobytes())
     about = {**ABOUT, **PNM, **given}
@@ -143,7 +143,7 @@ def test_the_message_is_the_map_cell_by_cell(tmp_path):
     assert (info.width, info.height, info.resolution) == (4, 3, 0.05)
     assert (info.origin.position.x, info.origin.position.y) == (1.0, 2.0)
     assert (turn.z, turn.w) == pytest.approx((0.5**0.5, 0.5**0.5))
-    # Turned by a quarter, the occupied cell is above the origin and left of it.
+    # After a quarter turn the occupied cell is above and left of the origin.
     assert sorted({round(x, 9) for x, *_ in world.segments}) == [0.95, 1.0]
     assert sorted({round(wall[1], 9) for wall in world.segments}) == [2.05, 2.1]
 
@@ -153,7 +153,7 @@ def start_of(path, **given):
 
 
 def building():
-    """Return shades of a sheet that is unknown, with a room of 20 x 20 cells and its wall."""
+    """Return the shades of an unknown area with a walled room of 20 x 20 cells."""
     shades = np.full((60, 60), 205, np.uint8)
     shades[20:42, 20:42], shades[21:41, 21:41] = 0, 254
     return shades[::-1]
@@ -162,7 +162,7 @@ def building():
 @pytest.mark.parametrize(("given", "place"), [
     ({"origin": [-1.5, -1.5, 0]}, (0, 0)),
     ({"origin": [-2.07, -1.525, 0]}, (-0.245, 0)),  # (0, 0) is in the wall
-    ({"origin": [0, 0, 0]}, (1.275, 1.275)),  # or beyond it, where nothing is known
+    ({"origin": [0, 0, 0]}, (1.275, 1.275)),  # (0, 0) is beyond it, in the unknown area
     ({"origin": [0, 0, 1.5707963267948966]}, (-1.275, 1.275)),
 ])  # fmt: skip
 def test_a_robot_starts_where_it_has_room(tmp_path, given, place):
@@ -170,7 +170,7 @@ def test_a_robot_starts_where_it_has_room(tmp_path, given, place):
 
 
 def test_a_start_that_is_given_counts_also_at_zero(tmp_path):
-    path = write_map(tmp_path, building(), origin=[-0.5, -0.5, 0])  # nothing is known there
+    path = write_map(tmp_path, building(), origin=[-0.5, -0.5, 0])  # (0, 0) is in the unknown area
     assert start_of(path, initial_x=0.0) == (0.0, 0.0, 0.0)
     start = "{x: 1.0, y: 0.9, yaw: 0.5}"
     path = write_map(tmp_path, building(), origin=[-0.5, -0.5, 0], start=start)

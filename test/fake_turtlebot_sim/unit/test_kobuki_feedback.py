@@ -1,4 +1,4 @@
-"""What a Kobuki reports, worked out by hand from its protocol."""
+"""A Kobuki's reports, worked out by hand from its protocol."""
 
 import struct
 from math import pi

@@ -1,4 +1,4 @@
-"""What a scanner measures, against the crossing of each beam with each obstacle."""
+"""A scanner's ranges, compared with the crossings of each beam with each obstacle."""
 
 import math
 
@@ -13,7 +13,7 @@ from tutorial_testing.claims import claim
 
 
 def crossings(pose, angles, walls, discs):
-    """The range of each beam, in axes along it and across."""
+    """Return the range of each beam, computed in axes along and across it."""
     turned = np.exp(-1j * (pose[2] + angles))[:, None]
     x1, y1, x2, y2, px, py, radius = (column[None] for column in (*walls.T, *discs.T))
     a, b, post = (turned * (x + 1j * y - complex(*pose[:2])) for x, y in

@@ -1,4 +1,4 @@
-"""The parameters of cmd_vel_mux: a TurtleBot's own file works, every mistake is one clear line."""
+"""Parameters of cmd_vel_mux: a TurtleBot's own file works, each mistake is one clear line."""
 
 import pytest
 import yaml
@@ -12,7 +12,7 @@ OURS = REPOSITORY / "fake_turtlebot_sim/config/cmd_vel_mux.yaml"
 TELEOP = {"name": "teleop", "topic": "input/teleop", "timeout": 1.0, "priority": 7}
 NAVI = {"name": "navi", "topic": "input/navi", "timeout": 1.0, "priority": 5}
 
-# As in turtlebot_bringup's param/mux.yaml, which calls its inputs so.
+# As in turtlebot_bringup's param/mux.yaml, with its names of inputs.
 OF_A_TURTLEBOT = """
 subscribers:
   - {name: "Safe reactive controller", topic: "input/safety_controller", timeout: 0.2, priority: 10}
@@ -29,11 +29,11 @@ def test_a_turtlebots_own_file_works_as_it_is():
     parameters = parse_mux_parameters(yaml.safe_load(OF_A_TURTLEBOT))
     assert parameters.publisher == "output"
     assert parameters.subscribers[1] == Input("Teleoperation", "input/teleop", 1.0, 7)
-    numbers = {one.topic: (one.timeout, one.priority) for one in parameters.subscribers}
+    numbers = {entry.topic: (entry.timeout, entry.priority) for entry in parameters.subscribers}
     ours = parse_mux_parameters(yaml.safe_load(OURS.read_text())).subscribers
-    numbers["input/switch"] = (1.0, 6)  # which a TurtleBot lacks
-    assert {one.topic: (one.timeout, one.priority) for one in ours} == numbers
-    assert hash(parse_mux_parameters(with_teleop(priority=0, timeout=60.0)))  # all of it is frozen
+    numbers["input/switch"] = (1.0, 6)  # a TurtleBot has no such input
+    assert {entry.topic: (entry.timeout, entry.priority) for entry in ours} == numbers
+    assert hash(parse_mux_parameters(with_teleop(priority=0, timeout=60.0)))  # everything is frozen
 
 
 @pytest.mark.parametrize(("given", "parts"), [

@@ -1,4 +1,4 @@
-"""Systematic errors against the arcs of unequal wheels, noise against its own covariance."""
+"""Systematic errors compared with arcs of unequal wheels, noise with its own covariance."""
 
 import numpy as np
 import pytest
@@ -63,6 +63,6 @@ def test_the_covariance_is_that_of_the_errors_whatever_the_rate(rate_hz):
         errors.append(np.subtract(robot.state()[:3], robot.true_state()[:3]))
         told.append(robot.covariance())
     sampled, mean = np.cov(np.transpose(errors)), np.mean(told, axis=0)
-    # 300 samples know a variance to 8 %; the worst of six numbers may be three times as far off.
+    # 300 samples give a variance to within 8 %; the worst of six may be three times as far off.
     scale = np.sqrt(np.outer(np.diag(mean), np.diag(mean)))
     assert np.abs((sampled - mean) / scale).max() < 0.25

@@ -1,4 +1,4 @@
-"""Private parameters: defaults, one clear line for every mistake, and the same names everywhere."""
+"""Private parameters: defaults, one clear line for each mistake, the same names everywhere."""
 
 import re
 from dataclasses import fields
@@ -18,7 +18,7 @@ pytestmark = claim(
 )
 PACKAGE = Path(fake_turtlebot_sim.__file__).parents[2]
 ALL = (*fields(SimulatorParameters), *fields(SafetyParameters))
-CHECKS = {one.name: one.metadata["check"] for one in ALL}
+CHECKS = {field.name: field.metadata["check"] for field in ALL}
 BOUNDS = re.findall(
     r"^\| `~(\w+)` \| .*? \| a (whole )?number from (\S+) to (\S+)(.*? or 0)?",
     (PACKAGE / "README.md").read_text(), re.M,
@@ -28,10 +28,8 @@ BOUNDS = re.findall(
 def test_nothing_given_is_a_turtlebot_2():
     parameters = parse_parameters({})
     assert parameters == SimulatorParameters()
-    assert (parameters.period_ns(), SimulatorParameters(rate=6.0).period_ns()) == (
-        20_000_000,
-        166_666_667,
-    )
+    periods_ns = parameters.period_ns(), SimulatorParameters(rate=6.0).period_ns()
+    assert periods_ns == (20_000_000, 166_666_667)
     assert parameters.start_poses() == {"": (0.0, 0.0, 0.0)}
 
 
@@ -63,7 +61,7 @@ def test_a_mistake_is_named_with_its_value_and_what_is_allowed(given, parts):
 def test_bounds_are_those_of_the_readme(name, whole, least, most, off):
     check = CHECKS[name]
     for bound, beyond in ((float(least), -1), (float(most), 1)):
-        step = 1 if whole else 1e-5 * abs(bound) + 1e-9  # the README gives six digits
+        step = 1 if whole else 1e-5 * abs(bound) + 1e-9  # the README has six digits
         check(int(bound) if whole else bound - beyond * step)
         with pytest.raises(ValueError, match="must be"):
             check(bound + beyond * step)
@@ -72,7 +70,7 @@ def test_bounds_are_those_of_the_readme(name, whole, least, most, off):
 
 
 def test_robots_that_meet_at_full_speed_are_near_long_before():
-    """Twice the way of a robot until its timeout, and 10 periods, as when the machine is busy."""
+    """Twice the distance of a robot until its timeout plus 10 periods, on a busy machine."""
     assert SimulatorParameters().meeting_reach() == pytest.approx(1.0 + 2 * 0.7 * (0.6 + 10 * 0.02))
     assert SimulatorParameters(cmd_vel_timeout=0.0).meeting_reach() == inf
     assert SimulatorParameters(max_linear_speed=0.0).meeting_reach() == inf

@@ -1,4 +1,4 @@
-"""What a bumped robot does."""
+"""The reaction of a robot that bumps into something."""
 
 import pytest
 from kobuki_msgs.msg import BumperEvent
@@ -35,13 +35,13 @@ def test_with_a_dropped_wheel_it_stands():
     reaction.event("wheel_drop", LEFT, True, 0.0)
     assert reaction.velocity(0.0) == (0.0, 0.0)
     reaction.event("wheel_drop", LEFT, False, 1.0)
-    assert reaction.velocity(1.0) == BACK  # what is over for a wheel is over at once
+    assert reaction.velocity(1.0) == BACK  # for a wheel there is no extra time
 
 
 def test_a_press_counts_for_a_while_even_if_it_is_released_or_reset():
-    """kobuki_safety_controller counts from the last press of any sensor, and ~reset leaves that."""
+    """Like kobuki_safety_controller: from the last press of any sensor on, even after a ~reset."""
     reaction = Reaction(2.0)
-    reaction.event("cliff", RIGHT, False, 0.0)  # never seen as active
+    reaction.event("cliff", RIGHT, False, 0.0)  # it was never active
     assert reaction.velocity(0.0) is None
     reaction.event("cliff", RIGHT, True, 1.0)
     assert reaction.velocity(1.0) == (-0.1, 0.4)
@@ -52,7 +52,7 @@ def test_a_press_counts_for_a_while_even_if_it_is_released_or_reset():
     reaction.event("bumper", LEFT, True, 5.0)
     assert reaction.velocity(8.0) == (-0.1, -0.4)  # it is still pressed
     reaction.event("bumper", LEFT, False, 9.0)
-    assert reaction.velocity(9.0) is None  # no time beyond the release
+    assert reaction.velocity(9.0) is None  # no extra time after the release
 
 
 def test_a_reset_forgets_what_is_pressed():

@@ -60,7 +60,7 @@ def read_bag(path):
 
 @pytest.fixture
 def run(tmp_path, monkeypatch):
-    """Run the command in a folder with commands.bag, in which a velocity goes before a Joy."""
+    """Run the command in a folder with commands.bag; its /cmd_vel takes precedence over /joy."""
     monkeypatch.chdir(tmp_path)
     write_bag("commands.bag", {"/joy": JOYS, "/cmd_vel": QUARTER})
     return lambda words: replay_command.main(words.split())
@@ -132,7 +132,7 @@ def test_a_joystick_drives_as_the_tutorials_node_does(axes, velocity):
 
 
 def read_everywhere(bag):
-    """Do as the launch file's guard, rqt_bag, the cockpit's page and replay_bag with a bag."""
+    """Read a bag like the launch file's guard, rqt_bag, the cockpit's page and replay_bag."""
     for read in (
         lambda: check_recording(str(bag), str(PRESET)), lambda: rqt_bag.read(bag),
         lambda: bag_files.read(bag),
@@ -142,7 +142,7 @@ def read_everywhere(bag):
     return replay_command.main([str(bag), str(bag.with_name("out.bag")), "--force"])
 
 
-DAMAGES = st.tuples(  # where; what is put in; how many bytes it replaces, or all that follow
+DAMAGES = st.tuples(  # place; inserted bytes; how many bytes they replace, or all that follow
     st.floats(0, 1),
     st.binary(max_size=12) | st.sampled_from([b"\0" * 4, b"\xff" * 8, b"\xff\xff\xff\x7f"]),
     st.sampled_from([0, 4, 8, 40, 4000, 10**9]),

@@ -1,4 +1,4 @@
-"""State to messages and back; the message classes need no running ROS."""
+"""From state to messages and back, without a running ROS."""
 
 from math import cos, inf, sin
 
@@ -27,7 +27,7 @@ def pose_message(frame="odom", yaw=0.0, x=1.0, length=1.0):
 
 
 def told(parameters, prefix="", pose=(1 / 3, 2 / 3, 0.5)):
-    """The messages of a robot that drives, and the robot."""
+    """Return the messages of a robot that drives, and the robot."""
     robot = SimulatedRobot(parameters, pose)
     robot.command((0.3, -0.4), 0)
     robot.advance(0)
@@ -53,7 +53,7 @@ def test_one_stamp_the_right_frames_the_executed_twist_and_the_wheels():
     assert joints.name == ["left", "right"]
     assert joints.velocity == pytest.approx((0.346 / 0.035, 0.254 / 0.035))
     pose = np.reshape(odometry.pose.covariance, (6, 6))
-    assert (pose == np.diag([0.1, 0.1, 1e10, 1e10, 1e10, 0.05])).all()  # as the Kobuki
+    assert (pose == np.diag([0.1, 0.1, 1e10, 1e10, 1e10, 0.05])).all()  # like the Kobuki
     assert not any(odometry.twist.covariance)
 
 

@@ -1,4 +1,4 @@
-"""A stick that drives on, and a safety controller: in the room, and on the table."""
+"""A stick held forward and a safety controller, in the room and on the table."""
 
 import random
 from math import hypot, remainder, tau
@@ -61,7 +61,7 @@ def test_random_sticks_never_push_into_a_wall_for_long():
             way += hypot(x - last_x, y - last_y)
     assert drive.longest_push * PERIOD_S <= LONGEST_PUSH_S
     assert way > 10.0  # it is never caught
-    state = drive.robot.state()  # what its wheels have turned, with nothing that slipped
+    state = drive.robot.state()  # what the wheels turned: none slipped
     assert state[:3] == pytest.approx(drive.robot.true_pose, abs=1e-6)
     turned = (state.right_angle - state.left_angle) * 0.035 / 0.23
     assert remainder(turned - state.yaw, tau) == pytest.approx(0.0, abs=1e-6)
@@ -69,9 +69,9 @@ def test_random_sticks_never_push_into_a_wall_for_long():
 
 @pytest.mark.parametrize("seed", range(20))
 def test_no_stick_held_forward_drives_over_the_edge(seed):
-    """Whatever is slow, and however often the stick is lost and back.
+    """With any delay, and however often the stick is lost and returns.
 
-    On arcs wider than the robot: beside and behind its wheels the Kobuki has no sensors.
+    Only on arcs wider than the robot: a Kobuki has no sensors beside and behind its wheels.
     """
     draw = random.Random(seed)
     v, w = draw.choice((0.05, 0.7, draw.uniform(0.05, 0.7))), draw.uniform(-0.7, 0.7)

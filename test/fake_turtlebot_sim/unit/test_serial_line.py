@@ -1,4 +1,4 @@
-"""The pseudo terminal of serial_kobuki: what a driver that opens and closes it finds."""
+"""The pseudo terminal of serial_kobuki, as a driver that opens and closes it sees it."""
 
 import os
 from contextlib import contextmanager

@@ -17,7 +17,7 @@ RAMPING = SimulatorParameters(**RAMPS)
 
 
 def command_log(seed, seconds):
-    """Commands at random times about every 0.3 s, some later than the timeout: (ns, velocity)."""
+    """Return commands about every 0.3 s, some after the timeout: (ns, velocity)."""
     rng, now_s, log = random.Random(seed), 0.0, []
     while now_s < seconds:
         log.append((round(now_s * 1e9), (rng.uniform(-0.9, 0.9), rng.uniform(-4, 4))))
@@ -26,7 +26,7 @@ def command_log(seed, seconds):
 
 
 def drive(model, log, times, end_ns):
-    """Obey the log, look at the given times, and return the state at the end."""
+    """Obey the log, advance at the given times, and return the state at the end."""
     robot = SimulatedRobot(model)
     for now_ns, velocity in sorted([*log, *((time, None) for time in times)], key=lambda e: e[0]):
         if velocity is None:
@@ -65,7 +65,7 @@ def test_the_robot_stops_at_the_instant_of_the_timeout(velocity):
     assert robot.advance(SECOND * 6 // 10) == moves
     assert (robot.state()[3:5], robot.is_commanded, robot.is_moving) == ((0.0, 0.0), False, False)
     state = robot.state()
-    robot.advance(SECOND // 2)  # a time that has passed changes nothing
+    robot.advance(SECOND // 2)  # an earlier time changes nothing
     assert robot.state() == state
     assert not robot.advance(SECOND) and not robot.is_commanded
 
@@ -95,7 +95,7 @@ def test_what_is_too_fast_is_limited_and_what_is_not_finite_feeds_no_timeout(bad
     assert robot.command((0.7, 0.0), 0) is CommandResult.ACCEPTED
     for now_ns in range(PERIOD, SECOND, PERIOD):
         assert robot.command(bad, now_ns) is CommandResult.REJECTED
-    robot.advance(10 * SECOND)  # a jump of time moves no further than the timeout
+    robot.advance(10 * SECOND)  # a jump of time moves it no further than its timeout
     assert robot.state()[:4] == pytest.approx((0.42, 0.0, 0.0, 0.0))
 
 

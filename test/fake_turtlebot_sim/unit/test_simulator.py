@@ -1,4 +1,4 @@
-"""A robot in a world: sensors, edges, other robots, and where it is put."""
+"""A robot in a world: sensors, edges, other robots, and places where it can be put."""
 
 import cmath
 from math import asin, cos, hypot, inf, nan, pi, sin
@@ -86,7 +86,7 @@ def test_a_robot_with_errors_touches_with_its_true_body():
         assert robot.true_pose[0] <= 1 - R + EXACT
     assert robot.true_pose[0] == pytest.approx(1 - R, abs=EXACT)
     assert robot.state().v == 0.0
-    assert sin(robot.contact) != 0.0  # its heading has gone astray, the wall has not
+    assert sin(robot.contact) != 0.0  # only its heading is off
 
 
 @pytest.mark.parametrize(("degrees", "pressed"), [
@@ -118,13 +118,13 @@ def test_on_an_arc_the_outer_wheel_drops_first():
 
 
 def test_the_cliff_sensors_are_ahead_of_the_wheels():
-    """The sensor in the middle sees the edge 0.156 m before the wheels get there."""
+    """The middle sensor detects the edge 0.156 m before the wheels reach it."""
     seen = {}
     for robot in drive(SimulatedRobot(SimulatorParameters(world=EDGE)), (0.1, 0.0), 12):
         for name, is_over in zip(("left", "center", "right"), robot.sensed().cliffs):
             if is_over:
                 seen.setdefault(name, robot.true_pose[0])
-    within = 0.1 * 0.02 + EXACT  # a period's way
+    within = 0.1 * 0.02 + EXACT  # the distance in one period
     assert seen["center"] == pytest.approx(1 - 0.156, abs=within)
     assert seen["left"] == pytest.approx(1 - 0.08734, abs=within)
     assert seen["right"] == pytest.approx(1 - 0.085, abs=within)
@@ -206,17 +206,17 @@ def test_a_map_has_its_walls_posts_and_edges():
         return grid.data[int((py - corner.y) / 0.1) * info.width + int((px - corner.x) / 0.1)]
 
     assert (corner.x, corner.y, info.height, info.width) == (-2.5, -2.5, 50, 50)
-    assert [at(*one) for one in ((2.0, 0.3), (-1.7, 2.0), (0.2, 0.1), (1.3, 1.0))] == [100] * 4
-    assert [at(*one) for one in ((1.8, 0.0), (0.5, 0.0), (-2.3, -2.3))] == [0] * 3
+    assert [at(*place) for place in ((2.0, 0.3), (-1.7, 2.0), (0.2, 0.1), (1.3, 1.0))] == [100] * 4
+    assert [at(*place) for place in ((1.8, 0.0), (0.5, 0.0), (-2.3, -2.3))] == [0] * 3
 
 
-# Neighbours of a place in the order in which they are looked at, as (ahead, left).
+# Neighbours of a place in the order in which they are tried, as (ahead, left).
 NEAR = [(0, -1), (-1, 0), (0, 1), (1, 0)]
 
 
 @pytest.mark.parametrize("side", range(4))
 def test_places_are_around_the_start_and_not_behind_a_wall(side):
-    """A wall is touched at 0.422 m; the one on the other side at 0.522 m, beyond the place."""
+    """A robot touches the wall at 0.422 m; the opposite one at 0.522 m, beyond the place."""
     start, turn = (1.0, 2.0, pi / 6), cmath.rect(1.0, pi / 6)
 
     def at(ahead, left):
@@ -228,12 +228,12 @@ def test_places_are_around_the_start_and_not_behind_a_wall(side):
 
     ahead, left = NEAR[side]
     world = World((wall(0.6, ahead, left), wall(0.7, -ahead, -left)), start=start)
-    free = [(0, 0), *(one for one in NEAR if one != (ahead, left))]
+    free = [(0, 0), *(place for place in NEAR if place != (ahead, left))]
     further = [(0, -2), (-1, -1), (1, -1), (-2, 0)]
     for poses, ways in ((world.places(4), free), (World(start=start).places(9)[5:], further)):
         expected = [(*at(0.5 * ahead, 0.5 * left), pi / 6) for ahead, left in ways]
         assert np.array(poses) == pytest.approx(np.array(expected))
-    corridor = World(tuple(((-2.0, y), (2.0, y)) for y in (-0.2, 0.2)))  # hardly wider than a robot
+    corridor = World(tuple(((-2.0, y), (2.0, y)) for y in (-0.2, 0.2)))  # barely wider than a robot
     assert [x for x, *_ in corridor.places(3)] == [0.0, -0.5, 0.5]
 
 

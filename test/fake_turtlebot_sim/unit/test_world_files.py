@@ -1,4 +1,4 @@
-"""Worlds from files: ours, map_server's, and what is no world."""
+"""Worlds from files: our format, map_server's, and invalid ones."""
 
 import os
 import sys
@@ -94,7 +94,7 @@ def png(shade):
     (b"BM" + bytes(40), "none"),
     (b"P5 20 10 255\n" + bytes(200), "extends farther than 10000 m"),
     (b"P5 4096 4097 255\n", "more than 16777216 cells"),
-    (png(np.uint8(0)), "needs Pillow: apt install python3-pil"),  # where that is missing
+    (png(np.uint8(0)), "needs Pillow: apt install python3-pil"),  # where Pillow is missing
 ])  # fmt: skip
 def test_an_image_that_is_no_map_is_one_line(tmp_path, monkeypatch, data, said):
     monkeypatch.setitem(sys.modules, "PIL", None if "Pillow" in said else PIL)
@@ -114,7 +114,7 @@ def test_what_never_ends_is_not_read(tmp_path):
 
 
 def live_in(path):
-    """Read a world, and do what the node does in it; return the exit code."""
+    """Read a world and drive in it like the node; return the exit code."""
     try:
         parameters = parse_parameters({"world": str(path)})
         robot = SimulatedRobot(parameters, parameters.start_poses()[""])

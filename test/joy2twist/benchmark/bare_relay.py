@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The least that rospy can do: one Twist for every Joy, published in the callback's thread."""
+"""The minimum in rospy: one Twist for each Joy, published in the callback's thread."""
 
 import rospy
 from geometry_msgs.msg import Twist

@@ -1,6 +1,6 @@
-"""The running node beside a bare rospy relay, in one run. Its figures are in the package's README.
+"""The running node compared with a bare rospy relay; the package's README has the figures.
 
-Ratios, because they hold on any machine; of each round, because the rest of a machine changes.
+It compares ratios, which hold on any machine, round by round, because the machine's load changes.
 """
 
 from pathlib import Path
@@ -12,7 +12,7 @@ from live import JOY2TWIST, QUIET, delays_and_processor, master, running
 from tutorial_testing.claims import claim
 
 ALL_SAFETY = [*JOY2TWIST, "_joy_timeout:=0.5", "_vigilance_timeout:=3.0"]
-# The launch files for a gamepad display no axes; the node alone does, as the tutorial's.
+# Only the node alone displays the axes, like the tutorial's; the gamepad's launch files do not.
 NODES = {"": [*ALL_SAFETY, "_log_rate:=0"], ", axes displayed": ALL_SAFETY}
 BARE = [str(Path(__file__).with_name("bare_relay.py"))]
 ROUNDS = 9

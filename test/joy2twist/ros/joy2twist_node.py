@@ -1,6 +1,6 @@
-"""The node joy2twist: what it sends for what it receives, how it starts, ends, and bears a loss.
+"""The node joy2twist: its answers to Joys, its start and its end, and what happens after a loss.
 
-Which rules there are is for unit tests: here each parameter, topic and clock reaches them.
+Unit tests cover the rules; this shows that each parameter, topic and clock reaches them.
 """
 
 import json
@@ -30,7 +30,7 @@ JOY2TWIST = node_path("joy2twist", "joy2twist.py")
 
 
 def joy(forward, *held, age_s=0.0):
-    """A message of a stick, and of the buttons that are held."""
+    """A Joy with this stick position and these buttons held."""
     message = Joy(axes=[0.0, forward], buttons=[int(n in held) for n in range(5)])
     message.header.stamp = rospy.Time.now() - rospy.Duration(age_s)
     return message
@@ -39,10 +39,10 @@ def joy(forward, *held, age_s=0.0):
 @claim("Dead-man button, timeout, age, arming, soft and hard stop")
 class RulesTest(RosTest):
     def begin(self, **given):
-        """Start a node with these parameters, and plug a joystick in, which is released."""
+        """Start a node with these parameters, and connect a joystick at rest."""
         self.sent, self.states = [], []  # linear.x [m/s]
         self.hear("cmd_vel", Twist, lambda twist: self.sent.append(twist.linear.x))
-        hear = lambda array: self.states.extend(one.message for one in array.status)  # noqa: E731
+        hear = lambda array: self.states.extend(s.message for s in array.status)  # noqa: E731
         self.hear("/diagnostics", DiagnosticArray, hear)
         parameters = [f"_{name}:={json.dumps(value)}" for name, value in given.items()]
         self.start(JOY2TWIST, *parameters)
@@ -52,7 +52,7 @@ class RulesTest(RosTest):
         self.wait_for_quiet()
 
     def goes_round(self):
-        """Release, and drive: what is sent once may be sent before all are connected."""
+        """Release, then drive. One message may be lost before all nodes are connected."""
         for message in (joy(0.0), joy(0.1, LB)):
             self.joystick.publish(message)
         return self.sent
@@ -72,7 +72,7 @@ class RulesTest(RosTest):
         wait_for(is_quiet, "silence")
 
     def check(self, joys, speeds):
-        """Publish these at once; these speeds are sent, and then nothing."""
+        """Publish these Joys at once; check that the node sends these speeds and then nothing."""
         self.sent.clear()
         for message in joys:
             self.joystick.publish(message)
@@ -142,7 +142,7 @@ class RulesTest(RosTest):
 )
 class ProgramTest(RosTest):
     def test_rosnode_kill_stops_the_robot_in_time(self):
-        """The stick stays forward, but the last velocity is zero."""
+        """The last velocity is zero, although the stick stays forward."""
         joystick, speeds = self.publisher("joy", Joy), []
         robot = self.hear("cmd_vel", Twist, lambda twist: speeds.append(twist.linear.x))
         node = self.start(JOY2TWIST)
@@ -184,7 +184,7 @@ class ProgramTest(RosTest):
     def test_without_its_master_it_drives_on_and_stops_at_the_end(self):
         port = str(free_port())
         own = {"ROS_MASTER_URI": f"http://localhost:{port}"}
-        # Not roscore, which has its master in a session of its own, out of reach.
+        # Not roscore: it starts its master in another session, out of reach.
         master = self.start("rosmaster", "--core", "-p", port, **own)
         wait_for(rosgraph.Master("/test", own["ROS_MASTER_URI"]).is_online, "master")
         node = self.start(JOY2TWIST, **own)

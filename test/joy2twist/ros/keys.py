@@ -1,4 +1,4 @@
-"""launch_joy_node.launch virtual:=true in a terminal: keys drive, and no fault moves the robot."""
+"""launch_joy_node.launch virtual:=true in a terminal: keys drive, faults never move the robot."""
 
 import os
 import subprocess
@@ -22,7 +22,7 @@ class FaultsOfTheKeys(RosTest):
         self.terminal = self.rig.terminal
 
     def check_stays(self):
-        """LB and W are pressed, and still nothing moves."""
+        """Check that nothing moves although LB and W are pressed."""
         self.rig.wait_for_rest()
         for key in ("Space", *("w" * 20)):
             self.terminal.press(key)
@@ -34,9 +34,9 @@ class FaultsOfTheKeys(RosTest):
         shown = f"left stick +0.0 +1.0{HINT}"
         self.terminal.hold("w", lambda: shown in self.terminal.screen, "key on the screen")
         wait_for(lambda: "left stick +0.0 +0.0" in self.terminal.screen, "released key")
-        self.assertEqual([one for one in self.rig.odometry if one.moves], [], "moved without LB")
+        self.assertFalse([m for m in self.rig.odometry if m.moves], "moved without LB")
         self.rig.drive()
-        self.rig.wait_for_rest()  # after the keys were released
+        self.rig.wait_for_rest()  # the keys are released
         self.rig.drive()
         self.terminal.press("C-c")
         wait_for(lambda: self.terminal.ended, "end of the launch")
@@ -47,20 +47,20 @@ class FaultsOfTheKeys(RosTest):
 
     def test_a_screen_that_is_held_releases_all_keys(self):
         self.rig.drive()
-        self.terminal.press("C-s")  # the terminal's flow control: nothing can be shown any more
+        self.terminal.press("C-s")  # flow control: the terminal displays nothing more
         self.check_stays()
         self.terminal.press("C-q")
         self.rig.drive()
-        # It went on with its work, and was not only missed by joy_node.
+        # It kept working: joy_node never missed it.
         self.assertNotIn("no sign of life", self.terminal.history)
 
     def test_keys_that_were_typed_during_a_suspension_do_not_drive(self):
         self.rig.drive()
         serves = f"virtual_joystick.*--stream.*{self.rig.device}"
-        found = subprocess.run(["pgrep", "-f", serves], check=True, capture_output=True, text=True)
-        with suspended([int(pid) for pid in found.stdout.split()]):
+        pids = subprocess.check_output(["pgrep", "-f", serves], text=True)
+        with suspended([int(pid) for pid in pids.split()]):
             self.check_stays()
-        self.assertTrue(self.rig.stays_at_rest(), "what was typed meanwhile")
+        self.assertTrue(self.rig.stays_at_rest(), "keys typed meanwhile drive")
         self.rig.drive()
         self.terminal.close()
         wait_for(lambda: not self.rig.moves, "standing robot without a terminal")

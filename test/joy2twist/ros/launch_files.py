@@ -1,4 +1,4 @@
-"""Launch files of joy2twist: what drives by a recording, and how it ends."""
+"""Launch files of joy2twist: a recording drives, and the launch ends."""
 
 import os
 
@@ -16,7 +16,7 @@ from tutorial_testing.rostests import RosTest
 from tutorial_testing.waiting import wait_for
 
 RATE_HZ = 50  # joy.bag and simulation
-SAMPLE_S = 6.0  # how much is looked at; the tour begins with a second of rest
+SAMPLE_S = 6.0  # length of the sample; the tour begins with a second of rest
 FILE = "launch_joy_node_realTurtlebot.launch"
 TELEOP = "/cmd_vel_mux/input/teleop"
 SPEED = 0.35  # [m/s] at full deflection, config/f710_d.yaml
@@ -33,7 +33,7 @@ class LaunchFilesTest(RosTest):
         command = f"cd '{folder}' && exec roslaunch launch_bag.launch rviz:=false"
         with Program("sh", "-c", command) as launch:
             wait_for(lambda: robot.odometry and cmd_vel, "first messages")
-            joy = self.record("/joy", Joy)  # last: every joy below has its cmd_vel above
+            joy = self.record("/joy", Joy)  # last, so that cmd_vel has the answer to every Joy
             robot.first(lambda moment: moment.v > 0.1, "moving robot")
             wait_for(lambda: len(joy) > SAMPLE_S * RATE_HZ, "joystick messages")
             expected = [(message.axes[1], message.axes[0]) for message in joy]
@@ -49,7 +49,7 @@ class LaunchFilesTest(RosTest):
             self.end(launch)
             wait_for(lambda: not launch.left_behind(), "end of every process")
             wait_for(lambda: cmd_vel[-1] == Twist(), "zero as the last velocity")
-            # Where a node has not ended after 15 s, roslaunch says so, and kills it.
+            # roslaunch prints this when it kills a node that has not exited after 15 s.
             self.assertNotIn("escalating", launch.output)
 
     @claim("On a TurtleBot: remapped ...", because="end to end, by a recording")
@@ -67,4 +67,4 @@ class LaunchFilesTest(RosTest):
         self.assertIn("roslaunch: rosbag has finished, which ends this launch\n", launch.output)
         self.assertNotIn("died", launch.output)  # a normal end does not look like a crash
         self.assertIn("axis 1 -> linear.x", launch.output)
-        self.assertNotIn("Get from Joy", launch.output)  # which would scroll that away
+        self.assertNotIn("Get from Joy", launch.output)  # it would scroll the mapping away

@@ -1,4 +1,4 @@
-"""A classroom: students replay a recording, and each drives its own robot."""
+"""A classroom: each student replays a recording, and drives their own robot."""
 
 from tutorial_testing.claims import claim
 from tutorial_testing.hands import record
@@ -8,7 +8,7 @@ from tutorial_testing.waiting import wait_for
 
 NAMES = [f"robot_{number}" for number in range(1, 31)]
 DRIVEN = NAMES[:3]
-LONGEST_S = 120.0  # the recording takes 6 s, all programs on a busy machine a minute to start
+LONGEST_S = 120.0  # the recording takes 6 s; on a busy machine the programs start within a minute
 
 
 class StudentTest(RosTest):
@@ -22,6 +22,6 @@ class StudentTest(RosTest):
         for student in students:
             self.check_end(student, deadline_s=LONGEST_S)
             self.assertNotIn("died", student.output)  # a normal end does not look like a crash
-        driven = [n for n, robot in robots.items() if any(one.moves for one in robot.odometry)]
+        driven = [n for n, robot in robots.items() if any(m.moves for m in robot.odometry)]
         self.assertEqual(driven, DRIVEN)
         self.assertFalse(any(robot.moves for robot in robots.values()))

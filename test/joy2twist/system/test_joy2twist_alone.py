@@ -1,4 +1,4 @@
-"""joy2twist in a workspace of someone else's: the commands of its README, with two folders."""
+"""joy2twist in another workspace: its README's commands, with only two folders of the suite."""
 
 import re
 
@@ -13,7 +13,7 @@ SECTION = README.partition("## In your own workspace")[2].partition("\n## ")[0]
 BASH, YAML = (
     re.findall(rf"^```{kind}\n(.*?)^```", SECTION, re.M | re.S)[0] for kind in ("bash", "yaml")
 )
-# Of one node: all is released; then LB and the stick are held, which changes as in a hand.
+# Everything is released, then LB and the stick are held and tremble as in a hand.
 JOYS = "\n---\n".join(
     f"{{axes: [{0.5 * held}, {held}, {0.01 * (number % 2)}], buttons: [0, 0, 0, 0, {held}]}}"
     for number in range(1000) for held in [int(number > 20)]
@@ -22,7 +22,7 @@ JOYS = "\n---\n".join(
 
 @pytest.fixture
 def alone(tmp_path, master_uri, monkeypatch):
-    """alone(script): a Program of bash, as a user with Debian's ROS, and nothing of the suite."""
+    """alone(script): start a bash script as a user with Debian's ROS and without the suite."""
     for name in ("CMAKE_PREFIX_PATH", "ROS_PACKAGE_PATH", "PYTHONPATH", "ROS_ETC_DIR"):
         monkeypatch.delenv(name, raising=False)
     (tmp_path / "ros1_tutorial").symlink_to(REPOSITORY)

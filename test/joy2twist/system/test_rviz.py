@@ -1,4 +1,4 @@
-"""RViz on a virtual screen while launch_bag.launch runs: it draws the robot's way."""
+"""RViz on a virtual screen draws the robot's path while launch_bag.launch runs."""
 
 import re
 

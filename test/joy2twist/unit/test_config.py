@@ -1,4 +1,4 @@
-"""Every preset in config/ loads, and drives as it says."""
+"""Every preset in config/ loads and drives as documented."""
 
 import pytest
 import yaml
@@ -11,7 +11,7 @@ from tutorial_testing.processes import REPOSITORY
 
 CONFIG = REPOSITORY / "joy2twist" / "config"
 PRESETS = {path.stem: yaml.safe_load(path.read_text()) for path in sorted(CONFIG.glob("*.yaml"))}
-# Of the gamepad: axes, buttons, then stick forward, stick left, dead-man and turbo.
+# Numbers of axes and of buttons; axes for forward and left; dead-man and turbo buttons.
 # Source: reference of the F710; xpad.c, hid-sony.c and hid-playstation.c of Linux 6.1.
 GAMEPADS = {
     "extreme_3d": (6, 12, 1, 2, 0, 1),
@@ -40,7 +40,7 @@ def test_preset(name):
     assert joy([dead_man]) == pytest.approx((0.35, 0, 0, 0, 0, 0.6))
     assert joy([turbo]) == pytest.approx((0.7, 0, 0, 0, 0, 1.0))
     assert joy([]) == ZERO
-    # Beyond any stick: no faster than the fastest of the preset.
+    # A value beyond any stick drives no faster than the preset's maximum.
     assert joy([dead_man], -465.0) == pytest.approx((-0.7, 0, 0, 0, 0, -2.0))
     assert warnings == []  # the number of axes is as expected
     machine.joy([0.0] * (axis_count + 1), [0] * button_count, now=0.0)

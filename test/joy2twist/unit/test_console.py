@@ -1,4 +1,4 @@
-"""What the node writes to the screen."""
+"""The node's lines on the screen."""
 
 import io
 import logging

@@ -1,4 +1,4 @@
-"""Hints that a gamepad is switched to another mode."""
+"""Hints about a gamepad in another mode."""
 
 import pytest
 

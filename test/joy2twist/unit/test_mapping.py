@@ -1,4 +1,4 @@
-"""From axes and buttons to a velocity, held against the C++ node teleop_twist_joy."""
+"""From axes and buttons to a velocity, compared with the C++ node teleop_twist_joy."""
 
 import math
 
@@ -38,7 +38,7 @@ CAR = {"inverted_reverse": True}
      (0.8, 0, 0, 0, 0, 1.5)),
     ("turbo from a map", TURBO_MAP, AXES, (0, 1), (0.8, 4.0, 1.2, 2.1, 1.6, 0.3)),
     ("enable not required, turbo", NOT_REQUIRED, AXES, (0, 1), (0.8, 0, 0, 0, 0, 0.9)),
-    # As teleop_twist_joy has it: a button that the gamepad lacks is not pressed.
+    # As in teleop_twist_joy, a button that the gamepad lacks is not pressed.
     ("no turbo button", DIFFERENTIAL, AXES, (1,), (0.4, 0, 0, 0, 0, 0.9)),
     ("no turbo button, not held", DIFFERENTIAL, AXES, (0,), None),
     ("turbo is the only dead-man, and button 0", TURBO, AXES, (1, 0), (0.4, 0, 0, 0, 0, 0.3)),
@@ -124,6 +124,6 @@ def test_limited_speed_is_within_the_limits_and_keeps_its_direction(velocity, li
 @given(st.tuples(*[st.floats(-2, 2)] * 6), st.tuples(*[st.floats(-2, 2)] * 6))
 def test_the_target_is_reached_exactly_in_the_time_it_takes(start, target):
     velocity = start
-    for _ in range(80):  # at most 2 * sqrt(3) * 2 apart, 0.1 a step
+    for _ in range(80):  # at most 2 * sqrt(3) * 2 apart, 0.1 per step
         velocity = approach(velocity, target, 0.1, 0.1)
     assert velocity == target

@@ -1,4 +1,4 @@
-"""When to send a velocity, when zero and when nothing. Times in seconds, as they would pass.
+"""When to send a velocity, zero or nothing. Times are simulated, in seconds.
 
 Arming, losses and lateness: random messages and parameters in test/suite/unit/test_stateful.py.
 """
@@ -27,7 +27,7 @@ def safety(**given):
     return Safety(load({"joy_timeout": 0.5, **given}), wake=lambda: None)
 
 
-# What happens, by name. A stick may be pushed while the dead-man button is released.
+# Events by name. A stick may be pushed while the dead-man button is released.
 ACTS = {
     "forward": lambda machine, now: machine.drive(FORWARD, False, now),
     "backward": lambda machine, now: machine.drive(BACKWARD, False, now),
@@ -38,7 +38,7 @@ ACTS = {
     "leaves": lambda machine, now: machine.lost(S.LEFT, now),
     "bob forward": lambda machine, now: machine.drive(FORWARD, False, now, "bob"),
 }
-# Name: parameters, then (time, what happens, what is sent at once, the state if it matters).
+# Name: parameters, then (time, event, what is sent at once, the state if it matters).
 STORIES = {
     "without a dead-man every message drives": ({}, [
         (0.0, "forward", FORWARD, S.DRIVING), (0.02, "backward", BACKWARD), (0.04, "middle", ZERO),
@@ -68,7 +68,7 @@ def test_what_is_sent_at_once_and_the_state(name):
 @pytest.mark.parametrize(("given", "acts", "sent"), [
     ({}, ["forward"], [(t, ZERO) for t in (0.5, 0.55, 0.6, 0.65, 0.7)]),
     ({"joy_timeout": 0}, ["forward"], []),
-    ({}, ["middle"], []),  # a robot that stands needs no stop, but one on its way through zero
+    ({}, ["middle"], []),  # a robot at rest needs no stop, unless it is only passing through zero
     ({"stop_messages": 1, "joy_timeout": 0.15, **LIMITS}, ["forward", "backward"],
      [(0.1, ZERO), (0.15, ZERO)]),
     ({"stop_messages": 3, "output_rate": 10, **DEAD_MAN}, ["forward", "release"],
@@ -83,11 +83,11 @@ def test_what_silence_sends(given, acts, sent):
     assert machine.due == inf
 
 
-ADA, BOB = [], []  # which are equal, and not the same
+ADA, BOB = [], []  # equal, but not identical
 
 
 @pytest.mark.parametrize(("given", "messages", "pause", "times", "notices"), [
-    # Two that send in turn; a held stick that moves nothing; a silence where the robot moved.
+    # Two senders in turn; a held stick that moves nothing; silence while the robot moves.
     ({}, [(None, True, ADA), (None, True, BOB)], 0.02, 200, [Notice.IN_TURN]),
     ({}, [(None, True, ADA), (None, True, BOB)], 1.0, 200, []),
     ({}, [(None, True, ADA), (None, True, BOB)], 0.999, 200, [Notice.IN_TURN] * 34),
@@ -125,7 +125,7 @@ def test_a_held_joystick_that_is_silent_is_stopped_as_one_that_does_not_change()
 def test_the_node_is_woken_where_something_is_due_sooner():
     woken = []
     machine = Safety(load({}), lambda: woken.append(True))
-    # Its silence is watched from the first message on, its stillness while it moves.
+    # Silence counts from the first message on, stillness only while the robot moves.
     for act, count in (("forward", 2), ("backward", 2), ("forward", 2), ("middle", 2),
                        ("backward", 3), ("forward", 3), ("backward", 3)):  # fmt: skip
         ACTS[act](machine, 0.0)
@@ -148,7 +148,7 @@ def test_speed_comes_at_a_steady_rate_and_goes_with_the_stick(sign):
     machine = safety(**LIMITS)
     speeds = [(0.0, 0.1), (0.1, 0.2), (0.2, 0.25), (0.3, 0.25)]
     assert hold(machine, sign * 0.25, 0.0, 0.4) == [(t, sign * speed) for t, speed in speeds]
-    # Released: soft, and at zero it is one velocity for every message again.
+    # Released: a soft stop, then again one velocity for each message.
     speeds = [(0.4, 0.15), (0.5, 0.05), *((t, 0.0) for t in (0.6, 0.65, 0.7, 0.75))]
     assert hold(machine, 0.0, 0.4, 0.8) == [(t, sign * speed) for t, speed in speeds]
 

@@ -1,4 +1,4 @@
-"""The whole pure path: from axes and buttons to what is sent and said.
+"""The whole path of the rules: from axes and buttons to velocities and warnings.
 
 Random messages and parameters are in test/suite/unit/test_stateful.py.
 """
@@ -32,10 +32,10 @@ def test_a_bad_message_is_reported_once_in_five_seconds():
 def test_driving_that_reaches_no_subscriber_is_reported_once_until_there_is_one():
     machine, warnings = teleoperation(enable_button=0)
     for now in (0.0, 5.0):
-        machine.listeners(0, "/carl/cmd_vel", now)  # it does not drive
+        machine.listeners(0, "/carl/cmd_vel", now)  # it is not driving
     machine.joy((0.5, 0.7), (1,), 10.0)
     for count, now, reported in (
-        (0, 10.0, 0), (0, 11.9, 0), (0, 12.0, 0),  # the robot may be starting
+        (0, 10.0, 0), (0, 11.9, 0), (0, 12.0, 0),  # the robot may still be starting
         (0, 12.1, 1), (0, 20.0, 1), (1, 21.0, 1), (0, 22.0, 1), (0, 25.0, 2),
     ):  # fmt: skip
         machine.listeners(count, "/carl/cmd_vel", now)
@@ -59,14 +59,14 @@ def test_an_old_message_is_not_driven(longest_s, age_ns, drives):
 @claim("A held key or ...", because="as long as it is held")
 @pytest.mark.parametrize("step", [0.0, 2.0**-15])
 def test_a_stick_held_for_eight_seconds_is_stopped_unless_it_trembles(step):
-    """step: of 65,536 in the whole way of an axis, one."""
+    """step: one of the 65,536 steps of an axis."""
     machine, warnings = teleoperation(arm_on_neutral=True, enable_button=0, vigilance_timeout=3.0)
     machine.joy(*RELEASED, 0.0)
     sent = []
     for i in range(1, 161):
         now = i * 0.05
         sent += [machine.tick(now), machine.joy((0.0, 1.0 - step * (i % 2)), (1, 0, 0), now)]
-        if now == 2.6:  # half a second before the stop
+        if now == 2.6:  # shortly before the stop
             assert machine.summary(now)[1].startswith("driving: ") is (step == 0), "no warning"
     assert sent[2:].count((0,) * 6) == 5 * (step == 0)  # ~stop_messages
     said = ["The joystick does not change", "Stopped"] if step == 0 else []
@@ -77,11 +77,11 @@ def test_a_stick_held_for_eight_seconds_is_stopped_unless_it_trembles(step):
 def test_the_stop_button_is_named_until_it_is_reset_and_sends_zeros_meanwhile():
     machine, warnings = teleoperation(enable_button=0, stop_button=1, stop_reset_button=2)
     machine.joy(*HELD, 0.1)
-    assert machine.joy((NAN,), (1, 1), 0.2) == (0,) * 6  # in whatever message
-    assert machine.joy((NAN, 1.0), (1, 0, 1), 0.3) is None  # no reset, as it is not good
+    assert machine.joy((NAN,), (1, 1), 0.2) == (0,) * 6  # in any message, even an unusable one
+    assert machine.joy((NAN, 1.0), (1, 0, 1), 0.3) is None  # an unusable message resets nothing
     state = machine.summary(0.4)[1]
     assert state.startswith("stopped: the stop button") and "press button 2" in state
-    # Zeros at ~output_rate, so that no other source of a multiplexer drives meanwhile.
+    # Zeros at ~output_rate keep other inputs of a multiplexer from driving meanwhile.
     zeros = over_time(machine, 0.6, 10.6)
     assert len(zeros) > 190 and {velocity for _, velocity in zeros} == {(0,) * 6}
     machine.joy((0.0, 1.0), (1, 0, 1), 11.0)
@@ -102,7 +102,7 @@ def test_diagnostics_tell_the_state_the_rate_and_the_age():
         machine.joy((0.0, 1.0), (1,), 100.0 + i * 0.02)
     details = {rate: "42.1", age: "0.400", deadman: "0"}
     assert machine.summary(102.4) == (True, "driving", details)
-    assert machine.summary(102.4)[2][rate] == "0.0"  # asked for twice at once
+    assert machine.summary(102.4)[2][rate] == "0.0"  # a second request at the same time
     machine.tick(105.0)
     assert machine.summary(105.5)[:2] == (False, "stopped: no message for 0.5 s")
     assert machine.suspended(1, 106.0) is None and "suspended" in warnings[-1]

@@ -1,12 +1,12 @@
-"""Programs and recordings for a real Kobuki or turtlesim fit: nodes of ROS 1 compare these sums."""
+"""The MD5 sums that ROS 1 compares are those of a real Kobuki and of turtlesim."""
 
 import pytest
 from roslib.message import get_message_class, get_service_class
 
 from tutorial_testing.claims import claim
 
-# getMD5() of what rosserial generated from the released package, as several public repositories
-# have it (firmware/libraries/ros_lib/kobuki_msgs in verlab/hero_common has all).
+# getMD5() of the code that rosserial generated from the released package, found in several public
+# repositories (verlab/hero_common has all, in firmware/libraries/ros_lib/kobuki_msgs).
 KOBUKI = {
     "AutoDockingAction": "44be114f3afc06365a090db0a5e982b5",
     "BumperEvent": "ffe360cd50f14f9251d9844083e72ac5",
@@ -28,7 +28,7 @@ KOBUKI = {
     "VersionInfo": "3dc0ce6edd49be1fc86730f4a4a21861",
     "WheelDropEvent": "e102837d89384d67669a0df86b63f33b",
 }
-# The fields of ros/ros_tutorials, Noetic; `rosmsg md5` there.
+# From `rosmsg md5` with ros/ros_tutorials of Noetic.
 TURTLESIM = {
     "Pose": "863b248d5016ca62ea2e895ae5265cf9",
     "Color": "353891e354491c51aabe32df673fb446",

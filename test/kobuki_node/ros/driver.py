@@ -1,4 +1,4 @@
-"""The driver and a Kobuki on a serial line: what it publishes, and how it drives through faults."""
+"""The driver and a Kobuki on a serial line: what it publishes, and how it handles faults."""
 
 import math
 import os
@@ -140,7 +140,7 @@ class DriverTest(RosTest):
         packets = len(self.got["odom"])
         wait_for(lambda: len(self.got["odom"]) - packets >= 50, "packets")
         self.assertAlmostEqual(len(self.robot.controls) - begin, 50, delta=5)
-        self.drive()  # and the next one drives
+        self.drive()  # the next command drives
 
     def test_what_is_no_velocity_is_ignored(self):
         self.plugged()
@@ -181,7 +181,7 @@ class DriverTest(RosTest):
         self.check_pose()
 
     def check_pose(self):
-        """The pose is still that of the wheels: at rest, as packets take a while."""
+        """Check that the pose is still that of the wheels, once they are at rest."""
         self.rests()
         count = len(self.got["odom"])
         wait_for(lambda: len(self.got["odom"]) > count + 5, "packets")

@@ -19,7 +19,7 @@ from tutorial_testing.waiting import tolerance, wait_for
 BAG = Path(rospkg.RosPack().get_path("gamepad"), "bag/joy.bag")
 RECORDING_S = 60.0  # joy.bag, about
 WINDOW = 500  # odometry messages, ten seconds
-MEDIAN_S = 0.001  # ./tutorial bench kobuki_node measures the jitter: a busy machine adds to it
+MEDIAN_S = 0.001  # a busy machine adds jitter; ./tutorial bench kobuki_node measures it
 POSE_M, HEADING_DEG = 0.001, 0.1
 BACKS_OFF_S = 0.2
 SAFE_SPEED = -0.1  # [m/s] of the safety controller

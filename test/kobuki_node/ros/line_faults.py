@@ -1,6 +1,6 @@
-"""Faults of a Kobuki's driver, line and robot while LB is held: the wheels rest in time.
+"""Faults of a Kobuki's driver, line and robot while LB is held: the wheels stop in time.
 
-The wheels are those of serial_kobuki: its truth is asked, and not the driver's odometry.
+The wheels' true motion comes from serial_kobuki, not from the driver's odometry.
 """
 
 import signal
@@ -21,9 +21,9 @@ from tutorial_testing.rostests import RosTest
 from tutorial_testing.serial_rig import BASE, SerialRig
 from tutorial_testing.waiting import tolerance, wait_for
 
-LASTS_S = 1.5  # a fault, so that what stops the wheels is seen
-BAD_CABLE_S = 12.0  # with a stall in it
-LONGEST_REST_S = 0.6  # over it; the machine adds to that
+LASTS_S = 1.5  # duration of a fault: long enough for the wheels to stop
+BAD_CABLE_S = 12.0  # includes a stall
+LONGEST_REST_S = 0.6  # over a bad cable, on a machine that is not busy
 WATCHED_S = 1.2  # after the fault
 
 
@@ -34,7 +34,7 @@ WATCHED_S = 1.2  # after the fault
 @pytest.mark.long
 class LineFaults(RosTest):
     def check_rest(self, rig, begin, end):
-        """The wheels rest in time after begin(), which returns when [s] it was; then end()."""
+        """Check that the wheels stop in time after begin(), which returns its time; then end()."""
         rig.drive()
         late_s = tolerance()
         began_s = begin()
@@ -121,7 +121,7 @@ class LineFaults(RosTest):
             began_s = suspend([master])
             try:
                 wait_for(lambda: rig.since(began_s + WATCHED_S), "truth")
-                self.assertTrue(all(m.moves for m in rig.since(began_s)))  # it is driven on
+                self.assertTrue(all(m.moves for m in rig.since(began_s)))  # it still drives
                 late_s, ended_s = tolerance(), time.time()
                 rig.kill(BASE, signal.SIGINT, base)
                 wait_for(lambda: rig.since(ended_s + WATCHED_S), "truth")

@@ -1,4 +1,4 @@
-"""Which robot a launch file drives, and what it says of it."""
+"""Which robot a launch file drives, and the line that reports it."""
 
 import pytest
 
@@ -11,7 +11,7 @@ pytestmark = claim(
     "driven in by a real robot; one line says which of the two"
 )
 USB = "/dev/ttyUSB0"
-USUAL = "/dev/kobuki"  # as turtlebot_bringup's hook sets the variable
+USUAL = "/dev/kobuki"  # turtlebot_bringup's environment hook sets the variable to this
 
 
 @pytest.mark.parametrize(("given", "port", "part"), [

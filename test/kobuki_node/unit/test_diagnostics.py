@@ -1,4 +1,4 @@
-"""What /diagnostics says of a Kobuki, in the words of kobuki_node's diagnostics.cpp."""
+"""The entries of a Kobuki in /diagnostics, in the words of kobuki_node's diagnostics.cpp."""
 
 from diagnostic_msgs.msg import DiagnosticStatus
 

@@ -1,4 +1,4 @@
-"""What is found out about the line to a Kobuki, and said once; what it is asked."""
+"""What the driver learns about the line to a Kobuki, and reports once; its requests."""
 
 import pytest
 
@@ -90,7 +90,7 @@ def test_a_robot_is_asked_until_it_has_answered():
     assert identification.requests(10.22) == [GetController()]
     identification.take([Controller()])
     assert identification.requests(99.0) == []
-    identification.begin(100.0)  # it was lost, and is back
+    identification.begin(100.0)  # the robot was lost, and is back
     assert identification.requests(100.0) == [IdentityRequest(), GetController()]
 
 
@@ -110,7 +110,7 @@ def test_a_robot_that_does_not_answer_is_asked_less_often():
 def test_another_major_version_is_not_driven(firmware, drives, part):
     identification = Identification()
     identification.begin(0.0)
-    assert not identification.may_drive(0.5)  # it may be any
+    assert not identification.may_drive(0.5)  # the version is unknown
     identification.take([firmware])
     assert identification.may_drive(0.5) is drives
     assert (part or "") in identification.objection()

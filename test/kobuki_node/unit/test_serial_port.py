@@ -1,4 +1,4 @@
-"""The serial port on pseudo terminals: what comes, and each fault as one line."""
+"""The serial port on pseudo terminals: bytes that arrive, and one line for each fault."""
 
 import fcntl
 import os
@@ -49,7 +49,7 @@ def test_a_second_driver_does_not_get_the_port(line):
 
 
 def test_a_port_that_takes_nothing_keeps_no_old_commands(line):
-    """What waits when the other side reads again is what was sent then."""
+    """When the other side reads again, it gets only what is sent from then on."""
     master, _, path = line
     port = SerialPort(path)
     for _ in range(3):
@@ -106,7 +106,7 @@ def test_no_permission_is_one_line(tmp_path, monkeypatch):
 
 
 def test_another_program_that_has_the_port_is_named(line):
-    """A lock of another kind of program, by flock."""
+    """The other program locks it by flock."""
     path = line[2]
     fcntl.flock(os.open(path, os.O_RDWR | os.O_NOCTTY), fcntl.LOCK_EX)
     with pytest.raises(PortError, match="two drivers would command one robot"):

@@ -1,4 +1,4 @@
-"""Which velocity the wheels of a Kobuki get, as stories."""
+"""The velocity that the wheels of a Kobuki get, step by step."""
 
 from math import inf, nan
 

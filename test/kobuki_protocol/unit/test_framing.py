@@ -1,4 +1,4 @@
-"""Packets are found again after any damage of the stream."""
+"""The framer finds the next packet after any damage to the stream."""
 
 import random
 
@@ -26,7 +26,7 @@ def payload(values):
 
 
 def damaged(values, stream):
-    """Return the stream damaged in one place, and that place: (start, end) in the old one."""
+    """Return the stream with one damaged place, and where it is in the original: (start, end)."""
     start = values.randrange(len(stream))
     end = min(len(stream), start + values.randint(1, 30))
     kind = values.choice(["flip", "lose", "twice", "garbage", "cut"])
@@ -50,7 +50,7 @@ def in_pieces(values, stream):
 
 
 def test_every_undamaged_packet_is_delivered_and_no_other():
-    """10,000 streams; a false one needs parts that fill it and a checksum that fits by chance."""
+    """A false packet needs parts that fill it and a checksum that matches by chance."""
     values = random.Random(427)
     false = 0
     for _ in range(STREAMS):
@@ -60,7 +60,7 @@ def test_every_undamaged_packet_is_delivered_and_no_other():
             places.append((len(stream), len(stream) + len(one) + 4))
             stream += packet(one)
         stream, (start, end) = damaged(values, stream)
-        stream += packet(b"\x01\x00") * 130  # what a false length can still swallow: 255 bytes
+        stream += packet(b"\x01\x00") * 130  # a false length can swallow 255 bytes
         framer, received = Framer(), []
         for piece in in_pieces(values, stream):
             received += framer.feed(piece)
@@ -86,13 +86,13 @@ def test_a_packet_is_delivered_with_its_last_byte():
 
 
 @pytest.mark.parametrize(("before", "damage", "skipped"), [
-    ("00 " * 100, 0, 100),  # a line that is held low
+    ("00 " * 100, 0, 100),  # a line held low
     ("aa aa aa", 0, 3),
     ("aa 55 00", 1, 3),  # no payload
     ("aa 55 06 01 04 64 00 00 00 66", 1, 10),  # a wrong checksum
-    ("aa 55 06 01 04 64 00", 1, 7),  # cut off, and its length reaches into the next one
+    ("aa 55 06 01 04 64 00", 1, 7),  # cut off: its length reaches into the next packet
     ("aa 55 aa 01 04", 1, 5),  # length 170 (kobuki 382)
-    ("aa 55 05 01 02 03 04 09", 1, 8),  # parts that are longer than the payload
+    ("aa 55 05 01 02 03 04 09", 1, 8),  # parts longer than the payload
 ])  # fmt: skip
 def test_what_is_no_packet_costs_only_itself(before, damage, skipped):
     framer = Framer()
@@ -102,7 +102,7 @@ def test_what_is_no_packet_costs_only_itself(before, damage, skipped):
 
 
 def test_a_false_length_does_not_hold_up_what_follows():
-    """The second byte of the next header is no length that fits: it is refused at once."""
+    """The second byte of the next header is no valid length, so it is rejected at once."""
     framer = Framer()
     assert framer.feed(bytes.fromhex("aa 55 20 01 02 64 00") + BASE_CONTROL) == [PAYLOAD]
 

@@ -40,8 +40,8 @@ RUNS = 10_000
     ((-0.3, 0.5), [-357, -600, -300, 500]),
     ((0.0, 0.5), [57, 1, 0, 500]),  # on the spot
     ((0.0, -0.5), [-57, 1, 0, -500]),
-    ((0.0005, 0.5), [57, 1, 0, 500]),  # a radius of 1 mm is one on the spot
-    ((50.0, 0.0), [32767, 0, 32767, 0]),  # cut to 16 bits
+    ((0.0005, 0.5), [57, 1, 0, 500]),  # a radius of 1 mm means on the spot
+    ((50.0, 0.0), [32767, 0, 32767, 0]),  # limited to 16 bits
     ((-50.0, 0.0), [-32768, 0, -32768, 0]),
 ])  # fmt: skip
 def test_a_velocity_is_sent_as_speed_and_radius(velocity, values):
@@ -55,7 +55,7 @@ def test_what_is_no_velocity_is_refused(velocity):
 
 
 def test_a_kobuki_drives_what_was_commanded():
-    """But for what the line cuts off: 1 mm/s, 1 mm of the radius, and 2 mm where that is 1."""
+    """Except for what the protocol rounds off: 1 mm/s, and 1 mm of the radius, or 2 mm at 1."""
     values = random.Random(60)
     for _ in range(RUNS):
         v, w = values.uniform(-0.7, 0.7), values.uniform(-3.0, 3.0)
@@ -145,7 +145,7 @@ def random_parts(values):
 
 def test_what_a_newer_firmware_adds_is_left_out():
     payload = bytes([1, 1, 0, 99, 2, 7, 7]) + bytes.fromhex("06 02 06 07")
-    assert robot_packets.parse(payload) == [Current(6, 7)]  # a core of one byte is none
+    assert robot_packets.parse(payload) == [Current(6, 7)]  # a core of one byte is invalid
 
 
 def test_a_part_that_does_not_come_stays_as_it_was():
@@ -203,14 +203,10 @@ def test_messages_become_commands():
 
 
 def test_a_firmware_of_another_major_version_is_not_driven():
-    newest, old, other = (
-        FirmwareVersion(0, 2, 1),
-        FirmwareVersion(3, 1, 1),
-        FirmwareVersion(0, 0, 2),
-    )
-    assert [str(version) for version in (newest, old, other)] == ["1.2.0", "1.1.3", "2.0.0"]
-    assert [version.is_supported for version in (newest, old, other)] == [True, True, False]
-    assert [version.is_recommended for version in (newest, old, other)] == [True, False, False]
+    versions = [FirmwareVersion(0, 2, 1), FirmwareVersion(3, 1, 1), FirmwareVersion(0, 0, 2)]
+    assert [str(version) for version in versions] == ["1.2.0", "1.1.3", "2.0.0"]
+    assert [version.is_supported for version in versions] == [True, True, False]
+    assert [version.is_recommended for version in versions] == [True, False, False]
 
 
 @pytest.mark.parametrize(("data", "version"), [("7b00", "1.0.0"), ("7527", "1.1.1")])

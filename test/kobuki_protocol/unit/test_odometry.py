@@ -1,4 +1,4 @@
-"""The pose from encoders and gyro, whatever happens to the robot, the cable or the driver."""
+"""The pose from encoders and gyro, despite faults of the robot, the cable or the driver."""
 
 from math import cos, degrees, pi, sin
 
@@ -15,7 +15,7 @@ TICKS_PER_M = 11724.4  # 11.7244 ticks/mm (kobuki_driver's appendix)
 
 
 class Robot:
-    """A Kobuki that drives v [m/s], w [rad/s], and the packets it sends."""
+    """A Kobuki that drives v [m/s], w [rad/s], and sends packets."""
 
     def __init__(self, odometry, started_s=10.0):
         self.odometry, self.now, self.started_s = odometry, started_s, started_s
@@ -127,7 +127,7 @@ def test_a_robot_that_was_switched_off_and_on_keeps_its_pose(robot, off_s):
 def test_a_cable_that_was_out_costs_nothing_of_the_pose(robot, out_s):
     robot.drive(0.2, 0.0, 1.0)
     robot.move(0.2, 0.0, 0.5)  # it rolls on until its own timeout
-    robot.move(0.0, 0.1, min(out_s, 3.0))  # and someone turns it
+    robot.move(0.0, 0.1, min(out_s, 3.0))  # someone turns it by hand
     robot.move(0.0, 0.0, max(0.0, out_s - 3.0))
     robot.drive(0.0, 0.0, 0.1)
     x, _, yaw = pose(robot)
@@ -138,8 +138,8 @@ def test_a_cable_that_was_out_costs_nothing_of_the_pose(robot, out_s):
 
 def test_a_driver_that_was_suspended_catches_up(robot):
     robot.drive(0.5, 0.0, 1.0)
-    robot.drive(0.5, 0.0, 0.8, late_s=10.0)  # what its port has kept
-    robot.move(0.0, 0.0, 9.2)  # what it has not
+    robot.drive(0.5, 0.0, 0.8, late_s=10.0)  # what its port kept
+    robot.move(0.0, 0.0, 9.2)  # what was lost
     robot.drive(0.5, 0.0, 1.0)
     assert pose(robot)[0] == pytest.approx(1.4, abs=1e-3)
     assert robot.odometry.counts == 1
@@ -152,7 +152,7 @@ def test_a_packet_that_came_late_is_known_by_the_clock_of_the_robot(robot):
     assert robot.odometry.late_s == pytest.approx(0.3, abs=0.002)
     robot.drive(0.0, 0.0, 0.02)
     assert robot.odometry.late_s < 0.002
-    robot.switch_off_and_on(2.0)  # then nothing is known of it
+    robot.switch_off_and_on(2.0)  # the delay is then unknown
     robot.drive(0.0, 0.0, 0.02)
     assert robot.odometry.late_s == 0.0
 
@@ -179,7 +179,7 @@ def test_a_heading_that_passes_half_a_turn_does_not_jump(robot):
 
 
 def test_the_clock_of_a_robot_may_be_wrong(robot):
-    """By 500 ppm, for ten minutes: 0.3 s; a gap then is no restart."""
+    """Off by 500 ppm for ten minutes, 0.3 s; a gap is then not taken for a restart."""
     for _ in range(600):
         robot.drive(0.0, 0.0, 0.98)
         robot.now += 0.0005

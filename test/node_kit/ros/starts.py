@@ -1,4 +1,4 @@
-"""A start never harms what runs: a table of what runs, what is started, and what is left."""
+"""Starting a node never disturbs running ones: what runs, what is started, what goes on."""
 
 import re
 
@@ -20,8 +20,8 @@ ROBOT = "rosrun fake_turtlebot_sim fake_turtlebot.py"
 TURTLEBOT = "roslaunch fake_turtlebot_sim minimal.launch"
 CLASS = "roslaunch cockpit classroom.launch"
 RECORDING = "roslaunch joy2twist launch_bag.launch rviz:=false"
-# What runs, and topics whose messages must go on: what is started and refused, with a word of its
-# one line; then what may run beside it, with a topic that shows it.
+# What runs, and topics whose messages must continue: what is refused, with words of its one line;
+# then what may run beside it, with a topic that shows it.
 TABLE = {
     ("roslaunch fake_turtlebot_sim fake_turtlebot.launch", "/odom", "/joint_states"): (
         [(ROBOT, "/fake_turtlebot runs already"),
@@ -71,7 +71,7 @@ class StartsTest(RosTest):
             with Program(*runs.split()) as running:
                 watches = [self.watch(topic) for topic in topics]
                 nodes = re.findall(r"process\[(\S+)-\d+\]: started", running.output)
-                wait_for(lambda n=nodes: {f"/{one}" for one in n} <= known_nodes(MASTER), "nodes")
+                wait_for(lambda n=nodes: {f"/{name}" for name in n} <= known_nodes(MASTER), "nodes")
                 for command, words in refused:
                     with started_by(command) as started:
                         self.assertEqual(started.wait(), 1, f"{command}: {started.output}")
@@ -96,7 +96,7 @@ class StartsTest(RosTest):
             self.assertFalse(rospy.has_param("/three/robots"))
 
     def test_of_two_talkers_with_one_name_the_older_ends_and_ctrl_c_ends_the_other(self):
-        # As node_kit's roscore.xml, which only a shell of the suite has roslaunch read.
+        # As node_kit's roscore.xml does, which roslaunch reads only in a shell of the suite.
         rospy.set_param("/rosout_disable_topics_generation", False)
         talker, chatter = (node_path("beginner_tutorials", "talker.py"), "--unique"), "chatter"
         first, _ = self.start(*talker), self.watch(chatter)

@@ -1,4 +1,4 @@
-"""Services that are registered before a node has loaded rospy, at a master that the test plays."""
+"""Services registered before a node loads rospy, at a master that the test simulates."""
 
 import atexit
 import signal
@@ -22,21 +22,21 @@ SERVICES = ("spawn", "turtle1/set_pen")
 
 @pytest.fixture
 def master(monkeypatch):
-    """Return the state of a master, and what it was told: (method, caller, ...)."""
-    state, told = [[], [], []], []
+    """The state of a master, and the requests it received: (method, caller, ...)."""
+    state, requests = [[], [], []], []
     server = SimpleXMLRPCServer(("127.0.0.1", 0), logRequests=False)
     server.register_function(lambda _: (1, "", state), "getSystemState")
     for method in ("registerService", "unregisterService"):
         server.register_function(
-            lambda *request, method=method: told.append((method, *request)) or (1, "", 1), method
+            lambda *given, method=method: requests.append((method, *given)) or (1, "", 1), method
         )
     threading.Thread(target=server.serve_forever, args=(0.01,), daemon=True).start()
     monkeypatch.setenv("ROS_MASTER_URI", f"http://127.0.0.1:{server.server_address[1]}")
     monkeypatch.setenv("ROS_IP", "127.0.0.1")
     monkeypatch.setattr(sys, "argv", ["turtlesim_node"])
-    monkeypatch.setattr(atexit, "register", lambda _: None)  # It would run when the tests end.
+    monkeypatch.setattr(atexit, "register", lambda _: None)  # it would run when the tests end
     monkeypatch.setattr(signal, "signal", lambda *_: None)
-    yield state, told
+    yield state, requests
     server.shutdown()
     server.server_close()
 
@@ -47,8 +47,8 @@ def sockets(monkeypatch):
     made, make = [], announcement._bound
     monkeypatch.setattr(announcement, "_bound", lambda: made.append(make()) or made[-1])
     yield made
-    for each in made:
-        each.close()
+    for listener in made:
+        listener.close()
 
 
 @pytest.mark.parametrize(("arguments", "node", "names"), [
@@ -73,16 +73,16 @@ def test_callers_wait_and_the_node_gets_its_port(master, sockets):
     made = announce("turtlesim", SERVICES)
     with socket.create_connection(("127.0.0.1", sockets[0].getsockname()[1])) as caller:
         assert made.listener.accept()[1] == caller.getsockname()
-    with pytest.raises(ConnectionRefusedError):  # a master may ask: there is no node yet
+    with pytest.raises(ConnectionRefusedError):  # for a master that asks: there is no node yet
         socket.create_connection(("127.0.0.1", made.node_port))
     place = "127.0.0.1", made.node_port
-    with SimpleXMLRPCServer(place):  # as rospy's
+    with SimpleXMLRPCServer(place):  # as rospy starts it
         made.keep()
         socket.create_connection(place).close()
 
 
 @pytest.mark.parametrize("state", [
-    [[["/rosout", ["/turtlesim"]]], [], []],  # it would end the node of that name
+    [[["/rosout", ["/turtlesim"]]], [], []],  # a running node of that name
     [[], [], [["/spawn", ["/sim"]]]],
 ])  # fmt: skip
 def test_what_runs_already_is_left_alone(master, sockets, state):

@@ -1,4 +1,4 @@
-"""What was sent during a suspension is not obeyed."""
+"""Commands sent during a suspension are ignored."""
 
 from node_kit.rules.arming import SETTLING_S, Resumption
 
@@ -11,7 +11,7 @@ def test_what_a_receiver_obeys_after_suspensions():
         (6.0, 3, True, True),
         (6.1, 3, False, True),
         (6.25, 3, False, False),
-        (7.0, 1, True, True),  # any other number is new
+        (7.0, 1, True, True),  # any other number counts as new
     ]
     for now, number, new, old in steps:
         assert resumption.notice(number, now) is new, now

@@ -1,4 +1,4 @@
-"""Unreadable messages are reported once a second, and leave nothing in the buffer."""
+"""Unreadable messages are reported once a second and leave the buffer empty."""
 
 import io
 from types import SimpleNamespace
@@ -12,12 +12,12 @@ from node_kit.rules.throttle import ThrottleEach
 from tutorial_testing.claims import claim
 from tutorial_testing.clock import Clock
 
-WRONG_LENGTH = b"\x03\0\0\0abc"  # three bytes are no Joy
+WRONG_LENGTH = b"\x03\0\0\0abc"  # three bytes are not a Joy
 
 
 @pytest.fixture
 def read(monkeypatch):
-    """Read bytes at a time [s] as a subscription does: the warnings, and the messages or None."""
+    """read(bytes, time [s]), as a subscription: the warnings so far, and the messages or None."""
     clock, lines = Clock(), []
     monkeypatch.setattr(connections, "time", clock)
     monkeypatch.setattr(connections, "_may_warn", ThrottleEach(1.0))
@@ -48,7 +48,7 @@ def test_unreadable_messages_are_reported_once_a_second(read):
 
 def test_a_message_that_does_not_end_is_reported(read):
     buffer = io.BytesIO()
-    started = b"\0\0\1\0" + b"." * 20  # 65536 bytes, it says
+    started = b"\0\0\1\0" + b"." * 20  # it announces 65536 bytes
     assert read(started, 0.0, buffer) == ([], [])
     assert read(b".", 0.4, buffer) == ([], [])
     lines, messages = read(b".", 0.6, buffer)

@@ -1,4 +1,4 @@
-"""Which package.xml rospkg cannot read, and no other."""
+"""Exactly those package.xml are named that rospkg cannot read."""
 
 import pytest
 import rospkg
@@ -21,7 +21,7 @@ def package(folder, text):
 def test_a_file_that_rospkg_cannot_read_is_named(tmp_path, text, word):
     package(tmp_path / "src" / "good", GOOD)
     bad = package(tmp_path / "src" / "deep" / "bad", text)
-    with pytest.raises(Exception):  # noqa: B017  rospkg's own, of several kinds
+    with pytest.raises(Exception):  # noqa: B017  rospkg raises several types
         rospkg.RosPack([str(tmp_path)]).list()
     ((path, complaint),) = broken_manifests(tmp_path)
     assert path == f"{bad}/package.xml"

@@ -1,4 +1,4 @@
-"""Types whose names come from outside: those that genpy made, and nothing else is imported."""
+"""Types named by outside sources: only those that genpy generated are imported."""
 
 import string
 import sys
@@ -14,7 +14,7 @@ pytestmark = claim(
     "A type that a page, a master or a service names is one that genpy made here: nothing is "
     "imported for another name, and nobody stops driving"
 )
-# At import they end the program, open a browser, or run for long; and packages without messages.
+# Imported, they end the program, open a browser or take long; also packages without messages.
 MODULES = ["unittest.__main__", "antigravity", "this", "idlelib.__main__", "cockpit", "rospy", "os"]
 words = st.text(string.ascii_letters + string.digits + "_./-é\0", max_size=12)
 names = st.one_of(

@@ -1,4 +1,4 @@
-"""Sending without waiting over a real TCP connection."""
+"""Sending over a real TCP connection without blocking."""
 
 import select
 import socket
@@ -20,7 +20,7 @@ STOP = bytes(SIZE)
 
 @pytest.fixture
 def connection():
-    """Two ends of a TCP connection; the second one is slow to accept data."""
+    """Two ends of a TCP connection; the second has a small receive buffer."""
     with socket.create_server(("127.0.0.1", 0)) as server:
         server.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
         near = socket.create_connection(server.getsockname())
@@ -35,13 +35,13 @@ def message(number):
 
 
 def numbers_until(far, last):
-    """Read whole messages up to the one with the number last; their numbers."""
+    """Read whole messages up to the number last; return their numbers."""
     data, numbers = b"", []
     while not numbers or numbers[-1] != last:
         data += far.recv(65536)
         while len(data) >= SIZE:
             numbers.append(int.from_bytes(data[:4], "little"))
-            assert data[:SIZE] == message(numbers[-1])  # never a part of one, then another
+            assert data[:SIZE] == message(numbers[-1])  # never parts of two messages
             data = data[SIZE:]
     return numbers
 
@@ -49,12 +49,12 @@ def numbers_until(far, last):
 def test_a_side_that_does_not_read_gets_whole_messages_and_the_newest_one(connection):
     near, far = connection
     sender = NewestOnly(near, STOP, buffer_bytes=8192)
-    for number in range(20_000):  # more than both sides' buffers hold; none of these waits
+    for number in range(20_000):  # more than both buffers hold; no write blocks
         sender.write(message(number))
     numbers = numbers_until(far, 19_999)
     assert numbers == sorted(set(numbers))
-    assert len(numbers) < 10_000  # what was between is not sent any more
-    for number in range(100):  # from here on each arrives at once again
+    assert len(numbers) < 10_000  # the messages between are dropped
+    for number in range(100):  # from here on each arrives at once
         sender.write(message(number))
         assert far.recv(SIZE, socket.MSG_WAITALL) == message(number)
     assert near.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY)
@@ -69,7 +69,7 @@ CUT = [
     (5, 4, []),
     (6, None, []),  # released, but still cut
     (7, 6, []),
-    (0, 7, []),  # whole again, and still driving
+    (0, 7, []),  # restored, and still driving
     (0, None, []),  # released
     (0, 8, [8]),
 ]
@@ -79,7 +79,7 @@ HELD = [(0, 1, []), (0, 2, []), (0, None, []), (0, 3, [3]), (0, None, [])]
 @pytest.mark.parametrize(("steps", "stop", "held", "reports"), [
     (CUT, STOP, False, [True, False]),
     (HELD, STOP, True, [False]),
-    ([(100, 7, [7])], None, False, []),  # without a stop no connection counts as cut
+    ([(100, 7, [7])], None, False, []),  # without a stop message no connection counts as cut
 ])  # fmt: skip
 def test_a_cut_or_held_connection_is_driven_only_after_the_release(
     connection, monkeypatch, steps, stop, held, reports
@@ -101,13 +101,13 @@ def test_a_cut_or_held_connection_is_driven_only_after_the_release(
 
 
 class Answering:
-    """A socket that answers the question for TCP_INFO with bytes of the test's choice."""
+    """A socket that answers TCP_INFO with the bytes given."""
 
     def __init__(self, info):
         self._info = info
 
     def getsockopt(self, level, option, length):
-        # An emulated processor knows options of 4 bytes only.
+        # An emulated processor supports only options of 4 bytes.
         assert (level, option, length) == (socket.IPPROTO_TCP, socket.TCP_INFO, 4)
         return self._info[:length]
 
@@ -115,10 +115,10 @@ class Answering:
 # struct tcp_info: state (1 is established), congestion state (4 is loss), resends, probes.
 @pytest.mark.parametrize(("resends", "infos"), [
     (3, [[1, 4, 3, 0, 9, 9]]),
-    (2, [[12, 4, 2, 0], [8, 4, 2, 0]]),  # the last state; the other side closed its half
+    (2, [[12, 4, 2, 0], [8, 4, 2, 0]]),  # the last state; one in which the other side has closed
     (0, [[1, 0, 0, 0], [], [1], [1, 4], [1, 4, 9]]),  # short: the last byte may be anything
-    (0, [[0, 4, 9, 0], [13, 4, 9, 0]]),  # there are no such states
-    (0, [[1, 0, 9, 0], [1, 5, 9, 0], [0x5A] * 4]),  # resent without a loss cannot be
+    (0, [[0, 4, 9, 0], [13, 4, 9, 0]]),  # states that do not exist
+    (0, [[1, 0, 9, 0], [1, 5, 9, 0], [0x5A] * 4]),  # a resend without a loss is impossible
 ])  # fmt: skip
 def test_an_answer_that_is_short_or_cannot_be_right_is_no_cut(resends, infos):
     for info in infos:

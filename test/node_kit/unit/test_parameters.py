@@ -1,4 +1,4 @@
-"""Parameters: one line for every mistake, which names the parameter, its value, what is allowed."""
+"""Each mistake in a parameter is one line: the parameter, its value and what is allowed."""
 
 from dataclasses import MISSING, dataclass
 from math import inf, nan
@@ -18,7 +18,7 @@ pytestmark = claim(
 
 @dataclass(frozen=True)
 class Parameters:
-    """Some of each kind."""
+    """One parameter or more of each kind."""
 
     rate: float = parameter(50.0, number(5, 1000, "Hz"), "messages published", "as it comes")
     share: float = parameter(0.5, number(0, 1))
@@ -27,12 +27,12 @@ class Parameters:
     works: bool = parameter(True, switch)
     frame: str = parameter("odom", text("a name without blanks", lambda value: " " not in value))
     robots: Dict[str, float] = parameter({}, lambda value: value)
-    derived: float = 1.0  # not to be given
+    derived: float = 1.0  # not a parameter
 
 
 @dataclass(frozen=True)
 class Entry:
-    """One that must be given."""
+    """One required parameter."""
 
     topic: str = parameter(MISSING, text())
 

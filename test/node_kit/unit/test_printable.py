@@ -1,4 +1,4 @@
-"""What a terminal may show of a text from a file or a program."""
+"""What a terminal may show of text from a file or a program."""
 
 import pytest
 
@@ -23,7 +23,7 @@ def test_a_quoted_text_has_a_bounded_length():
 
 
 def test_no_line_on_a_mistake_has_an_escape_sequence(capsys, monkeypatch):
-    """As of a world's file with one in it."""
+    """Such as that of a world file that contains one."""
 
     def load(_parameters):
         raise ValueError("~world: \x1b[2Jroom: no such file")

@@ -1,4 +1,4 @@
-"""Which node holds a name, asked of a master and of nodes that the test plays."""
+"""Which node holds a name, with a master and nodes that the test simulates."""
 
 import socket
 import threading
@@ -12,7 +12,7 @@ from node_kit.ros.graph.ros_api import holder
 
 @pytest.fixture
 def serve():
-    """Start an XML-RPC server with these methods; its URI."""
+    """Start an XML-RPC server with these methods; return its URI."""
     servers = []
 
     def start(**methods):
@@ -30,13 +30,13 @@ def serve():
 
 
 def answering(**values):
-    """The methods of a server that answer these values."""
+    """Methods of a server that answer with these values."""
     return {name: lambda *_, value=value: (1, "", value) for name, value in values.items()}
 
 
 @pytest.mark.parametrize(("own", "held"), [(None, True), ("/robot", True), ("/joy2twist", False)])
 def test_a_node_that_answers_under_its_name_holds_it(serve, own, held):
-    """No more where its port is another node's by now; not every node knows its name."""
+    """But not if another node has its port by now. Not every node knows its name."""
     node = serve(**answering(getPid=77, **({"getName": own} if own else {})))
     found = (node, f"at {node}, process 77") if held else None
     assert holder(serve(**answering(lookupNode=node)), "/robot") == found

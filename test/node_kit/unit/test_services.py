@@ -1,4 +1,4 @@
-"""Calls of services that answer, never do, or answer something else; a test plays each of them."""
+"""Calls of services that answer well, badly or never; the test simulates each service."""
 
 import socket
 import struct
@@ -18,7 +18,7 @@ from tutorial_testing.claims import claim
 
 @pytest.fixture
 def serve(monkeypatch):
-    """Start a service /x that answers a connection's header and request with a function."""
+    """Start a service /x; a function answers each connection."""
     with socket.create_server(("127.0.0.1", 0)) as listener:
         uri = f"rosrpc://127.0.0.1:{listener.getsockname()[1]}"
         monkeypatch.setattr(services, "call", lambda *_, **__: (Answer.WELL, uri))
@@ -39,7 +39,7 @@ def serve(monkeypatch):
 
 
 def after_header(data, kind="std_srvs/SetBool"):
-    """An answer: a header with this type and, after the request, these bytes."""
+    """Return an answer: a header with this type and, after the request, these bytes."""
 
     def answer(connection):
         read_ros_handshake_header(connection, BytesIO(), 4096)

@@ -1,4 +1,4 @@
-"""A node that is asked to end because of another one ends only if it has lost its name."""
+"""A node that another one is said to replace exits only if it has lost its name."""
 
 from types import SimpleNamespace
 
@@ -15,7 +15,7 @@ STATE = [["/cmd_vel", ["/robot"]], ["/rosout", ["/mux", "/robot"]]], [["/joy", [
 
 @pytest.fixture
 def answers(monkeypatch):
-    """Change what the master answers; the node /robot has the topics of STATE."""
+    """The master's answers, to be changed; the node /robot has the topics of STATE."""
     given = {"lookupNode": (Answer.WELL, OWN), "getSystemState": (Answer.WELL, STATE)}
     topics = SimpleNamespace(
         get_publications=lambda: [["/cmd_vel", "Twist"], ["/rosout", "Log"]],

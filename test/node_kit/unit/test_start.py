@@ -1,4 +1,4 @@
-"""The line of a node that cannot start, and a callback at the end of one."""
+"""The line of a node that cannot start, and a callback during its shutdown."""
 
 import contextlib
 
@@ -13,7 +13,7 @@ from tutorial_testing.claims import claim
 @pytest.mark.parametrize(("error", "stored", "line"), [
     ("~rate: 'abc': must be a number", {"rate"}, "rosparam delete /joy_node/rate"),
     ("~dve: '/x': no such parameter", {"dve", "rate"}, "rosparam delete /joy_node/dve"),
-    ("~rate: 'abc': must be a number", {"dev"}, ""),  # The command line has it.
+    ("~rate: 'abc': must be a number", {"dev"}, ""),  # given on the command line
     ("a file is missing", {"rate"}, ""),
 ])  # fmt: skip
 def test_a_parameter_that_an_earlier_launch_has_left_is_named(error, stored, line):

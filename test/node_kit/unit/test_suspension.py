@@ -1,4 +1,4 @@
-"""A suspension is noticed however short, and what was sent meanwhile is not obeyed."""
+"""Every suspension is noticed, however short, and commands sent meanwhile are ignored."""
 
 import signal
 
@@ -10,8 +10,8 @@ from node_kit.io.suspension import Suspensions
 
 @pytest.fixture
 def clock(monkeypatch):
-    """A clock that the test sets; no thread looks at it."""
-    shown = [100.0]  # the last one stays
+    """A clock that the test sets, with no thread that reads it."""
+    shown = [100.0]  # the last value stays
     monkeypatch.setattr(suspension, "_now", lambda: shown.pop(0) if shown[1:] else shown[0])
     monkeypatch.setattr(Suspensions, "_beat", lambda self: None)
     before = signal.getsignal(signal.SIGCONT)
@@ -23,8 +23,8 @@ def clock(monkeypatch):
     "steps",  # (time that passes [s], whether SIGCONT comes then, suspensions so far)
     [
         [(0.45, False, 0), (0.1, False, 1), (0.0, False, 1)],  # busy, then suspended
-        [(0.001, True, 1)],  # a stop by a signal, however short
-        [(3.0, False, 1), (0.01, True, 1), (0.2, True, 2)],  # clock and signal notice the same one
+        [(0.001, True, 1)],  # a stop by a signal, which is noticed however short
+        [(3.0, False, 1), (0.01, True, 1), (0.2, True, 2)],  # clock and signal: one suspension
     ],
 )
 def test_suspensions_are_counted_once(clock, steps):
@@ -34,6 +34,6 @@ def test_suspensions_are_counted_once(clock, steps):
         if is_continued:
             signal.raise_signal(signal.SIGCONT)
         assert suspensions.number() == number
-    clock.append(clock[0] + 3.0)  # in the middle of a look
+    clock.append(clock[0] + 3.0)  # during a check
     suspensions._look()
     assert suspensions.number() == number + 1

@@ -10,7 +10,7 @@ from tutorial_check.submission.order import Order
 from tutorial_testing.claims import claim
 from tutorial_testing.processes import REPOSITORY
 
-ONE_S, ALL_S = 15.0, 90.0  # on two processors with nothing else to do
+ONE_S, ALL_S = 15.0, 90.0  # on two idle processors
 
 
 @claim("An exercise is checked within 15 s, all within 90 s")

@@ -1,4 +1,4 @@
-"""What a hostile program tries; it prints what it has reached. For test_isolation.py."""
+"""A hostile program for test_isolation.py: it prints the attacks that succeeded."""
 
 import contextlib
 import ctypes
@@ -28,14 +28,14 @@ def read(path):
 
 
 def write(path, mode="w"):
-    """Make a file, or add to it; true."""
+    """Make a file, or append to it; return True."""
     with open(path, mode) as file:
         file.write("\n")
     return True
 
 
 def above():
-    """The processes of the checker that this one comes from, each a folder of /proc."""
+    """Yield the checker's processes among this one's ancestors, as folders of /proc."""
     process = pathlib.Path("/proc/self")
     while process.name != "0":
         if b"tutorial_check" in (process / "cmdline").read_bytes():
@@ -45,7 +45,7 @@ def above():
 
 
 def forge():
-    """Write a verdict into every pipe of the checker; whether it was read shows later."""
+    """Write a verdict into each pipe of the checker; the test sees later whether it was read."""
     own = {os.readlink(f"/proc/self/fd/{number}") for number in (0, 1, 2)}
     for process in above():
         for path in glob.glob(f"{process}/fd/*"):
@@ -56,14 +56,14 @@ def forge():
 
 
 def plant():
-    """Leave a link where the checker reads afterwards; whether it follows shows in its report."""
+    """Leave a link where the checker reads later; its report shows whether it followed it."""
     script = HERE / "scripts" / "talker.py"
     script.unlink()
     script.symlink_to(f"{aims['home']}/secret")
 
 
 def leave():
-    """Leave files, shared memory and a process; whether they are left shows later."""
+    """Leave files, shared memory and a process; the test sees later whether they remain."""
     for folder in LEAVE:
         with contextlib.suppress(OSError):
             write(f"{folder}/{aims['name']}")
@@ -83,14 +83,14 @@ def processes():
 
 
 def in_memory(folder):
-    """Whether a folder is in memory, and more than 1 GB fit."""
+    """Return whether a folder is in memory and has room for more than 1 GB."""
     kind = subprocess.run(["stat", "-f", "-c", "%T", folder], stdout=subprocess.PIPE, check=False)
     about = os.statvfs(folder)
     return kind.stdout == b"tmpfs\n" and about.f_blocks * about.f_frsize > 1 << 30
 
 
 def rights():
-    """Whether it has some, or may gain them from another program."""
+    """Return whether it has rights, or may gain them from another program."""
     status = dict(line.split(":") for line in read("/proc/self/status").splitlines())
     return int(status["CapEff"], 16) or not int(status["NoNewPrivs"])
 
@@ -121,7 +121,7 @@ ATTACKS = {
 def main():
     aims.update(json.loads((HERE / "aims.json").read_text()))
     reached = []
-    for number, attack in enumerate(ATTACKS.values()):  # a name each would be cut off in the report
+    for number, attack in enumerate(ATTACKS.values()):  # the report would cut off names
         with contextlib.suppress(OSError):
             if attack():
                 reached.append(str(number))

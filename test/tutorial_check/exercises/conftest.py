@@ -1,4 +1,4 @@
-"""What the tests of the checker share: right workspaces to change."""
+"""Options and fixtures of the exercises: right workspaces to change."""
 
 import os
 import shutil
@@ -50,7 +50,7 @@ def underlay():
 
 @pytest.fixture
 def folder():
-    """A folder that everybody may enter."""
+    """A folder that all users may enter."""
     with tempfile.TemporaryDirectory() as made:
         Path(made).chmod(0o755)
         yield Path(made)
@@ -58,12 +58,12 @@ def folder():
 
 @pytest.fixture
 def bare_underlay(folder):
-    """As much of the underlay as everybody can read: for a build, and no node."""
+    """The part of the underlay that all users can read: enough to build, not to run nodes."""
     if not all(folder.stat().st_mode & 0o001 for folder in HERE.parents):
         pytest.skip(f"{REPOSITORY} is closed to other users")
     packages = [source.parent for source in REPOSITORY.glob("*/*/src")]
     packages += [REPOSITORY / "fake_turtlebot_sim"]
-    messages = folder / "messages"  # a copy: what the build made may be closed to others
+    messages = folder / "messages"  # a copy: the build may be closed to others
     shutil.copytree(Path(kobuki_msgs.__file__).parent, messages / "kobuki_msgs")
     paths = ":".join([*(str(package / "src") for package in packages), str(messages)])
     for name in ("devel", "src"):
@@ -78,7 +78,7 @@ def bare_underlay(folder):
 
 @pytest.fixture
 def examined(request, underlay, tmp_path):
-    """examined(workspace, exercises, ...): the Outcomes, recorded; what is stored says the same."""
+    """examined(workspace, exercises, ...): the Outcomes, recorded; stored ones must agree."""
 
     def recorded(workspace, exercises, **about):
         outcomes = examine(Order(workspace, underlay, exercises, **about))
@@ -95,6 +95,6 @@ def examined(request, underlay, tmp_path):
 
 
 def verdicts(outcomes):
-    # A note is right, too; on a busy machine it may be of a Joy that was too old to be displayed.
+    # A note is right, too: on a busy machine it may be about a Joy too old to be displayed.
     results = [result for outcome in outcomes for result in outcome.results]
     return {result.id: result.status.replace("note", "ok") for result in results}

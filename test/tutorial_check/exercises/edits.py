@@ -1,4 +1,4 @@
-"""What changes a right solution into another one: the language of the rows. Pure but for files."""
+"""Edits that change a right solution, from which the rows are made; they touch only files."""
 
 import shutil
 from pathlib import Path
@@ -15,14 +15,14 @@ HERE = Path(__file__).resolve().parent
 
 @pytest.fixture
 def literal(tmp_path):
-    """A workspace with a literal solution of the handout; its src."""
+    """The src folder of a workspace with a literal solution of the handout."""
     src = shutil.copytree(HERE / "literal", tmp_path / "ws" / "src")
     shutil.copytree(HERE.parents[2] / J / "bag", src / J / "bag")
     return src
 
 
 def put(path, old, new, count=-1):
-    """Replace a text in a file; & in new is old."""
+    """Replace a text in a file; & in new stands for old."""
 
     def edit(src):
         file = src / path
@@ -34,7 +34,7 @@ def put(path, old, new, count=-1):
 
 
 def made(path):
-    """Return a path, whose folder is made if need be."""
+    """Return a path after making its folder if necessary."""
     path.parent.mkdir(parents=True, exist_ok=True)
     return path
 
@@ -69,7 +69,7 @@ def windows(path):
 
 
 def latin1(path, after, text):
-    """Add a line of text in Latin-1 after a line, which must be there."""
+    """Add a line of text in Latin-1 after an existing line."""
 
     def edit(src):
         put(path, after, f"{after}{text}\n", 1)(src)
@@ -80,7 +80,7 @@ def latin1(path, after, text):
 
 
 def lines(path, *numbers):
-    """Leave out the lines of these numbers, from 1."""
+    """Remove the lines with these numbers, counted from 1."""
 
     def edit(src):
         text = (src / path).read_text().splitlines(keepends=True)
@@ -100,7 +100,7 @@ def chatter(path):
 
 
 def built(below, home="", **files):
-    """Make the devel folder of a build over these folders, as far as it is read, and its files."""
+    """Make as much of a build's devel folder over these folders as is read, and these files."""
 
     def edit(src):
         texts = {
@@ -120,5 +120,5 @@ def apply(edits, src):
 
 
 def at_night(*cases):
-    """Return cases of a table, too long for each commit, that the nightly workflow runs."""
+    """Mark cases that take too long for each commit for the nightly workflow."""
     return [pytest.param(case, marks=pytest.mark.night) for case in cases]

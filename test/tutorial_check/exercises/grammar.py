@@ -1,4 +1,4 @@
-"""Programs for 4.3 from a grammar: with a mistake that hardly shows, and right in other ways."""
+"""Programs for 4.3 from a grammar: with subtle mistakes, and right in unusual ways."""
 
 import re
 import textwrap
@@ -19,7 +19,7 @@ from sensor_msgs.msg import Joy
 
 """
 SHOW = 'rospy.loginfo("%s", " ".join("%.2f" % axis for axis in data.axes))'
-# `my.` has what is kept from one Joy to the next.
+# `my.` holds what is kept from one Joy to the next.
 FUNCTIONS = """my = SimpleNamespace()
 
 
@@ -100,7 +100,7 @@ KEPT = "my.msg = Twist()"
 
 
 def program(frame, answer, keep="", spin=""):
-    """answer: what is done for a Joy; keep: what is made before; spin: the rest."""
+    """Return a program. answer: its reaction to a Joy; keep: its preparation; spin: the rest."""
     parts = {"show": SHOW, "answer": answer, "keep": keep or "pass", "spin": spin or "rospy.spin()"}
 
     def fill(hole):
@@ -145,7 +145,7 @@ def wrong(what, answer, words, keep="", spin=""):
 
 
 def gate(what, condition, words, answer=PLAIN + PUBLISH, keep=""):
-    """Return mistakes that publish under a condition."""
+    """Return mistakes that publish only under a condition."""
     return wrong(f"gate: {what}", only_if(condition, answer), words, keep)
 
 
@@ -155,7 +155,7 @@ def kept(what, change, words):
 
 
 def kept_x(what, change, words, x="my.x"):
-    """Return mistakes in which linear.x is of what is kept."""
+    """Return mistakes whose linear.x comes from what is kept."""
     return wrong(what, f"{change}\n{values(x)}", words, "my.x = 0.0")
 
 

@@ -1,4 +1,4 @@
-"""Right solutions that are worth a note: its words by their check; no words: no note."""
+"""Right solutions worth a note: {check: words of its note}; no words mean no note."""
 
 from edits import built, chatter, chmod, put, remove, write
 from manifests import package

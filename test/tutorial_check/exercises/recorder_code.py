@@ -1,8 +1,8 @@
-"""Hashes of the code by which rows were recorded: of a recorder, and of all that it imports.
+"""Hashes of the code that recorded the rows: a recorder and all that it imports.
 
-That is the code of this repository: node_kit and gamepad too, as a recorder publishes and plays by
-them; not the standard library and ROS. A name of the checker's API stands for the module that
-defines it. So a change of a check makes no recording old, and a change of the runner makes all old.
+They include only code of this repository, node_kit and gamepad too, with which recorders publish
+and play. A name of the checker's API stands for the module that defines it. So a change of a check
+makes no recording old; a change of the runner makes all of them old.
 """
 
 import ast
@@ -20,11 +20,11 @@ BEFORE_A_STATEMENT = (tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT)
 
 @functools.lru_cache(maxsize=None)
 def code_hash(module):
-    """Return a hash of the code of a module of recorders, which says nothing about its comments.
+    """Return a hash of the code, without comments, of a module of recorders.
 
-    Of its words, and not of its syntax tree, which each Python writes in another way.
+    It hashes words, because the syntax tree differs between versions of Python.
     """
-    if not file_of(module):  # there is no such recorder any more
+    if not file_of(module):  # the recorder no longer exists
         return ""
     files = map(file_of, sorted(closure(module)))
     words = (word for file in files for word in code_of_file(file).split())
@@ -44,12 +44,12 @@ def closure(module):
 
 @functools.lru_cache(maxsize=None)
 def imported_by(module):
-    """Return the names of the modules of this repository that one imports."""
+    """Return the names of this repository's modules that a module imports."""
     return {name for base, alias in imports(module) for name in modules_of(base, alias)}
 
 
 def imports(module):
-    """Yield (module, name that is imported from it, or None) of each import in a module."""
+    """Yield (imported module, name imported from it or None) for each import in a module."""
     spec = importlib.util.find_spec(module)
     for node in ast.walk(ast.parse(file_of(module).read_text())):
         if isinstance(node, ast.Import):
@@ -61,7 +61,7 @@ def imports(module):
 
 
 def modules_of(base, name):
-    """Return the modules that `from base import name` is about: one, or none of ours."""
+    """Return the modules of ours that `from base import name` uses: one or none."""
     if not file_of(base):
         return []
     inner = f"{base}.{name}"
@@ -78,17 +78,17 @@ def file_of(module):
     """Return the file of a module of this repository, or None."""
     try:
         spec = importlib.util.find_spec(module)
-    except ModuleNotFoundError:  # of a package that is not there
+    except ModuleNotFoundError:  # its package is not installed
         return None
     path = Path(spec.origin) if spec and spec.origin else Path()
     return path if REPOSITORY in path.parents else None
 
 
 def code_of_file(path):
-    """Return a text without its comments and docstrings."""
+    """Return the text of a file without comments and docstrings."""
     text = path.read_text()
     starts = [0, *itertools.accumulate(map(len, text.splitlines(keepends=True)))]
-    kept, rest, begins = [], 0, True  # a statement
+    kept, rest, begins = [], 0, True  # begins: a statement begins
     for token in tokenize.generate_tokens(io.StringIO(text).readline):
         if token.type == tokenize.COMMENT or (token.type == tokenize.STRING and begins):
             kept.append(text[rest : starts[token.start[0] - 1] + token.start[1]])

@@ -1,4 +1,4 @@
-"""The rows of data: mistakes, right solutions, and right ones with a note; how to write one."""
+"""Types and constructors of rows: mistakes, right solutions, and right ones with a note."""
 
 from dataclasses import dataclass
 from typing import Callable, Dict, Sequence
@@ -13,7 +13,7 @@ EXERCISES = {check.id: check.exercise for check in checks_of(read_course())}
 
 @dataclass(frozen=True)
 class Mistake:
-    """What a student gets wrong, the check that is wrong then, and words of its report."""
+    """What a student gets wrong, the check that fails, and words of its report."""
 
     exercise: str
     what: str
@@ -27,7 +27,7 @@ class Mistake:
 
 @dataclass(frozen=True)
 class RightVariant:
-    """What a student does otherwise than the handout, and is right in these exercises."""
+    """What a student does differently from the handout, and still right in these exercises."""
 
     what: str
     edits: Sequence[Edit]
@@ -39,7 +39,7 @@ class RightVariant:
 
 @dataclass(frozen=True)
 class Noted(RightVariant):
-    """What is right and worth a note: {check: words of the note; none: no note}."""
+    """What is right and worth a note; notes: {check: words of its note, or () for no note}."""
 
     notes: Dict[str, Sequence[str]]
 
@@ -49,7 +49,7 @@ def mistake(what: str, edits: Sequence[Edit], check: str, *words: str) -> Mistak
 
 
 def mistake_in(path: str, check: str, *before: Edit) -> Callable[..., Mistake]:
-    """Return a constructor of mistakes that are one change, old to new, of a file."""
+    """Return a constructor of mistakes that replace old by new in a file."""
 
     def row(what: str, old: str, new: str, *words: str) -> Mistake:
         return mistake(what, [*before, put(path, old, new)], check, *words)

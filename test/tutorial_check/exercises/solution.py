@@ -1,4 +1,4 @@
-"""The literal solution: its files, and those of its lines that rows change."""
+"""The literal solution: its files, and the lines that rows change."""
 
 B, J = "beginner_tutorials", "joy2twist"
 XML, JOY_XML = f"{B}/package.xml", f"{J}/package.xml"

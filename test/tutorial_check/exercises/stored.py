@@ -1,4 +1,4 @@
-"""Recordings of the rows, stored: what their programs did is judged without running them again."""
+"""Stored recordings of the rows, judged without running their programs again."""
 
 import functools
 import hashlib
@@ -21,26 +21,26 @@ NEW = FOLDER / "new"
 
 
 def section_of(test):
-    """Return the file that a row's recordings are in: that of its exercise, or of its test."""
+    """Return the file with a row's recordings: its exercise's or its test's."""
     exercise = re.search(r"test_a_mistake_is_found\[([\d.]+) ", test)
     return FOLDER / f"{exercise[1] if exercise else test.partition('[')[0][5:]}.jsonl.xz"
 
 
 @functools.lru_cache(maxsize=None)
 def rows_of(section):
-    """Return {test: what is stored of it} of a section, in which each row is a line."""
+    """Return {test: stored data} of a section; each row is a line of the file."""
     text = lzma.decompress(section.read_bytes()).decode() if section.exists() else ""
     return {row.pop("row"): row for row in map(json.loads, text.splitlines())}
 
 
 def names(workspace, underlay):
-    """Return {folder of this machine: a word for it}."""
+    """Return {folder on this machine: its word}."""
     lower = Path(underlay).parents[1]
     return {str(workspace): "{workspace}", str(lower): "{underlay}", str(REPOSITORY): "{suite}"}
 
 
 def write(test, outcomes, workspace, underlay):
-    """Keep what was recorded in a file of its own, until merge() has those of all tests."""
+    """Keep recordings in a separate file until merge() collects those of all tests."""
     recordings = [recording for outcome in outcomes for recording in outcome.recordings]
     text = json.dumps({"row": test, "code": code_of(recordings), "recordings": recordings})
     assert not [path for path in names(workspace, underlay) if path in text], text
@@ -53,7 +53,7 @@ def _new(test):
 
 
 def merge():
-    """Put what write() has kept into the files of the sections."""
+    """Move what write() has kept into the files of the sections."""
     new = {}
     for file in NEW.glob("*.json"):
         row = json.loads(file.read_text())
@@ -71,7 +71,7 @@ def store(section, rows):
 
 
 def judged(test, workspace, underlay, exercises, folder, **about):
-    """Return the Outcomes of a workspace, judged from what is stored. folder: empty, for a copy."""
+    """Return a workspace's Outcomes, judged from stored recordings; folder: empty, for a copy."""
     new = _new(test)
     row = json.loads(new.read_text()) if new.exists() else rows_of(section_of(test)).get(test)
     assert row, f"{test} is not stored: ./tutorial test exercises --store -k 'A and B'"
@@ -89,12 +89,12 @@ def judged(test, workspace, underlay, exercises, folder, **about):
 
 
 def _reply_of(recorded):
-    """Return what a worker has replied; a recording is read by its recorder."""
+    """Return a worker's Reply from what is stored."""
     asked = ("recorder", "arguments")
     return from_json(Reply, {name: recorded[name] for name in recorded if name not in asked})
 
 
 def code_of(recordings):
-    """Return {module of recorders: hash of its code, and of what it works with}."""
+    """Return {module of recorders: hash of its code and of what it imports}."""
     modules = {recording["recorder"].partition(":")[0] for recording in recordings}
     return {name: code_hash(name) for name in sorted(modules)}

@@ -1,4 +1,4 @@
-"""The command line, one workspace and a class: the right exit code, and one clear line."""
+"""The command line, for a workspace and a class: the right exit code and one clear line."""
 
 import os
 import shutil
@@ -24,7 +24,7 @@ def command(underlay, *words):
 
 
 def check(underlay, *words):
-    """(exit code, stdout, stderr) of a run of ./tutorial check, which has deadlines of its own."""
+    """Run ./tutorial check, which has its own deadlines; return (exit code, stdout, stderr)."""
     done = subprocess.run(
         command(underlay, *words), capture_output=True, text=True, check=False, timeout=3600,
         env={**os.environ, "PYTHONPATH": PYTHONPATH},
@@ -38,7 +38,7 @@ def check(underlay, *words):
     "--no-hints choose"
 )
 def test_wrong_is_exit_code_1_and_the_second_time_there_is_a_hint(literal, underlay):
-    """With whole paths, as a shell wants them."""
+    """Paths are whole, and quoted for a shell."""
     workspace = literal.parent.rename(literal.parent.with_name("my ws"))
     chmod(TALKER, 0o644)(workspace / "src")
     code, out, _ = check(underlay, "--in", workspace, "3")
@@ -66,7 +66,7 @@ def test_what_cannot_be_checked_is_exit_code_2(tmp_path, underlay, folder):
 @claim("In a class, checked side by side, each student has the verdict of their own programs")
 @claim("Each folder or zip of a class has a report, a row of the table and a page")
 def test_a_class_has_a_table_and_reports(literal, underlay, tmp_path):
-    """Side by side, of one right, one wrong, one that hangs, a zip, and one that is no zip."""
+    """Checked side by side: one right, one wrong, one that hangs, a zip, and an invalid zip."""
     group = tmp_path / "group"
     for name in ("ada", "bob", "eve"):
         shutil.copytree(literal.parent, group / name)
@@ -110,7 +110,7 @@ def test_ctrl_c_ends_the_check_of_all(literal, underlay, tmp_path):
 
 @claim("--watch checks again when a file is saved; build and devel are not watched")
 def test_watch_checks_again_once_a_file_is_saved(literal, underlay, tmp_path):
-    """Wherever the workspace is."""
+    """Even in a workspace called build."""
     workspace = Path(shutil.move(str(literal.parent), str(tmp_path / "build")))
     chmod(TALKER, 0o644)(workspace / "src")
     words = command(underlay, "--in", workspace, "--watch", "3")

@@ -1,4 +1,4 @@
-"""--cluster: the same results as alone, whatever ends meanwhile. Each worker has its own host."""
+"""--cluster: the results of one machine, whatever exits meanwhile; each worker has its host."""
 
 import contextlib
 import importlib.util
@@ -34,7 +34,7 @@ WORKER, SCHEDULER = (
     for word in ("worker", "scheduler")
 )
 EXERCISE = "3"
-RACE = "Twist for String"  # whichever of its two programs comes first decides what is wrong
+RACE = "Twist for String"  # the first of its two programs decides what is wrong
 ROWS = [row for row in OF_HANDOUT if row.exercise == EXERCISE and row.what != RACE]
 SUBMISSIONS, LONGEST_S = 8, 1800.0
 GONE = f"check: no verdict: the scheduler at {ADDRESS} has ended; run the command again to continue"
@@ -53,7 +53,7 @@ def start():
 
 @pytest.fixture(autouse=True)
 def key(tmp_path, monkeypatch):
-    """The key of a cluster of its own, where the programs of students cannot get it."""
+    """The key of a separate cluster, which students' programs cannot reach."""
     monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path / "config"))
     return tmp_path / "config/ros1_tutorial/cluster.pem"
 
@@ -87,13 +87,13 @@ def client(start, underlay, folder):
 
 
 def kill(program):
-    """End all at once, but for what removes folders: as if memory is short."""
+    """Kill all at once, as if memory were short, except what removes folders."""
     pids = [pid for pid in descendants(program.pid) if "rm -rf" not in command_line(pid)]
     signal_all(pids, signal.SIGKILL)
 
 
 def hand_in(literal, folder, count):
-    """So many more, with the mistakes of all rows in turn, and links as a student may have them."""
+    """Add students, with the mistakes of all rows in turn, and links such as students have."""
     rows = ROWS[:: max(1, len(ROWS) // count)]
     for number in range(count):
         student = folder / f"student_{number:04}"
@@ -109,7 +109,7 @@ def checked(folder):
 
 
 def verdicts(results):
-    """What is to be the same: all but times and other numbers that were measured."""
+    """Return what must be the same: all but times and other measured numbers."""
     return [(result["id"], result["status"], result["title"]) for result in results]
 
 
@@ -120,7 +120,7 @@ def verdicts(results):
 @pytest.mark.night
 @pytest.mark.parametrize("ended", ["worker", "scheduler", "client"])
 def test_whatever_ends_nothing_is_lost(literal, folder, scheduler, worker, client, ended):
-    """A worker that joins takes over; otherwise the same call goes on where it was."""
+    """A worker that joins takes over; otherwise the same call continues where it stopped."""
     hand_in(literal, folder, SUBMISSIONS)
     running = {"scheduler": scheduler(), "worker": worker("one"), "client": client()}
     worker("two", "--jobs", 4)
@@ -135,7 +135,7 @@ def test_whatever_ends_nothing_is_lost(literal, folder, scheduler, worker, clien
     if ended != "worker":
         done = len(checked(folder)) - 1  # the last may be half written
         call = client()
-    assert call.wait(LONGEST_S) in (1, 2), call.output  # 2: too busy a machine for a verdict
+    assert call.wait(LONGEST_S) in (1, 2), call.output  # 2: the machine was too busy for a verdict
     assert call.output.count("unchanged since the last check") >= done
     assert len(checked(folder)) == SUBMISSIONS + 1 and "Traceback" not in call.output
 
@@ -157,7 +157,7 @@ def test_results_are_those_of_one_machine(literal, folder, underlay, scheduler, 
 @claim("Whichever of worker, scheduler ...", because="what ends two workers")
 @pytest.mark.night
 def test_a_submission_that_ends_workers_is_abandoned(scheduler, worker, client):
-    """Killed each time it has started to check it, as by the kernel when memory is short."""
+    """Each worker is killed once it checks it, as by the kernel when memory is short."""
     scheduler()
     call = client()
     for host in ("one", "two"):
@@ -168,7 +168,7 @@ def test_a_submission_that_ends_workers_is_abandoned(scheduler, worker, client):
     assert "abandoned: 2 workers have ended while they checked it" in call.output
 
 
-# What a student's program tries: it reads the key, and runs code where that leads.
+# A student's program that reads the key and runs code at the scheduler.
 ATTACK = """
 try:
     from distributed import Client
@@ -189,7 +189,7 @@ except BaseException as error:
 def test_a_students_program_does_not_reach_the_scheduler(
     tmp_path, folder, scheduler, worker, client, key, monkeypatch, more
 ):
-    """Of a worker that insists each result says so."""
+    """Each result of a worker with --not-isolated says so."""
     owned = tmp_path / "owned"
     attack = ATTACK.format(key=str(key), address=ADDRESS, owned=str(owned))
     put(TALKER, "import rospy\n", f"import rospy\n{attack}", 1)(folder / "ada" / "src")

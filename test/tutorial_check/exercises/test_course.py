@@ -1,4 +1,4 @@
-"""Courses that come with the suite: the worked example of COURSES.md, and the wiki's."""
+"""The suite's own courses: the worked example of COURSES.md, and the wiki's."""
 
 import re
 import shutil

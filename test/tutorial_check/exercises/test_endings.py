@@ -1,4 +1,4 @@
-"""However the checker ends, it leaves nothing; without namespaces, no wrong verdict."""
+"""However the checker ends, it leaves nothing; without namespaces, no verdict is wrong."""
 
 import os
 import signal
@@ -21,7 +21,7 @@ from tutorial_testing.claims import claim
 from tutorial_testing.processes import Program, command_line, descendants, lives
 from tutorial_testing.waiting import wait_for
 
-# The checker itself would end such a build after two minutes, and such a node in a few seconds.
+# The checker itself ends such a build after two minutes, such a node after seconds.
 SOON_S = 60.0
 NODE = """#!/usr/bin/env python3
 import os, signal
@@ -34,7 +34,7 @@ while True:
 """
 BUILD = "execute_process(COMMAND sleep 3600)\n"
 WORKS = {
-    # exercise, file, its text, a word of the command line that is then seen
+    # exercise, file, its text, a word of the resulting command line
     "node": ("3", TALKER, NODE, TALKER),
     "build": ("2", f"{B}/CMakeLists.txt", BUILD, "cmake"),
 }
@@ -42,10 +42,10 @@ WORKS = {
 
 @pytest.fixture
 def scratch(folder):
-    """Where the checker has its copy. Open to the users of programs."""
+    """The folder for the checker's copy, which the programs' users may enter."""
     (folder / "scratch").mkdir()
     yield folder / "scratch"
-    for pid in processes_like(f"{folder}/scratch/"):  # where the test has failed
+    for pid in processes_like(f"{folder}/scratch/"):  # if the test has failed
         os.kill(int(pid), signal.SIGKILL)
 
 
@@ -65,7 +65,7 @@ def bare(tmp_path, monkeypatch):
 @pytest.mark.night
 @pytest.mark.usefixtures("bare")
 def test_right_is_right_or_not_judged_without_namespaces(literal, underlay):
-    """Where the suite is below root's home folder, launch files of another user cannot name it."""
+    """If the suite is below root's home, another user's launch files cannot name it."""
     others_may_enter = all(folder.stat().st_mode & 0o001 for folder in Path(underlay).parents)
     code, out, error = check(underlay, "--in", literal.parent, "2", "3", "4", "5")
     assert code == (0 if os.geteuid() or others_may_enter else 2), out + error
@@ -89,7 +89,7 @@ def test_nobody_is_blamed_where_programs_may_not_enter(literal, underlay, tmp_pa
 
 @pytest.fixture(params=["apart", "bare"])
 def environment(request, tmp_path, scratch, underlay):
-    """Of a checker that finds namespaces, or none, with its underlay."""
+    """(underlay, variables) of a checker with or without namespaces."""
     path = os.environ["PATH"]
     if request.param == "bare":
         path = path_without_namespaces(tmp_path)
@@ -130,5 +130,5 @@ def test_a_worker_that_is_ended_while_it_starts_leaves_nothing(literal, underlay
     wrapper = bubblewrap.command(order.folder, order.readable, REPOSITORY)
     for milliseconds in range(0, 20):
         with Worker(order, wrapper):
-            time.sleep(milliseconds / 1000)  # it ends at each point of bubblewrap's start
+            time.sleep(milliseconds / 1000)  # ends it at each point of bubblewrap's start
     wait_for(lambda: not processes_like(str(folder)), "end of the workers", SOON_S)

@@ -1,4 +1,4 @@
-"""A submission may be in the home folder, which is hidden from programs, and be a link."""
+"""A submission may be in the home folder, which programs do not see, and may be a link."""
 
 import shutil
 from pathlib import Path
@@ -19,7 +19,7 @@ pytestmark = pytest.mark.skipif(
 
 @pytest.fixture
 def home(tmp_path, monkeypatch):
-    """A home folder, in which `literal` is too."""
+    """A home folder that contains `literal`."""
     monkeypatch.setenv("HOME", str(tmp_path))
     return tmp_path
 
@@ -46,7 +46,7 @@ def test_a_workspace_that_is_a_link_was_built_over_the_suite(literal, underlay, 
 @pytest.mark.night
 @pytest.mark.parametrize(("what", "exercise"), [("", "2"), (J, "4.3"), (TALKER, "3")])
 def test_ones_own_links_are_followed(literal, home, verdicts, what, exercise):
-    path = literal / what  # A link to it stays.
+    path = literal / what  # replaced by a link
     shutil.move(str(path.resolve()), str(home / path.name))
     path.symlink_to(home / path.name)
     verdicts(exercise)

@@ -1,4 +1,4 @@
-"""Programs that hang, fork, print without end or forge: an honest verdict, no harm to others."""
+"""Programs that hang, fork, print endlessly or forge: an honest verdict, no harm to others."""
 
 import os
 import shutil
@@ -20,7 +20,7 @@ from tutorial_testing.processes import command_line
 FIRST = "#!/usr/bin/env python3\nimport os\n"
 MASTER = "xmlrpc.client\nxmlrpc.client.ServerProxy(os.environ['ROS_MASTER_URI'])"
 FORKS = "while True:\n    try:\n        os.fork()\n    except OSError:\n        pass\n"
-# Each in place of talker.py, and a word of what is said of it.
+# Each replaces talker.py; with words of its report.
 TALKERS = {
     "a fork bomb": (FORKS, "again and again"),
     "kills all it may": ("os.kill(-1, 9)\n", "has ended it"),
@@ -28,7 +28,7 @@ TALKERS = {
     "fills the disk": ("file = open('x', 'wb')\nwhile file.write(b'x' * 10**6):\n    pass\n", ""),
     "ends the master": (f"import {MASTER}.shutdown('/me', 'no more')\n", "has ended it"),
 }  # fmt: skip
-# It works as it should, and leaves links where the checker writes a changed copy of it (C9).
+# It works, but leaves links where the checker writes changed copies of it (C9).
 PLANTS_LINKS = """
 import os
 here = os.path.dirname(os.path.abspath(__file__))
@@ -39,7 +39,7 @@ for number in range(1, 9):
 """
 AFTER_INIT = "    rospy.init_node('listener', anonymous=True)\n"
 FORGED = '\n{"exercise": "4.3", "result": {"id": "C16", "status": "ok", "title": "x"}}\n'
-# Twists as they should be, but not for the Joys that came.
+# Correct Twists, but not for the Joys that arrive.
 FORGES_TWISTS = """import itertools
 loud = rospy.Publisher('/cmd_vel', Twist, queue_size=1)
 loud2 = rospy.Publisher('/joy', Joy, queue_size=1)
@@ -51,7 +51,7 @@ while not rospy.is_shutdown():
     loud2.publish(Joy(axes=[0.3, 0.4, 0, 0, 0, 0], buttons=[0] * 12))
     rospy.sleep(0.02)
 """
-# What Python would run at the start of each program with this home folder.
+# Python would run this at the start of each program with this home folder.
 PLANTS_PYTHON = """import os, sys
 ours = os.path.join(os.environ['HOME'], '..', 'ours', '.local', 'lib')
 ours = os.path.join(ours, 'python%d.%d' % sys.version_info[:2], 'site-packages')
@@ -62,7 +62,7 @@ try:
 except OSError:
     pass
 """
-# Of joy2twist.py, after init_node: (lines, checks that may be wrong, words of the first).
+# Lines of joy2twist.py after init_node, checks that may be wrong, words of the first.
 JOINED = {
     "ends the master": (f"import os, {MASTER}.shutdown('/me', 'no more')", "C14", "has ended it"),
     "kills its group": ("import os\nos.killpg(0, 9)", "C14", "signal 9"),
@@ -73,7 +73,7 @@ JOINED = {
 
 
 def first_wrong(outcome):
-    """Return (id, report) of the first check that is wrong, or could not be made."""
+    """Return (id, report) of the first check that is wrong or was not made."""
     wrong = (result for result in outcome.results if result.status not in ("ok", "note"))
     return next(((result.id, "\n".join(lines_of(result))) for result in wrong), (None, ""))
 
@@ -84,7 +84,7 @@ def processes_like(word):
 
 @pytest.fixture
 def scratch(folder, monkeypatch):
-    """Where the checks of a test have their copies alone. Open to the users of programs."""
+    """The folder for a test's copies only, which the programs' users may enter."""
     monkeypatch.setattr(tempfile, "tempdir", str(folder))
     return folder
 
@@ -107,7 +107,7 @@ def test_a_hostile_joy2twist_has_a_verdict_and_harms_no_file(literal, underlay, 
 
 @claim("What a program leaves in the checker's home folder runs in no program of the checker's")
 def test_what_a_program_leaves_in_our_home_folder_runs_in_no_program_of_ours(literal, underlay):
-    """In 4.4 the simulated robot starts after it."""
+    """In 4.4 the simulated robot starts after the program."""
     lines = textwrap.indent(PLANTS_PYTHON, "    ")
     put(JOY2TWIST, AFTER_INIT, f"{AFTER_INIT}{lines}")(literal)
     (outcome,) = examine(Order(literal.parent, underlay, ["4.4"]))
@@ -129,7 +129,7 @@ def test_a_link_planted_where_the_checker_writes_is_not_followed(
 
 @claim("Programs that fork, kill, fill, print ...", because="a talker")
 def test_a_hostile_talker_harms_none_beside_or_after_it(literal, underlay, tmp_path, scratch):
-    """Two at a time, as check --all has it: before and after each hostile one comes a right one."""
+    """Two at a time, as with check --all: a right one before and after each hostile one."""
     students = [tmp_path / "right_0"]
     shutil.copytree(literal.parent, students[0])
     for number, (program, _) in enumerate(TALKERS.values(), 1):

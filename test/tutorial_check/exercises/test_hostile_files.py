@@ -1,4 +1,4 @@
-"""Files that no student wrote by hand: reading them takes bounded time and memory, and one line."""
+"""Files that no student writes by hand: reading takes bounded time and memory, and one line."""
 
 import os
 import random
@@ -15,10 +15,10 @@ from tutorial_check.sandbox.privileges import MOST_CPU_S, MOST_MB
 from tutorial_check.submission.order import Order
 from tutorial_testing.claims import claim
 
-# Stands for bubblewrap and the worker in it: each build prints what is in a file beside it.
+# Replaces bubblewrap and its worker: each build prints the content of a file beside it.
 WORKER = """#!/usr/bin/python3 -IS
 import json, os, socket, sys
-if sys.argv[-1] == "true":  # whether it isolates here
+if sys.argv[-1] == "true":  # the test whether it can isolate
     sys.exit()
 line = socket.socket(fileno=os.dup(1))
 for number, order in enumerate(line.makefile()):
@@ -58,7 +58,7 @@ UNITS = (
 
 
 def drawn(number):
-    """Return {path: text} of a submission, of 0 to 50 MB, and how deep its folders are."""
+    """Return {path: text} of a submission of up to 50 MB, and the depth of its folders."""
     draw = random.Random(number)
     files = {}
     for path in draw.sample(TARGETS, draw.randint(1, 3)):
@@ -75,7 +75,7 @@ def drawn(number):
 
 @pytest.fixture
 def hostile(literal, tmp_path, monkeypatch):
-    """hostile(number): the workspace of a submission that is drawn."""
+    """hostile(number): the workspace of a random submission."""
     stand_in = tmp_path / "bin" / "bwrap"
     stand_in.parent.mkdir()
     stand_in.write_text(WORKER)
@@ -90,7 +90,7 @@ def hostile(literal, tmp_path, monkeypatch):
         for path, text in files.items():
             write(path, text)(workspace / "src")
         here = os.open(workspace / "src", os.O_RDONLY)
-        for _ in range(depth):  # A path so long has no name.
+        for _ in range(depth):  # too deep for one path
             os.mkdir("d", dir_fd=here)
             below = os.open("d", os.O_RDONLY, dir_fd=here)
             os.close(here)
@@ -99,7 +99,7 @@ def hostile(literal, tmp_path, monkeypatch):
         return workspace
 
     yield written
-    # Python's own way to remove folders would fail at the deepest.
+    # Python's own functions fail to remove folders this deep.
     subprocess.run(["rm", "-rf", *tmp_path.glob("[0-9]*")], check=True)
 
 
@@ -125,6 +125,6 @@ def test_what_no_student_wrote_is_read_in_bounded_time_and_memory(hostile, under
         lines = [str(error)]
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     used_s = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    assert used_s < MOST_CPU_S + 3  # The rest is for the programs that it starts.
-    assert after.ru_maxrss >> 10 < MOST_MB + 50  # The rest is for libraries.
+    assert used_s < MOST_CPU_S + 3  # the programs that it starts need some more
+    assert after.ru_maxrss >> 10 < MOST_MB + 50  # libraries need some more
     assert all("\n" not in line and "\x1b" not in line and len(line) < 700 for line in lines), lines

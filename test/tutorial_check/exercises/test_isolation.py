@@ -1,4 +1,4 @@
-"""What a hostile program reaches in each mode: the table in the README."""
+"""What a hostile program reaches in each mode, compared with the README's table."""
 
 import ctypes
 import json
@@ -26,7 +26,7 @@ MODES = (
     *("root", "a user", "root, Landlock", "a user, Landlock"),
     *("root, not isolated", "a user, not isolated"),
 )
-# Imitated: what bubblewrap 0.4 (Ubuntu 20.04) and Linux 5.13 have, with the mode that it is.
+# Imitations of bubblewrap 0.4 (Ubuntu 20.04) and Linux 5.13, each with its mode.
 OLDER = {
     **{f"{mode}, bubblewrap 0.4": mode for mode in MODES[:2]},
     **{f"{mode} of Linux 5.13": mode for mode in MODES[2:4]},
@@ -53,7 +53,7 @@ message(FATAL_ERROR "${said}")
 
 
 def promised():
-    """{mode: what a program can do} by the README."""
+    """Return {mode: what a program can do}, from the README."""
     lines = (SOURCE.with_name("README.md")).read_text().splitlines()
     rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines if "|" in line]
     begin = next(at for at, row in enumerate(rows) if row[1:] == list(MODES))
@@ -74,7 +74,7 @@ def has_vsock():
 
 
 def impossible(words, mode):
-    """What no program can do on this machine, whatever the mode."""
+    """Return what no program can do on this machine in any mode."""
     can_mount = "Landlock" not in mode and subprocess.call([*words, *FILLS_MEMORY]) == 0
     has_memory = in_memory(tempfile.gettempdir())
     is_connected = len(socket.if_nameindex()) > 1
@@ -87,7 +87,7 @@ def impossible(words, mode):
 
 @pytest.fixture(params=[*MODES, *OLDER])
 def older(request):
-    """A mode, or an older one."""
+    """A mode, or its imitation with older software."""
     mode = OLDER.get(request.param, request.param)
     if mode.startswith("root") and os.geteuid() != 0:
         pytest.skip("only root can try what holds for root")
@@ -105,7 +105,7 @@ def mode(older):
 
 @pytest.fixture
 def variables(older, mode, folder):
-    """The environment in which the checker runs."""
+    """The checker's environment."""
     variables = {**os.environ, "PYTHONPATH": PYTHONPATH, "HOME": str(folder / "home")}
     if mode not in MODES[:2]:
         variables["PATH"] = path_without_namespaces(folder)
@@ -120,7 +120,7 @@ def variables(older, mode, folder):
 
 @pytest.fixture
 def words(mode, folder):
-    # Where this suite does not know the numbers of system calls, there is no Landlock.
+    # On machines whose system call numbers the suite does not know, it uses no Landlock.
     machine = ["setarch", "i686"] if mode.endswith("not isolated") else []
     if not mode.startswith("a user") or os.geteuid() != 0:
         return machine
@@ -145,7 +145,7 @@ def test_a_hostile_program_reaches_what_the_readme_says(
     with (package / "CMakeLists.txt").open("a") as file:
         file.write(BUILD)
     home.mkdir(0o700)
-    (home / "secret").write_text("<html>")  # the checker would call it a web page
+    (home / "secret").write_text("<html>")  # the checker would report a web page
     (home / "secret").chmod(0o600)
     libc, remove = ctypes.CDLL(None), 0
     left = [Path(place) / name for place in LEAVE]
@@ -165,13 +165,13 @@ def test_a_hostile_program_reaches_what_the_readme_says(
             done = subprocess.run(
                 [*words, *command(bare_underlay, "--all", group, "2", "3")],
                 capture_output=True, text=True, check=False, timeout=600, env=variables,
-                preexec_fn=lambda: os.umask(0o077),  # whatever the user's, programs read the copy
+                preexec_fn=lambda: os.umask(0o077),  # programs can read the copy with any umask
             )  # fmt: skip
             report = (group / "check" / "ada.txt").read_text()
             numbers = re.search(r"reached:([\d ]*) \.", report)
             assert numbers, report + done.stderr
             reached = {list(ATTACKS)[int(attack)] for attack in numbers[1].split()}
-            # Printed before the first verdict.
+            # printed before the first verdict
             assert ("no isolation here" in done.stderr) == mode.endswith("not isolated")
             said = REMARKS.get(mode.rpartition(", ")[2], "")
             judged = json.loads((group / "check/ada.json").read_text())["exercises"][0]
@@ -184,7 +184,7 @@ def test_a_hostile_program_reaches_what_the_readme_says(
                 PROCESS: bool(processes_like(f"sleep\0{number}\0")),
             }
             reached |= {what for what, is_so in seen.items() if is_so}
-            # An old bubblewrap limits no folder, which is printed.
+            # An old bubblewrap does not limit folders, and the checker prints that.
             has_limits = older == mode or mode not in MODES[:2]
             assert ("does not limit the memory" in done.stderr) == (not has_limits)
             expected = promised()[mode] | ({FILLS} if not has_limits else set())

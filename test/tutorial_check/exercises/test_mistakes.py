@@ -1,4 +1,4 @@
-"""Every mistake is found, at the right check, with its cause. One row, one test."""
+"""Every mistake is found by the right check, with its cause; each row is a test."""
 
 import grammar
 import mistakes_launch
@@ -48,7 +48,7 @@ def test_a_mistake_is_found(row, literal, examined):
 @claim("A mistake keeps no other exercise from a verdict")
 @pytest.mark.parametrize("row", OF_HANDOUT, ids=str)
 def test_a_mistake_is_found_in_all_exercises(row, literal, underlay):
-    """Its cause is reported, maybe by an earlier check, and keeps no other one from a verdict."""
+    """Some check reports its cause, and every other exercise still has a verdict."""
     apply(row.edits, literal)
     order = Order(literal.parent, underlay, read_course().by_default)
     wrong = wrong_of(examine(order, side_by_side=True))

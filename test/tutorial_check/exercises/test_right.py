@@ -1,4 +1,4 @@
-"""Right solutions, the suite's, a literal one and many variants: nothing is called wrong."""
+"""Right solutions: the suite's, a literal one and many variants; none is called wrong."""
 
 import os
 import shutil
@@ -20,12 +20,12 @@ from tutorial_testing.claims import claim
 from tutorial_testing.processes import REPOSITORY
 
 CHECKS = checks_of(read_course())
-NOETIC = "/opt/ros/noetic/setup.bash"  # where ROS is not of Debian
+NOETIC = "/opt/ros/noetic/setup.bash"  # on systems whose ROS is not Debian's
 
 
 @pytest.fixture
 def check(examined):
-    """check(workspace, exercises): {id: result}; fails with what is called wrong."""
+    """check(workspace, exercises): {id: result}; it fails if a result is wrong."""
 
     def judge(workspace, exercises):
         outcomes = examined(workspace, exercises)
@@ -55,7 +55,7 @@ def test_a_literal_solution_is_right_and_noted(literal, check):
     exercises = read_course().by_default
     seen = check(literal.parent, exercises)
     assert seen.keys() == {made.id for made in CHECKS if made.exercise in exercises}
-    # What the handout's own listings do is worth a word, no more.
+    # What the handout's own listings do is at most worth a note.
     assert {seen[name].status for name in ("C18", "C20", "C29", "C32", "C33")} == {"note"}
     assert seen["C29"].where == "scripts/new_joy2twist.py:11"  # on_shutdown before the publisher
 
@@ -78,14 +78,14 @@ def test_a_right_solution_is_noted(row, literal, check):
     ("below", "status"), [("underlay", "ok"), ("nothing of the suite", "wrong")]
 )
 def test_below_what_a_workspace_was_built(literal, underlay, below, status):
-    """As catkin writes its devel folder, over the suite or without it."""
+    """The devel folder is catkin's own, built over the suite or without it."""
     under = underlay if below == "underlay" else NOETIC
     build = f"[ ! -e '{under}' ] || . '{under}'; catkin_make"
     environment = {"PATH": "/usr/bin:/bin", "HOME": os.environ["HOME"]}
     subprocess.run(["bash", "-c", build], cwd=literal.parent, check=True, env=environment)
     (outcome,) = examine(Order(literal.parent, underlay, ["2"]))
     if status == "wrong" and Path(NOETIC).exists():
-        status = "note"  # as a ROS in /opt/ros wants it
+        status = "note"  # correct for a ROS in /opt/ros
     assert next(result.status for result in outcome.results if result.id == "C1") == status
 
 

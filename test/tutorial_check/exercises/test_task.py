@@ -1,4 +1,4 @@
-"""Tasks: a right solution of each is right, that of another is wrong; no answer is given."""
+"""Tasks: a right solution is right, one of another task is wrong; no result gives answers away."""
 
 import re
 
@@ -17,7 +17,12 @@ pytestmark = claim(
 )
 COURSE = read_course()
 TOPICS = {"joy", "cmd_vel"}
-FEW = {"axis_linear": 5, "axis_angular": 2, "scale_linear": -2.0, "rate": 1}  # else the handout's
+FEW = {
+    "axis_linear": 5,
+    "axis_angular": 2,
+    "scale_linear": -2.0,
+    "rate": 1,
+}  # else the handout's
 ADA, BOB = (drawn(COURSE, "test", name) for name in ("ada", "bob"))
 NAMES_THE_PACKAGE = (f'pkg="{J}"', f"find {J})", f"<name>{J}<", f"project({J})", f"_manifest('{J}'")
 HANDOUT = {"axis_linear": 1, "axis_angular": 0, "scale_linear": 1.0, "scale_angular": 1.0,
@@ -27,13 +32,13 @@ CHECKS = {"joy": "C14", "cmd_vel": "C15", "package": "C12", "node": "C15", "rate
 
 
 def texts(src):
-    """{path: text} of all programs and launch files of a workspace."""
+    """Return {path: text} of all programs and launch files in a workspace."""
     files = (path for path in src.rglob("*") if path.is_file() and path.suffix != ".bag")
     return {path: path.read_text() for path in files}
 
 
 def turn(src, values):
-    """Make of the literal solution in a src folder one of another task."""
+    """Change the literal solution in a src folder into one of another task."""
     its = {**HANDOUT, **values}
     held = f" * data.buttons[{values['enable_button']}]" if "enable_button" in values else ""
     new = {
@@ -57,7 +62,7 @@ def turn(src, values):
 
 @pytest.fixture
 def wrong_of(literal, examined):
-    """wrong_of(exercises, values): results of a task that are no success; none gives it away."""
+    """wrong_of(exercises, values): a task's unsuccessful results; none gives it away."""
 
     def check(exercises, values):
         outcomes = examined(literal.parent, exercises, variant=values)
@@ -72,7 +77,7 @@ def wrong_of(literal, examined):
 
 
 def given_away(result, values, own):
-    """The values of a task that a result without its hint names, and the student's files do not."""
+    """Return values of a task that a result names outside its hint and the student's files lack."""
     words = "\n".join((result.title, result.expected, result.seen, result.where, result.look))
     tokens = {
         **{key: rf"axes\[{values[key]}\]|axis {values[key]}\b" for key in values if "axis_" in key},
@@ -100,7 +105,7 @@ def test_a_right_solution_of_a_task_is_right(values, literal, wrong_of):
     "key", [*CHECKS, "enable_button", "scale_linear", "scale_angular", "axis_linear"]
 )
 def test_each_value_of_a_task_is_checked(key, literal, wrong_of):
-    """All is right but for one value, that of the handout, or a neighbour's."""
+    """All is right except for one value, the handout's."""
     values = BOB
     turn(literal, {name: value for name, value in values.items() if name != key})
     first = wrong_of(["3" if key == "rate" else "4.3"], values)[0]

@@ -1,4 +1,4 @@
-"""What the checker's tests share."""
+"""Fixtures of the checker's unit tests."""
 
 import os
 
@@ -11,7 +11,7 @@ from tutorial_testing.submissions import make_submission, order  # noqa: F401
 
 @pytest.fixture
 def examined(request, tmp_path):
-    """examined(workspace, exercises, ...): the Outcomes, judged from what is stored."""
+    """examined(workspace, exercises, ...): the Outcomes, judged from stored recordings."""
     folder = tmp_path / "judged"
     folder.mkdir()
     underlay = os.environ["TUTORIAL_UNDERLAY"]

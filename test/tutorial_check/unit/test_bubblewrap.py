@@ -1,4 +1,4 @@
-"""What is said where programs cannot be isolated; exercises/test_isolation.py attacks it."""
+"""Reports where programs cannot be isolated; exercises/test_isolation.py attacks the isolation."""
 
 import contextlib
 import subprocess
@@ -46,7 +46,7 @@ def test_threads_that_ask_at_once_get_one_answer(monkeypatch):
     def which(_name):
         asked.append(1)
         with contextlib.suppress(threading.BrokenBarrierError):
-            both.wait(0.2)  # for a second thread, which does not come
+            both.wait(0.2)  # a second thread would release it; none comes
 
     monkeypatch.setattr(bubblewrap, "_granted", lru_cache()(bubblewrap._granted.__wrapped__))
     monkeypatch.setattr(bubblewrap.shutil, "which", which)
@@ -62,7 +62,7 @@ NOT_ISOLATED = "cannot isolate programs: bwrap: refused: a student's program cou
 @pytest.mark.parametrize(("begin", "why"), [
     (lambda: cluster.become_worker("tls://host", 1, False), NOT_ISOLATED),
     (lambda: cluster.become_worker("tcp://host", 1, True), "--not-isolated needs tls://, and root"),
-    (lambda: cluster._examine(b"", None, ""), NOT_ISOLATED),  # not by ./tutorial worker
+    (lambda: cluster._examine(b"", None, ""), NOT_ISOLATED),  # not started by ./tutorial worker
 ])  # fmt: skip
 def test_a_worker_without_isolation_checks_nothing(monkeypatch, begin, why):
     monkeypatch.setattr(bubblewrap, "granted", lambda: Isolation(why="bwrap: refused"))

@@ -1,4 +1,4 @@
-"""What catkin_make printed, as far as no stored row shows it."""
+"""Errors in catkin_make's output that no stored row shows."""
 
 import time
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""From an error, and a line of the program, to the cause."""
+"""From an error and a line of the program to the cause."""
 
 import re
 import subprocess
@@ -44,7 +44,7 @@ def test_an_error_of_python_has_a_cause(error, line, word):
     "import sys; sys.maxint", "from itertools import izip", "iter([]).next()", "unicode('x')",
 ])  # fmt: skip
 def test_a_program_in_python_2_is_named_as_such(line):
-    """Each in a program of its own, as Python 3 refuses it."""
+    """Each is a separate program, which Python 3 rejects."""
     facts = PythonFacts(line)
     if facts.error:
         hint = explain(facts.error, facts.error_text, "/x.py", "syntax")
@@ -58,7 +58,7 @@ def test_a_program_in_python_2_is_named_as_such(line):
 
 @claim("A program in ...", because="the command of the hint")
 def test_the_hint_for_python_2_works(tmp_path):
-    """Its command makes a program of what Python 3 refuses; Debian 13 has this one alone."""
+    """Its command converts what Python 3 rejects; Debian 13 has no other converter."""
     pytest.importorskip("fissix")
     program = tmp_path / "old.py"
     program.write_text("try:\n    print 0777\nexcept IOError, error:\n    print `error`\n")
@@ -89,7 +89,7 @@ def test_another_error_is_not_called_python_2(line):
 def test_what_python_cannot_read_has_a_hint(text, line, word):
     facts = PythonFacts(text)
     assert facts.error_line in (line, line + 1)
-    # Python 3.8 names no characters, and fewer causes.
+    # Python 3.8 names no characters and fewer causes.
     known = facts.error not in ("invalid syntax", "unexpected EOF while parsing")
     known = known and not facts.error.endswith("identifier")
     assert word in explain(facts.error, facts.error_text, section="syntax") or not known
@@ -111,10 +111,10 @@ more
 @pytest.mark.parametrize("no_mistake", [
     OUTPUT.replace("TypeError: 'tuple'", "rospy.ROSException: publish() to a closed topic"),
     OUTPUT.replace("TypeError:", "ROSException: topic was closed during publish()"),
-    "Traceback (most recent call last):\n",  # it was cut off here
+    "Traceback (most recent call last):\n",  # the output was cut off here
 ])  # fmt: skip
 def test_an_error_at_the_end_of_rospy_is_no_mistake(no_mistake):
-    """rospy closes topics shortly before it says that it ends."""
+    """rospy closes topics shortly before it announces its shutdown."""
     assert first_traceback(no_mistake, "/tmp/ws/joy2twist") is None
     for both in (no_mistake + OUTPUT, OUTPUT + no_mistake):
         assert first_traceback(both, "/tmp/ws/joy2twist").error.startswith("TypeError: 'tuple' ob")
@@ -150,7 +150,7 @@ def test_an_error_of_catkin_make_has_a_cause(words, hint):
 
 @claim("A real package that Debian lacks is not called misspelt")
 def test_a_real_package_that_debian_lacks_is_not_called_misspelt():
-    """Even one with a name like that of a package which is here; a misspelt one is."""
+    """Even if its name resembles an installed package's; a misspelt name is called so."""
     assert is_lacking("turtlebot3_bringup") and not is_lacking("turtlebot_brinup")
     assert package_hint("turtlebot3_bringup").startswith("Debian lacks turtlebot3_bringup; that is")
     assert "is turtlebot_bringup meant?" in package_hint("turtlebot_brinup")

@@ -1,4 +1,4 @@
-"""--all: odd names, and what cannot be written, cost no other student the result."""
+"""--all: odd names and results that cannot be written do not affect other students."""
 
 import csv
 import json
@@ -30,7 +30,7 @@ NO_VERDICT = Outcome("2", [Result("C1", UNREACHED, "one")], 1.0, True, "C1: no s
 
 
 class Group:
-    """A folder of students, who are all right; started: whose check has started."""
+    """A folder of students, all of them right; started: those whose check has started."""
 
     def __init__(self, folder):
         self.folder, self.check, self.started = folder, folder / "check", []
@@ -84,7 +84,7 @@ def test_a_folder_and_a_zip_of_one_name_have_each_a_report(group):
 
 
 def test_students_with_odd_names_are_checked(group):
-    """One is no UTF-8; the report of another cannot be written."""
+    """One name is not UTF-8; another is too long for a report."""
     longest = "n" * 255
     for name in (b"anna", b"m\xfcller", longest.encode(), b"zoe"):
         os.mkdir(os.path.join(os.fsencode(group.folder), name))
@@ -112,7 +112,7 @@ def test_what_is_no_folder_and_no_zip_has_a_row_all_the_same(group):
     group.add("ADA.ZIP", "bob.tar.gz", "carl.7z", "dora.zip", "dora.ZIP", "README.md", "a.csv")
     (group.folder / "emma").symlink_to(group.folder / "nowhere")
     (group.folder / "loop").symlink_to(group.folder / "loop")
-    names = [one.name for one in submissions.find_students(group.folder, group.check)]
+    names = [student.name for student in submissions.find_students(group.folder, group.check)]
     assert names == ["ADA", "bob.tar.gz", "carl.7z", "dora.ZIP", "dora.zip", "emma", "loop"]
 
 
@@ -131,7 +131,11 @@ def test_the_results_of_an_earlier_check_are_no_student(group, tmp_path, capsys)
     assert [row[0] for row in group.check_all(tmp_path / "elsewhere")[1]] == ["ada"]
     assert "check" not in (tmp_path / "elsewhere" / "table.csv").read_text()
     assert "check: left out: the results of an earlier check\n" in capsys.readouterr().out
-    for name in ("table.csv", "table.html", "package.xml"):  # a student's, who names files so
+    for name in (
+        "table.csv",
+        "table.html",
+        "package.xml",
+    ):  # of a student
         (group.folder / "ada" / name).touch()
     assert [row[0] for row in group.check_all()[1]] == ["ada"]
 
@@ -178,8 +182,8 @@ def test_a_broken_state_is_ignored(group, text):
 
 
 def test_another_exercise_or_level_of_hints_makes_other_checks():
-    asked = [(["2"], 2), (["3"], 2), (["2"], 0)]
-    assert len({digest_of_checks(read_course(), *one) for one in asked}) == 3
+    given = [(["2"], 2), (["3"], 2), (["2"], 0)]
+    assert len({digest_of_checks(read_course(), *choice) for choice in given}) == 3
 
 
 def test_a_folder_called_variants_is_a_submission_unless_it_is_named(group, capsys):
@@ -220,11 +224,11 @@ def test_a_run_that_was_interrupted_goes_on_where_it_was(group, monkeypatch):
 
 
 def test_moodles_folders_have_the_names_of_students(tmp_path):
-    """Of two of one name both have the folder's, as reports are files."""
+    """Two students with the same name have their folders' names, because reports are files."""
     group = Group(tmp_path / "class")
     ending = "_assignsubmission_file_"
     folders = [f"Ada Lovelace_2101{ending}", f"Bo Li_7{ending}", f"Bo Li_8{ending}"]
     for name in folders:
         (group.folder / name).mkdir()
-    names = [one.name for one in submissions.find_students(group.folder, group.check)]
+    names = [student.name for student in submissions.find_students(group.folder, group.check)]
     assert names == ["Ada Lovelace", *folders[1:]]

@@ -1,4 +1,4 @@
-"""The page and the table of a class: what a professor reads, and what nobody can put into it."""
+"""The page and the table of a class: their content, and what nobody can inject."""
 
 import csv
 import re
@@ -29,7 +29,7 @@ HOSTILE = "<script>alert(1)</script>\"'><img src=x onerror=alert(1)>"
 
 @pytest.mark.parametrize("cell", ["=1", "\t=1", "x;=1", "x,\n+1", " -1", "a|@b"])
 def test_no_cell_is_a_formula(cell):
-    """Of whatever a spreadsheet takes for the end of a cell."""
+    """Whatever a spreadsheet treats as the end of a cell."""
     table = table_csv([Student(cell, None, trouble=f"{cell}: no zip")], ["2"])
     for written in re.split(r"[;,|\t\r\n]", table):
         assert written.strip(' "')[:1] not in tuple("=+-@"), table
@@ -70,11 +70,12 @@ def test_how_many_fail_what_and_why():
         Student("zoe", None, [wrong("no file", "C12")]),
     ]
     assert class_page.failures(students) == [("C16", "axes", 3), ("C12", "axes", 1)]
-    found = class_page.causes(students)
-    assert [[one.name for one in whose] for whose, _ in found] == [["bob", "eve"], ["ada"], ["zoe"]]
-    assert found[0][1].seen == "angular.z = -0.98 * axes[0]"
-    # An example does not say whose it is.
-    assert (found[1][1].seen, found[1][1].hint) == ("the sign of NAME is wrong", "fix NAME's")
+    causes = class_page.causes(students)
+    names = [[student.name for student in whose] for whose, _ in causes]
+    assert names == [["bob", "eve"], ["ada"], ["zoe"]]
+    assert causes[0][1].seen == "angular.z = -0.98 * axes[0]"
+    # An example does not name its student.
+    assert (causes[1][1].seen, causes[1][1].hint) == ("the sign of NAME is wrong", "fix NAME's")
     page = table_html(students, ["5"], TITLES, ABOUT)
     below = page[page.index("<h2>") :]
     assert "<td>C16</td><td>axes</td><td>3</td>" in below

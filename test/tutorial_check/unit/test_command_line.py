@@ -53,7 +53,7 @@ def test_in_a_shell_of_a_workspace_that_is_meant(monkeypatch):
     ("--variants 2026 --show-variant ada", "show-variant"),
 ])  # fmt: skip
 def test_an_option_says_which_command_is_meant(words, command, capsys):
-    """Its help has its options; that of no command has all."""
+    """Its help has its options; the general help has all."""
     words = words.replace(" 2 3 ", " 1 ").split()
     assert parse([*UNDERLAY, *words]).command == command
     for given in (words, [])[command == "check" :]:
@@ -117,7 +117,7 @@ def test_the_exit_code_tells_right_wrong_and_no_verdict(main, outcomes, code, ca
     written = {path.name for path in tmp_path.iterdir() if path.stat().st_size > 100}
     assert written == {*FORMATS} - {"classroom" if code == 2 else ""}
     out, err = capsys.readouterr()
-    assert f"{sum(one.passed for one in outcomes)} of {len(outcomes)} exercises done" in out
+    assert f"{sum(outcome.passed for outcome in outcomes)} of {len(outcomes)} exercises done" in out
     assert ("check: 5: no verdict: C21: no space\n" in err) == (NO_VERDICT in outcomes)
     assert (f"check: {tmp_path}/classroom is not written" in err) == (NO_VERDICT in outcomes)
 
@@ -126,7 +126,7 @@ def test_no_file_has_hints_if_there_are_none(main, tmp_path):
     main(lambda *_, **__: [BAD], "--keep", tmp_path, "--json", tmp_path / "report", "--no-hints")
     (kept,) = tmp_path.glob("*.json")
     assert '"recordings"' in kept.read_text()
-    assert not [one for one in (kept, tmp_path / "report") if "mkdir src" in one.read_text()]
+    assert not any("mkdir src" in file.read_text() for file in (kept, tmp_path / "report"))
 
 
 @claim("A bug of the checker, or a file that cannot be written, is no fault of the student's")
@@ -137,21 +137,21 @@ def test_a_bug_of_the_checker_is_no_fault_of_the_students(main, tmp_path, capsys
     error = capsys.readouterr().err
     assert "check: IndexError: pop from empty list (test_command_line.py:" in error
     assert "a fault of the check, not of your exercises" in error and "Traceback" not in error
-    assert not (tmp_path / "file").exists()  # last week's result is not this one's
+    assert not (tmp_path / "file").exists()  # last week's result is not today's
 
 
 def test_a_reader_that_has_seen_enough_is_no_fault(main, monkeypatch, capsys):
     def closed(*_, **__):
         raise BrokenPipeError
 
-    monkeypatch.setattr(sys, "stdout", sys.stdout)  # main() gives it up
+    monkeypatch.setattr(sys, "stdout", sys.stdout)  # main() closes it
     monkeypatch.setattr(command_line.bubblewrap, "lacking", list)  # on any machine
     assert main(closed) == 2 and not capsys.readouterr().err
 
 
 @claim("A bug of the checker, or ...", because="a file that cannot be written")
 def test_a_file_that_cannot_be_written(main, tmp_path, capsys):
-    """The other files are written; a fault that is known before the work prevents the work."""
+    """The other files are written; a fault known beforehand stops the run at its start."""
     files = "--json", tmp_path / "json", "--junit", tmp_path / "junit"
     assert main(lambda *_, **__: (tmp_path / "json").mkdir() or [WELL], *files) == 2
     assert (tmp_path / "junit").exists()

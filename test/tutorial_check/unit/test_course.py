@@ -1,4 +1,4 @@
-"""A professor's own course: what is read, what is refused in one line, and which check is where."""
+"""A professor's own course: its files, one line for each fault, and the order of its checks."""
 
 from dataclasses import replace
 
@@ -44,22 +44,16 @@ def course(tmp_path):
 
 
 def test_a_course_and_its_checks_in_its_order(course):
-    one = course()
-    assert [(n, e.title, e.points, e.document) for n, e in one.exercises.items()] == [
-        ("2", "two", 0.0, "sheet"),
-        ("1", "one", 3, "sheet"),
-    ]
-    found = checks_of(one)
-    assert [(each.id, each.exercise, each.section) for each in found] == [
-        ("S10", "2", "sheet 2"),
-        ("S1", "1", "sheet 1"),
-        ("S2", "1", "sheet 1.1"),
-    ]
-    assert found[2].needs == ("S1", "S1", "S10")
-    assert found[2].function(None) == "from beside"
-    assert [each.title for each in found] == ["it drives", "a", "b"]
-    # Another course of the same process has its own.
-    assert [each.id for each in checks_of(course(checks="X = 1\n"))] == []
+    own = course()
+    exercises = [(n, e.title, e.points, e.document) for n, e in own.exercises.items()]
+    assert exercises == [("2", "two", 0.0, "sheet"), ("1", "one", 3, "sheet")]
+    checks = checks_of(own)
+    places = [(check.id, check.exercise, check.section) for check in checks]
+    assert places == [("S10", "2", "sheet 2"), ("S1", "1", "sheet 1"), ("S2", "1", "sheet 1.1")]
+    assert checks[2].needs == ("S1", "S1", "S10")
+    assert checks[2].function(None) == "from beside"
+    assert [check.title for check in checks] == ["it drives", "a", "b"]
+    assert checks_of(course(checks="X = 1\n")) == []  # another course in the same process
 
 
 @pytest.mark.parametrize(("text", "why"), [

@@ -1,4 +1,4 @@
-"""The programs' clock: it slows down while they wait for a processor."""
+"""The programs' clock runs slower while they wait for a processor."""
 
 import os
 
@@ -15,7 +15,7 @@ MS = 1_000_000  # nanoseconds
 
 
 class Machine:
-    """A clock, one thread of the checker's and one of a program's."""
+    """A clock with a thread of the checker and a thread of a program."""
 
     def __init__(self):
         self.now_s, self.is_ready = 100.0, False
@@ -42,7 +42,7 @@ class Machine:
     ((1.0, 900, 0), 1.0, False, False),
     ((1.0, 300, 700), 0.3, True, False),
     ((1.0, 0, 500, OURS), 0.5, True, False),  # the checker's own waiting counts as well
-    ((10.0, 0, 100_000), 10.0 * SLOWEST, True, True),  # ten threads at once: it never stops
+    ((10.0, 0, 100_000), 10.0 * SLOWEST, True, True),  # ten threads at once; the clock never stops
 ])  # fmt: skip
 def test_time_without_a_processor_does_not_count(passed, programs_s, busy, overloaded):
     machine = Machine()

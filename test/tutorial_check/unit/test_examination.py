@@ -1,4 +1,4 @@
-"""The process that reads what was handed in: however it ends, there is one line."""
+"""The process that reads what was handed in ends with one line, whatever happens."""
 
 import sys
 import textwrap
@@ -12,7 +12,7 @@ from tutorial_check.recording import worker_process
 from tutorial_check.submission.order import Order
 from tutorial_testing.waiting import wait_for
 
-# In place of judging.examine(); Linux counts the time of a processor in whole seconds.
+# Replaces judging.examine(); Linux limits processor time in whole seconds.
 PROCESS = """#!/usr/bin/python3
 import os, re, resource, sys, time
 from tutorial_check.examining import examination, judging
@@ -31,7 +31,7 @@ examination.main()
 
 @pytest.fixture
 def examine(tmp_path, monkeypatch):
-    """examine(body of the function that examines): what it comes to, and what was reported."""
+    """examine(body of the function that examines): its result, and what was reported."""
     monkeypatch.setattr(examination, "sourced", lambda order: order)
 
     def examined(body):
@@ -41,7 +41,7 @@ def examine(tmp_path, monkeypatch):
         monkeypatch.setattr(sys, "executable", str(program))
         reported = []
         order = Order(tmp_path, "setup.bash", ("3",))
-        return examination.examine(order, lambda *found: reported.append(found)), reported
+        return examination.examine(order, lambda *result: reported.append(result)), reported
 
     return examined
 
@@ -63,7 +63,7 @@ def test_a_process_that_cannot_go_on_is_one_line(examine, body, words):
 
 
 def test_who_no_longer_waits_ends_what_it_has_started(examine, tmp_path, monkeypatch):
-    """As Ctrl-C in a class does: the process has time to end what it started."""
+    """As with Ctrl-C in a class, the process has time to stop what it started."""
     monkeypatch.setattr(worker_process, "no_more", threading.Event())
     monkeypatch.setattr(examination, "no_more", worker_process.no_more)
     started, ended = tmp_path / "started", tmp_path / "ended"

@@ -1,4 +1,4 @@
-"""The files for other programs, and the last line for people."""
+"""Files for other programs, and the last line for people."""
 
 import json
 import xml.etree.ElementTree as ET
@@ -29,7 +29,7 @@ GIVEN = {"CLASSROOM": "ros", "ASSIGNMENT": "joy", "SUBMISSION_TAG": "submit/1", 
 def test_the_points_of_a_course():
     two = Outcome("1", [Result("S1", OK, "a"), Result("S2", WRONG, "b")], done=True, points=3.0)
     tests = json.loads(as_gradescope([two]))["tests"]
-    assert [(one["score"], one["max_score"]) for one in tests] == [(1.5, 1.5), (0.0, 1.5)]
+    assert [(test["score"], test["max_score"]) for test in tests] == [(1.5, 1.5), (0.0, 1.5)]
     found = json.loads(as_classroom([two, GOOD], {}))
     assert (found["score"], found["max-score"]) == (1, 4.0)
 
@@ -37,9 +37,14 @@ def test_the_points_of_a_course():
 def test_json_has_each_check_and_why_there_is_no_verdict():
     found = json.loads(as_json([GOOD, BAD, NO_VERDICT, EMPTY]))
     assert (found["passed"], found["total"]) == (1, 4)
-    assert [each["passed"] for each in found["exercises"]] == [True, False, False, False]
-    assert [each["trouble"] for each in found["exercises"]] == ["", "", NO_VERDICT.trouble, ""]
-    assert [each["nothing_to_check"] for each in found["exercises"]] == [False] * 3 + [True]
+    assert [exercise["passed"] for exercise in found["exercises"]] == [True, False, False, False]
+    assert [e["trouble"] for e in found["exercises"]] == [
+        "",
+        "",
+        NO_VERDICT.trouble,
+        "",
+    ]
+    assert [e["nothing_to_check"] for e in found["exercises"]] == [False] * 3 + [True]
     assert found["exercises"][1]["checks"][0] == dict(zip(NAMES, VALUES))
 
 
@@ -62,7 +67,7 @@ def test_gradescope_has_a_point_a_check():
 
 
 def test_classroom_50_learns_which_submission_it_is():
-    """All that its runner demands of a result and does not write itself."""
+    """It has all that the runner requires in a result and does not write itself."""
     found = json.loads(as_classroom([GOOD, BAD], GIVEN))
     tests = found.pop("tests")
     assert [test["passed"] for test in tests] == [True, False]

@@ -1,4 +1,4 @@
-"""A helper that does not answer is given up, and no late answer is taken for another one."""
+"""A helper that does not answer is abandoned, and its late answer is never used."""
 
 import os
 
@@ -11,7 +11,7 @@ from tutorial_testing.claims import claim
 
 @claim("A helper that was late is asked no more")
 def test_a_helper_that_was_late_is_asked_no_more(request, tmp_path):
-    gate = tmp_path / "gate"  # for which read_text() waits
+    gate = tmp_path / "gate"  # read_text() waits for it
     os.mkfifo(gate)
     helper = Helper(lambda: gate, {})
     request.addfinalizer(helper.end)

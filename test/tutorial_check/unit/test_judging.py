@@ -1,4 +1,4 @@
-"""A worker that does not go on: what the checks came to until then is reported."""
+"""A worker that stops: the results of the checks until then are reported."""
 
 import json
 import os
@@ -26,7 +26,7 @@ class Seen:
 
 
 def look(workspace, what: str) -> Seen:
-    """Recorded by a script in place of the worker."""
+    """A recorder, for a script in place of the worker."""
 
 
 def looks(name):
@@ -43,7 +43,7 @@ def examine(tmp_path, monkeypatch):
     monkeypatch.setattr(judging, "checks_of", lambda course: checks)
 
     def examined(answers, ending="", tell=lambda outcome, result: None, beside=()):
-        # The order, and then questions, come from where answers go.
+        # Order and questions arrive where answers are sent.
         script = [*(f"read -r _ <&1; echo '{line}'" for line in answers), ending]
         scripts = iter([script, beside])
         command = lambda *_: ["sh", "-c", "\n".join(next(scripts))]  # noqa: E731
@@ -55,14 +55,14 @@ def examine(tmp_path, monkeypatch):
 
 
 def found_in(outcomes):
-    return {one.id: ([result.id for result in one.results], one.trouble) for one in outcomes}
+    return {o.id: ([result.id for result in o.results], o.trouble) for o in outcomes}
 
 
 def test_what_was_found_before_the_worker_ended(examine):
     outcomes = examine([READY, SEEN], "echo no room >&2")
     why = "the worker exited without a result: no room"
     assert found_in(outcomes) == {"2": (["C2"], ""), "3": ([], why), "5": ([], why)}
-    assert [one.passed for one in outcomes] == [True, False, False]
+    assert [outcome.passed for outcome in outcomes] == [True, False, False]
 
 
 @pytest.mark.parametrize(("answer", "why"), [
@@ -111,11 +111,11 @@ def test_a_second_worker_records_for_the_last_exercise_first(examine, monkeypatc
     gate = tmp_path / "gate"
     os.mkfifo(gate)
     ready, seen = (f"read -r _ <&1; echo '{line}'" for line in (READY, SEEN))
-    # The one is asked for 2, the other for 5, and each waits for that; either may record for 3.
+    # One is asked for 2, the other for 5, and each waits for it; either may record for 3.
     one = f"read -r _ <&1; read -r _ <{gate}; echo '{SEEN}'; {seen}; exec sleep 3600"
     other = f"read -r _ <&1; echo >{gate}; echo '{SEEN}'; {seen}; exec sleep 3600"
     outcomes = examine([READY], one, beside=[ready, other])
-    assert all(each.passed for each in outcomes), found_in(outcomes)
+    assert all(outcome.passed for outcome in outcomes), found_in(outcomes)
 
 
 def test_two_workers_record_each_thing_once():
@@ -133,7 +133,7 @@ def test_two_workers_record_each_thing_once():
     one, other = worker("one"), worker("other")
     assert other(Question("talk")).recording == "other"
     assert one(Question("talk")).recording == "other"
-    assert one(Question("talk")).recording == "one"  # Who asks again wants another recording.
+    assert one(Question("talk")).recording == "one"  # a repeated question wants a new recording
     with pytest.raises(Ended):
         worker("last", ends=True)(Question("drive"))
     one(Question("drive"))

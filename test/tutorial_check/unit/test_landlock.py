@@ -1,4 +1,4 @@
-"""What a program reaches under each version of Landlock, as far as this kernel can imitate it."""
+"""What a program reaches under each version of Landlock that this kernel can imitate."""
 
 import errno
 import os
@@ -10,7 +10,7 @@ import pytest
 from tutorial_check.sandbox import landlock, privileges
 from tutorial_testing.claims import claim
 
-# The first rights stand in linux/landlock.h since Linux 5.13.
+# Rights of each version; the first are in linux/landlock.h since Linux 5.13.
 SYSTEM = ("/usr", "/lib", "/lib64", "/bin", "/proc")
 RIGHTS = {1: 0x1FFF, 2: 0x3FFF, 3: 0x7FFF, 4: 0x7FFF, 5: 0xFFFF, 6: 0xFFFF, 7: 0xFFFF}
 
@@ -38,7 +38,7 @@ def move(own):
 
 
 def reached(version, attempts, shown, own, monkeypatch):
-    """Return the names of the attempts that succeed in a process of its own, confined."""
+    """Return the names of the attempts that succeed in a confined process."""
     monkeypatch.setattr(landlock, "version", lambda: version)
     begin, end = os.pipe()
     child = os.fork()

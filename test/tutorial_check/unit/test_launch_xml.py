@@ -1,4 +1,4 @@
-"""From the text of a launch file that is no XML to a line and a hint."""
+"""From a launch file that is not XML to a line and a hint."""
 
 from xml.dom import minidom
 from xml.parsers import expat

@@ -1,4 +1,4 @@
-"""Graded hints: the first failure says what is wrong, the same one again how to fix it."""
+"""Graded hints: the first failure says what is wrong, a repeated one how to fix it."""
 
 import json
 
@@ -17,7 +17,7 @@ A_NOTE = Result("C2", NOTE, "a package", seen="odd", hint="rename it")
 
 @pytest.fixture
 def memory(tmp_path):
-    """memory(level, workspace): what a new run of the checker knows."""
+    """memory(level, workspace): the memory of a new run of the checker."""
 
     def make(level=AGAIN, workspace="ws"):
         (tmp_path / workspace).mkdir(exist_ok=True)
@@ -33,10 +33,10 @@ def test_the_same_failure_again_shows_how_to_mend_it(memory):
     first.keep([Outcome("4.3", [WRONG_SIGN])])
     assert memory().hint_of(WRONG_SIGN) == "no minus"
     again = Result(**{**vars(WRONG_SIGN), "seen": "angular.z = -0.98 * axes[0]"})
-    assert memory().hint_of(again) == "no minus"  # a measured number does not make it another one
+    assert memory().hint_of(again) == "no minus"  # another measured number is the same failure
     assert memory().hint_of(WRONG_AXIS) == LATER
     assert memory(workspace="other").hint_of(WRONG_SIGN) == LATER
-    # Another exercise, checked meanwhile, does not make it a first one; that it was right does.
+    # Checking another exercise meanwhile does not reset it; a success does.
     memory().keep([Outcome("2", [Result("C1", OK, "one")], done=True)])
     assert memory().hint_of(WRONG_SIGN) == "no minus"
     memory().keep([Outcome("4.3", [Result("C16", OK, "axes")], done=True)])

@@ -1,4 +1,4 @@
-"""What --package writes for a service."""
+"""The files that --package writes for a service."""
 
 import shlex
 import subprocess
@@ -64,7 +64,7 @@ def test_the_exit_codes_that_the_service_wants(tmp_path, code, results, exits, o
 
 @pytest.fixture
 def git(tmp_path, monkeypatch):
-    """git(script): the only program there is."""
+    """git(script): make the only program on PATH."""
 
     def make(script):
         (tmp_path / "bin").mkdir()

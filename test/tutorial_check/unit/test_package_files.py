@@ -1,4 +1,4 @@
-"""Files of a package: their lines."""
+"""Files of a package, and lines in them."""
 
 import pytest
 

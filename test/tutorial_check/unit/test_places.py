@@ -1,4 +1,4 @@
-"""A recording names folders by words, and no path of a machine."""
+"""A recording names folders by words, never by paths of a machine."""
 
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -63,7 +63,7 @@ def test_a_worker_sends_no_path_of_its_machine_and_a_submission_has_its_own(
 
 
 def of_a_program(workspace) -> Printed:
-    """Write down what is no data."""
+    """Record an object that is not data."""
     return Printed(object())
 
 

@@ -1,4 +1,4 @@
-"""The user that runs the programs of students."""
+"""The user that runs students' programs."""
 
 import pytest
 

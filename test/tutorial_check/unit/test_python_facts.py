@@ -1,4 +1,4 @@
-"""What a program says of itself without being run, and the same program with one thing changed."""
+"""Facts from a program's text, and the same program with one thing changed."""
 
 import functools
 

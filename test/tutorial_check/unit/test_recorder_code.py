@@ -1,4 +1,4 @@
-"""What makes a stored recording old: a change of what its recorder imports, and of nothing else."""
+"""A stored recording is old after a change of what its recorder imports, and only then."""
 
 import pytest
 from recorder_code import closure, modules_of

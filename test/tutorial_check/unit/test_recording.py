@@ -1,4 +1,4 @@
-"""What own courses work with: a Client and its node, whose rospy is made up here; launch files."""
+"""The tools of own courses: a Client and its node, with an imitated rospy; launch files."""
 
 import os
 import re
@@ -24,7 +24,7 @@ ENDS = {}
 
 
 class Rospy:
-    """A publisher, subscriber or service; what is sent goes to the first of its name."""
+    """A publisher, subscriber or service; messages go to the first one of that name."""
 
     def __init__(self, name, kind, callback=None, argument=None, queue_size=0):
         self.name, self.data_class, self._callback = name, kind, callback
@@ -45,7 +45,7 @@ class Rospy:
 
 @pytest.fixture
 def ros(monkeypatch):
-    """A RosSession on which the node of a Client is a thread; `own`: a student's package."""
+    """A RosSession whose Client has a thread as its node; `own`: a student's package."""
     ENDS.clear()
     for name in ("Publisher", "Subscriber", "Service", "ServiceProxy"):
         monkeypatch.setattr(client_node.rospy, name, Rospy)
@@ -149,7 +149,7 @@ LAUNCH = '<launch>\n  <node pkg="turtlesim" type="mimic" name="m"/>\n</launch>\n
     ("a.launch", LAUNCH.replace("turtlesim", "turtle"), "Cannot locate", "launch/a.launch:2"),
 ])  # fmt: skip
 def test_a_launch_file_is_read(make_submission, monkeypatch, name, text, seen, where):
-    # facts_of changes it, in a process of its own.
+    # facts_of() changes it, normally in a separate process.
     monkeypatch.setattr("roslaunch.loader.Loader.param_value", Loader.param_value)
     submission = make_submission("p", "1")
     folder = submission.package("p").folder / "launch"

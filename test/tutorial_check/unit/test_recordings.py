@@ -1,4 +1,4 @@
-"""Recordings become JSON and come back equal."""
+"""Recordings survive the conversion to JSON and back."""
 
 import importlib
 import json
@@ -28,8 +28,8 @@ st.register_type_strategy(float, st.floats(allow_nan=False))
 @settings(max_examples=20, deadline=None, suppress_health_check=list(HealthCheck))
 @given(data=st.data())
 def test_a_recording_comes_back_from_json(kind, data):
-    one = data.draw(st.from_type(kind))
-    assert from_json(kind, json.loads(json.dumps(as_json(one)))) == one
+    recording = data.draw(st.from_type(kind))
+    assert from_json(kind, json.loads(json.dumps(as_json(recording)))) == recording
 
 
 @pytest.mark.parametrize("text", ["[]", "{}", '{"drives": true, "x": 1}', "null"])

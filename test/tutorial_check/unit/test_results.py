@@ -1,4 +1,4 @@
-"""Diagnoses are functions of facts, taken in order."""
+"""Diagnoses are functions of facts; the first that applies counts."""
 
 from tutorial_check import Note, Wrong, first_of
 

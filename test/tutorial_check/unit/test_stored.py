@@ -1,4 +1,4 @@
-"""Every row of the exercises, judged from the recordings that are stored beside the rows."""
+"""Every row of the exercises, judged from its stored recordings."""
 
 import stored
 from test_mistakes import test_a_mistake_is_found  # noqa: F401

@@ -1,4 +1,4 @@
-"""When a submission of checks looks again, and where it can start nothing."""
+"""When a submission records again, what it reads, and where it cannot start programs."""
 
 import itertools
 import os
@@ -46,7 +46,7 @@ class Drive:
 
 
 def drive(workspace) -> Drive:
-    """Recorded by nobody."""
+    """A recorder that is never called."""
 
 
 def test_a_recording_that_cannot_be_read_again_is_refused_before_it_is_made(order):

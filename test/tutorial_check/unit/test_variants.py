@@ -1,4 +1,4 @@
-"""Variants: what a file may say, what a seed draws, and the words of a task."""
+"""Variants: what a file may contain, what a seed draws, and the words of a task."""
 
 import dataclasses
 import tempfile
@@ -61,7 +61,7 @@ def test_what_a_seed_draws_does_not_change_with_python_or_machine():
 
 
 def test_whose_variant_it_is(tmp_path):
-    """A file of the student's own, then what the seed draws, then the file for all, then none."""
+    """The student's own file, else what the seed draws, else the file for all, else none."""
     for_all = tmp_path / "all.yaml"
     for_all.write_text("rate: 5")
     tasks = tmp_path / "tasks"
@@ -106,7 +106,7 @@ def test_words_name_the_values_of_a_task_in_hints_alone():
 
 
 def test_a_factor_below_0_is_seen_above_0_and_named_as_it_is():
-    """The checks send the other sign, and so see the factor above 0; words have it as it is."""
+    """The checks send the opposite sign, and so see a positive factor; words have the real one."""
     task = JoystickTask({"axis_linear": 3, "scale_linear": -0.5})
     assert task.factors == {0: 0.5}
     assert task.answers.rules[1] == "-0.5 * axes[3]"

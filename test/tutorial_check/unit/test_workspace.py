@@ -51,7 +51,7 @@ def test_a_package_is_found_at_any_depth(tmp_path, place):
     package(tmp_path / "ws" / place)
     (tmp_path / "ws" / ".git").mkdir()
     found = packages_below(copied(tmp_path / "ws", tmp_path))
-    assert [each.name for each in found] == ["joy2twist"]
+    assert [package.name for package in found] == ["joy2twist"]
 
 
 def test_of_several_workspaces_the_one_with_the_package_is_named(tmp_path):
@@ -79,7 +79,7 @@ def test_a_dangling_link_to_catkins_toplevel_file_is_left_to_catkin_make(tmp_pat
 @claim("The suite's own solutions are refused")
 @pytest.mark.parametrize("given", ["suite", "suite/joy2twist", "ws"])
 def test_the_suites_own_solutions_are_refused(tmp_path, given):
-    """Linked into a workspace as well, as those are that the suite builds for itself."""
+    """Also when linked into a workspace, as in those that the suite builds for itself."""
     package(tmp_path / "suite/joy2twist")
     package(tmp_path / "ws/src/mine")
     (tmp_path / "ws/src/joy2twist").symlink_to(tmp_path / "suite/joy2twist")
@@ -118,15 +118,16 @@ def test_a_zip_with_a_path_outside_is_refused(tmp_path, name):
 
 
 def test_a_zip_with_backslashes_in_its_paths_is_unpacked(tmp_path):
-    """As an older PowerShell makes it."""
+    """An older PowerShell makes such files."""
     files = {"ws\\src\\joy2twist\\package.xml": XML.format("a"), "ws\\src\\joy2twist\\bag\\": ""}
     unpack(zipped(tmp_path / "a.zip", files), tmp_path / "out")
-    assert [each.inside for each in packages_below(tmp_path / "out/ws/src")] == ["joy2twist"]
+    packages = packages_below(tmp_path / "out/ws/src")
+    assert [package.inside for package in packages] == ["joy2twist"]
     assert (tmp_path / "out/ws/src/joy2twist/bag").is_dir()
 
 
 def test_rights_survive_a_zip_and_those_of_more_than_its_owner_no_copy(tmp_path):
-    """A setuid program of root's would be one after the copy, too."""
+    """Otherwise a copy of root's setuid program would be setuid, too."""
     rights = {"run.py": 0o755, "forgotten.py": 0o644}
     infos = {zipfile.ZipInfo(f"src/{name}"): "x" for name in rights}
     for info, mode in zip(infos, rights.values()):
@@ -145,7 +146,7 @@ BOB = ("bob/src/joy2twist/package.xml", "bob/src/joy2twist/scripts/joy2twist.py"
 
 
 def make(folder, *entries):
-    """Make files, of which "a -> b" is a link and "a |" a pipe."""
+    """Make files; "a -> b" is a link and "a |" a pipe."""
     for entry in entries:
         name, _, target = entry.partition(" -> ")
         path = folder / name.rstrip("| ")
@@ -160,7 +161,7 @@ def make(folder, *entries):
     "A link out of what others handed in is not followed; one's own is, also into the home folder"
 )
 @pytest.mark.parametrize(("entries", "of_others", "own"), [
-    ([f"{J}/link -> ../../src"], [PACKAGE], [PACKAGE]),  # to above, to itself
+    ([f"{J}/link -> ../../src"], [PACKAGE], [PACKAGE]),  # to a parent folder
     ([f"{J}/link -> link"], [PACKAGE], [PACKAGE]),
     ([f"{J}/in -> ../../src/{PACKAGE}"], ["joy2twist/in", PACKAGE], ["joy2twist/in", PACKAGE]),
     ([f"{J}/out -> {{}}/ada_too/secret"], [PACKAGE], ["joy2twist/out", PACKAGE]),
@@ -170,7 +171,7 @@ def make(folder, *entries):
     ([f"{J}/pipe |"], [PACKAGE], [PACKAGE]),
 ])  # fmt: skip
 def test_which_links_are_followed(tmp_path, entries, of_others, own):
-    """Those that lead out of what was handed in: only for a workspace of one's own."""
+    """Links that lead outside are followed only in one's own workspace."""
     make(tmp_path, f"{J}/package.xml", *BOB, *entries)
     layout, inside = hand_in(tmp_path / "ada", tmp_path / "scratch")
     for only, expected in ((inside, of_others), (None, own)):
@@ -206,7 +207,7 @@ def test_a_workspace_that_is_too_large_is_one_line(tmp_path, monkeypatch):
 
 @pytest.mark.parametrize("text", ["=/", "/a", ".bag/", "\n"])
 def test_a_launch_file_or_cmakelists_of_any_text_is_read_at_once(tmp_path, text):
-    """In time linear in its length; quadratic time would be minutes."""
+    """In linear time; quadratic time would take minutes."""
     (tmp_path / "a.launch").write_text(text * 99_999)
     began_s = time.process_time()
     assert handed_in.named_outside(tmp_path) == []

@@ -1,4 +1,4 @@
-"""doctor.py as a user runs it: where all is well, and where one thing after the other is not."""
+"""doctor.py as a user runs it: first all is well, then one fault after another is added."""
 
 import rospy
 from geometry_msgs.msg import TransformStamped, Twist
@@ -18,7 +18,7 @@ NOBODYS = "192.0.2.7"  # an address for documentation (RFC 5737)
 
 class FindingsTest(RosTest):
     def doctor(self, **environment):
-        """Return (exit code, the lines but the last) of a run that exits in time."""
+        """Return (exit code, all lines except the last) of a run that exits in time."""
         watch = Stopwatch()
         with Program(node_path("tutorial_tools", "doctor.py"), **environment) as program:
             code, output = program.wait(), program.output
@@ -28,10 +28,10 @@ class FindingsTest(RosTest):
         return code, lines
 
     def wrong(self, *words, **environment):
-        """Check that a line that is wrong has these words, for each; return all such lines."""
+        """Check that each of these words is in a line that is wrong; return those lines."""
         code, lines = self.doctor(**environment)
         lines = [line for line in lines if line.startswith("wrong")]
-        missing = [each for each in words if not any(each in line for line in lines)]
+        missing = [word for word in words if not any(word in line for line in lines)]
         self.assertEqual((code, missing), (1, []), lines)
         return lines
 

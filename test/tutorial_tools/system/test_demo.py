@@ -1,4 +1,4 @@
-"""./tutorial demo as a user calls it: what it prints, its exit code, what it leaves behind."""
+"""./tutorial demo as a user calls it: its output, its exit code and what it leaves behind."""
 
 import re
 
@@ -17,12 +17,12 @@ LINE = re.compile(
     re.MULTILINE,
 )
 FASTEST_M_PER_S = 0.7  # a TurtleBot 2
-# For what is not about the page or the view: the demonstration works less.
+# For tests that need neither page nor view: the demonstration does less.
 BARE = ("rviz:=false", "cockpit:=false")
 
 
 def check_demo(program, seconds):
-    """The demonstration ran for a time: its line, its counts, its exit code."""
+    """Check the line, counts and exit code of a demonstration of this length."""
     lost = lost_s()
     assert program.wait(seconds + DEADLINE_S) == 0, program.output
     fewest = 40 * (seconds + lost - lost_s())
@@ -41,7 +41,7 @@ def test_demo_says_so_when_the_robot_stands(call, tmp_path):
     assert call("run", "rosbag", "filter", str(BAG), str(still), "not any(m.axes)")[0] == 0
     code, output = call("demo", "--for", "2", *BARE, f"bag:={still}", DISPLAY="")
     assert code == 1 and "driven 0.00 m" in output
-    assert "RViz is left out" not in output  # by the user's own wish
+    assert "RViz is left out" not in output  # the user asked for no RViz
 
 
 @claim("Ctrl-C ends it and leaves nothing")
@@ -90,10 +90,10 @@ def test_demo_drives_beside_a_dead_node_and_counts_no_messages_of_others(
     with Program(tutorial, "run", "roscore", "-p", master_uri.rsplit(":", 1)[1]) as roscore:
         wait_for(lambda: "process[rosout-1]: started" in roscore.output, "roscore")
         asked = call("run", "rosparam", "get", "/rosout_disable_topics_generation")
-        assert asked == (0, "false\n")  # else rospy asks for it with every line
+        assert asked == (0, "false\n")  # otherwise rospy asks for it with each line
         with Program(tutorial, "run", "rosrun", "fake_turtlebot_sim", "fake_turtlebot.py"):
             nodes = lambda: call("run", "rosnode", "list")[1]  # noqa: E731
-            wait_for(lambda: "/fake_turtlebot\n" in nodes(), "robot, which is killed then")
+            wait_for(lambda: "/fake_turtlebot\n" in nodes(), "robot, to be killed next")
         with Program(tutorial, "demo", "--for", "6", *BARE) as demo:
             wait_for(lambda: "first /odom" in demo.output or demo.ended, "robot")
             with Program(tutorial, "run", *publish) as other:

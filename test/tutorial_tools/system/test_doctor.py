@@ -1,4 +1,4 @@
-"""The doctor beside real nodes that no joystick drives, and whose master is restarted."""
+"""The doctor beside real nodes without a joystick, whose master is restarted."""
 
 import contextlib
 
@@ -15,14 +15,14 @@ ROBOT = ("/fake_turtlebot", "/robot_state_publisher")  # in Python, and in C++
 
 @pytest.fixture
 def start():
-    """A function that starts a program, which ends with the test."""
+    """start(command ...): start a program that ends with the test."""
     with contextlib.ExitStack() as stack:
         yield lambda *command: stack.enter_context(Program(*command))
 
 
 @pytest.fixture
 def roscore(start, master_uri):
-    """A function that starts a master, and returns it when it answers."""
+    """roscore(): start a master; return it when it answers."""
 
     def run():
         program = start("roscore", "-p", master_uri.rsplit(":", 1)[1])
@@ -53,7 +53,7 @@ def test_a_string_for_velocities_and_nodes_of_a_master_that_was_restarted(
     (line,) = doctor(start)
     assert "/cmd_vel: std_msgs/String comes from /rostopic_" in line
     assert "geometry_msgs/Twist is wanted by /fake_turtlebot" in line
-    assert "Inbound TCP/IP connection failed" not in sender.output  # by a question of the doctor's
+    assert "Inbound TCP/IP connection failed" not in sender.output  # from a request of the doctor
     core.kill()
     wait_for(lambda: not known_nodes(master_uri), "end of the master")
     assert "of a master that has exited" in "".join(doctor(start))

@@ -1,4 +1,4 @@
-"""./tutorial setup where nothing is installed yet, or something cannot be."""
+"""./tutorial setup on a bare system, and where something cannot be installed."""
 
 import re
 import shutil
@@ -11,13 +11,13 @@ from tutorial_testing.waiting import wait_for
 from tutorial_tools.errors import SetUpError
 from tutorial_tools.io.command import build
 
-# A system on which nothing is installed yet. LACKING: what its archive has not; SLOW: download or
-# install, which then lasts until the file `go_on` is there; BROKEN: no network, nor lists of apt's.
+# A system on which nothing is installed yet. LACKING: what its archive lacks; SLOW: download or
+# install, which then lasts until the file `go_on` exists; BROKEN: no network and no lists of apt.
 FAKES = {
     "dpkg-query": "touch installed; sed 's/^/installed /' installed",
     "apt-cache": r"printf '%s:\n  Candidate: 1\n' ${@:2}",
     "apt-get": """
-        trap 'exit 130' INT  # without it bash goes on if a sleep ends just then
+        trap 'exit 130' INT  # without it bash continues if a sleep ends just then
         echo "$*" >>calls
         last() {
             [ "$SLOW" = "$1" ] || return 0
@@ -39,7 +39,7 @@ FAKES = {
             printf '%s\\n' "$@" >>installed
             ;;
         esac""",
-    "id": "echo 1000",  # not root, so by sudo, which closes all file descriptors above 2
+    "id": "echo 1000",  # not root, so sudo is used, which closes all file descriptors above 2
     "sudo": """
         for number in {3..99}; do eval "exec $number>&-"; done
         exec "$@" """,
@@ -48,7 +48,7 @@ FAKES = {
 
 @pytest.fixture
 def bare_system(tmp_path, monkeypatch, own_workspace):
-    """A folder for FAKES and their files; programs that start see them instead of Debian's."""
+    """A folder with FAKES and their files, which replace Debian's programs on PATH."""
     for name, script in FAKES.items():
         (tmp_path / name).write_text(f"#!/bin/bash\ncd '{tmp_path}'\n{script}\n")
         (tmp_path / name).chmod(0o755)
@@ -65,7 +65,7 @@ def test_what_the_archive_lacks_is_reported_once_and_done_without(call, bare_sys
     line = r"^tutorial: done without, as the archive of .* lacks it: rviz graphviz$"
     assert (code, len(re.findall(line, first, re.MULTILINE))) == (0, 1), first
     assert call("run", "true", LACKING="rviz graphviz") == (0, "")
-    assert call("setup", "system")[0] == 0  # looks again
+    assert call("setup", "system")[0] == 0  # checks again
     assert {"rviz", "graphviz"} <= set((bare_system / "installed").read_text().split())
 
 
@@ -168,7 +168,7 @@ def test_without_pypi_only_replay_bag_is_missing(call, bare_system):
         "PIP_CONFIG_FILE": "/dev/null", "PIP_EXTRA_INDEX_URL": "", "PIP_FIND_LINKS": "",
     }  # fmt: skip
     code, first = call("run", "echo", "went on", **offline)
-    assert code == 0 and "ERROR" not in first  # Only pip's log has its errors.
+    assert code == 0 and "ERROR" not in first  # pip's errors are only in its log
     assert "not installed from PyPI: rosbags vermin" in first.replace("\n", " ")
     assert first.endswith("tutorial: everything except replay_bag works without it\nwent on\n")
     assert call("run", "echo", "went on", **offline) == (0, "went on\n")

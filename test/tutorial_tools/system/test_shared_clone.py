@@ -1,4 +1,4 @@
-"""A clone that its users may not write, as a teacher's in /opt: it builds, drives and checks."""
+"""A clone that its users cannot write, such as a teacher's in /opt: it builds, drives, checks."""
 
 import os
 import re
@@ -12,8 +12,8 @@ from tutorial_testing.claims import claim
 from tutorial_testing.processes import MARK, Program
 
 USER = 54321  # an unused id
-LONGEST_S = 600.0  # two builds, and what is checked
-# In a user's environment, but for what a Program is known by. ./tutorial builds before it drives.
+LONGEST_S = 600.0  # two builds and the check
+# A user's environment, plus what identifies a Program. ./tutorial builds before it drives.
 AS_USER = (
     f'exec env -i {MARK}="${MARK}" ROS_MASTER_URI="$ROS_MASTER_URI" HOME="$1" PATH=/usr/bin:/bin'
     f' setpriv --reuid={USER} --regid={USER} --clear-groups bash -exc "$0" "$2"'

@@ -1,4 +1,4 @@
-"""./tutorial as a user calls it: what it prints, its exit code, what it leaves behind."""
+"""./tutorial as a user calls it: its output, its exit code and what it leaves behind."""
 
 import re
 import socket
@@ -50,9 +50,9 @@ def test_a_shell_sees_the_workspace_and_touches_no_file(tutorial, suite_workspac
     shell = subprocess.run(
         [tutorial, "shell"],
         input="pwd; alias mine; roscd joy2twist/launch; pwd; echo $CMAKE_POLICY_VERSION_MINIMUM\n"
-        # As Tab does after: rosrun joy2twist joy2
+        # as Tab does after: rosrun joy2twist joy2
         "COMP_WORDS=(rosrun joy2twist joy2) COMP_CWORD=2; _roscomplete_exe; echo ${COMPREPLY[0]}\n"
-        "wget http://127.0.0.1:9/talker.py 2>&1 | tail -n 1\n"  # installed or not
+        "wget http://127.0.0.1:9/talker.py 2>&1 | tail -n 1\n"  # whether wget is installed or not
         "exit 3\n",
         env={"HOME": str(home), "PATH": "/usr/bin:/bin", "TUTORIAL_WORKSPACE": suite_workspace},
         cwd=tmp_path, capture_output=True, text=True, check=False, timeout=LONGEST_S,

@@ -1,4 +1,4 @@
-"""The packages in a workspace of the user's own: built, tested from it, and installed."""
+"""The packages in the user's own workspace: built and installed."""
 
 import os
 import subprocess
@@ -26,7 +26,7 @@ def shell(script, **environment):
 @claim("The suite works in a catkin workspace of one's own, and installed without its sources")
 @pytest.mark.night  # it builds all packages
 def test_the_installed_suite_is_whole_and_drives_without_its_sources(clone, tmp_path, master_uri):
-    """Built in a catkin workspace that has a link to the clone in its src folder."""
+    """It is built in a catkin workspace whose src folder has a link to the clone."""
     noetic, suite = Path("/opt/ros/noetic/setup.bash"), tmp_path / "src/ros1_tutorial"
     suite.parent.mkdir()
     suite.symlink_to(clone)

@@ -1,4 +1,4 @@
-"""A student's workspace that was built over a ROS in /opt/ros, without this suite."""
+"""A student's workspace built over a ROS in /opt/ros, without this suite."""
 
 import os
 import subprocess
@@ -10,13 +10,13 @@ from tutorial_tools.io.command import build
 from tutorial_tools.io.command.environment import environment_of
 
 NOETIC = "/opt/ros/noetic"
-# As catkin's: --extend adds a workspace to those that are sourced already.
+# Like catkin's: --extend adds a workspace to those already sourced.
 SETUP = '[ "$1" = --extend ] || CHAIN=\nexport CHAIN="{name} $CHAIN"\n'
 
 
 @pytest.fixture
 def student(tmp_path, monkeypatch):
-    """student(below): a workspace that was built over these folders; beside it the suite's."""
+    """student(below): the suite's workspace, and one that was built over these folders."""
     monkeypatch.setattr(build, "PREFIX", NOETIC)
     monkeypatch.setattr(build, "hidden_stand_ins", lambda *_: [])
     for name in ("suite", "suite/lower", "mine"):

@@ -1,8 +1,8 @@
-"""Which lines of a build say what is wrong."""
+"""The lines of a build that say what is wrong."""
 
 from tutorial_tools.command.build_errors import first_errors
 
-# As Debian's programs print it.
+# as Debian's programs print it
 CMAKE = """\
 -- nosetests not found, Python tests can not be run (try installing package 'python3-nose')
 -- Could not find the required component 'nowhere'. The following CMake error indicates that you

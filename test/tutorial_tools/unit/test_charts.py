@@ -1,4 +1,4 @@
-"""The library of the page's charts where the archive has no package of it."""
+"""The library for the page's charts, where the archive has no package of it."""
 
 import hashlib
 import io
@@ -18,7 +18,7 @@ pytestmark = claim(
 
 @pytest.fixture
 def registry(tmp_path, monkeypatch):
-    """The registry's file, on a system without Debian's package."""
+    """The registry's file; Debian's package is not installed."""
     file = tmp_path / "dygraphs.tgz"
     with tarfile.open(file, "w:gz") as archive:
         for name in (*charts.FILES, "other.js"):

@@ -1,4 +1,4 @@
-"""The words of ./tutorial: what they set up and start, their mistakes, completion, the build."""
+"""The words of ./tutorial: what each sets up and starts; mistakes, completion, the build."""
 
 import os
 import subprocess
@@ -60,7 +60,7 @@ def test_a_students_workspace_is_absolute_and_built_last(tmp_path, monkeypatch):
     assert made["student"] == [f"{tmp_path}/ws"]
     assert made["builds"][-1] == f"student={tmp_path}/ws"
     assert made["command"] == ["env", "--in", "x"]
-    monkeypatch.setenv("TUTORIAL_IN", "/mine")  # set in the calling shell
+    monkeypatch.setenv("TUTORIAL_IN", "/mine")  # set by the calling shell
     assert plan("doctor", [])["student"] == ["/mine"]
 
 
@@ -96,7 +96,7 @@ def test_the_list_of_words_names_courses(capsys):
 @pytest.mark.parametrize(("typed", "found"), [
     (["te"], ["test"]),
     (["test", "joy"], ["joy2twist"]),
-    (["test", "unit", ""], []),  # bash's own: files
+    (["test", "unit", ""], []),  # bash completes files
     (["demo", "--"], ["--help", "--for"]),
 ])  # fmt: skip
 def test_completion_of_words_kinds_and_options(typed, found):
@@ -138,7 +138,7 @@ def test_all_is_built_again_when_a_real_package_came_and_not_after_a_test(tmp_pa
         (tmp_path / name).touch()
         stamps.append(build.stamp())
     assert build.real_packages() == ["joy", "rqt_bag"]
-    (tmp_path / MODEL / "scripts/rqt_gui").write_text("changed")  # the made packages have copies
+    (tmp_path / MODEL / "scripts/rqt_gui").write_text("changed")  # generated packages have copies
     assert len({*stamps, build.stamp()}) == 5
 
 

@@ -1,4 +1,4 @@
-"""Graphs of nodes, each with what the doctor says of it; no line contradicts another one."""
+"""Graphs of nodes, each with the doctor's lines about it; none contradicts another."""
 
 import re
 from collections import defaultdict
@@ -26,11 +26,10 @@ TYPES = {
 
 
 def graph(text, cut=(), **changes):
-    """Facts of a graph: "/a > /topic Type, /b < /topic Type"; all ends of a type are connected.
-
-    cut: "/sender /topic /receiver" of those that are not.
+    """Return Facts of a graph: "/a > /topic Type, /b < /topic Type". Ends of a type are connected,
+    except for those in cut: "/sender /topic /receiver".
     """
-    ends = {True: defaultdict(dict), False: defaultdict(dict)}  # inwards: node: topic: type
+    ends = {True: defaultdict(dict), False: defaultdict(dict)}  # {inwards: {node: {topic: type}}}
     topics = {True: defaultdict(list), False: defaultdict(list)}
     for node, way, topic, kind in (end.split() for end in text.split(", ") if end):
         ends[way == "<"][node][topic] = TYPES[kind]
@@ -46,7 +45,7 @@ def graph(text, cut=(), **changes):
         here = ("http://localhost:1234/", "localhost", Answer.WELL, True)
         nodes[node] = Node(*here, links, ends[False][node], ends[True][node])
     facts = Facts(nodes=nodes, publishers=topics[False], subscribers=topics[True])
-    # As the master: the type of the topic's last sender.
+    # Like the master: the type of the topic's last sender.
     types = [(t, kind) for way in (True, False) for own in ends[way].values()
              for t, kind in own.items()]  # fmt: skip
     return replace(facts, types=dict(types), **changes)
@@ -69,8 +68,8 @@ RVIZ = "/rviz_1 < /map Scan, /rviz_1 > /initialpose Point, /rviz_1 < /scan2 Scan
 OLD = {("/num", "/talker"): ("aaaaaaaabbbb", "ccccccccdddd")}
 SAME = {("/num", "/talker"): ("aaaaaaaabbbb", "aaaaaaaabbbb")}
 NUMBERS = ("/talker > /num Num, /listener < /num Num", ("/talker /num /listener",))
-WELL = "-"  # no line that is wrong or unknown
-ROWS = [  # name, facts, the lines that are wrong or unknown, in parts
+WELL = "-"  # no line is wrong or unknown
+ROWS = [  # name, facts, parts of the lines that are wrong or unknown
     ("nothing", graph(""), "wrong ... no node runs at this master: roslaunch joy2twist"),
     ("RViz alone", graph(f"{RVIZ}, /rosout < /rosout Log"),
      "wrong ... no node runs at this master but /rosout, /rviz_1: roslaunch ||unknown  joystick"),
@@ -152,7 +151,7 @@ def test_a_graph_has_its_sentence_and_no_other(facts, words):
     findings = judge(facts)
     lines = [f.line() for f in findings if f.level != "ok"]
     if facts.master is Answer.WELL and not facts.nodes:
-        lines = [line for line in lines if "joystick  " not in line]  # there is none, either
+        lines = [line for line in lines if "joystick  " not in line]  # there is no joystick either
     expected = [] if words == WELL else words.split("||")
     assert len(lines) == len(expected), lines
     assert all(map(has, lines, expected)), lines
@@ -161,7 +160,7 @@ def test_a_graph_has_its_sentence_and_no_other(facts, words):
 
 
 def contradict(well, every):
-    """Check that no topic that lacks something is on a way that is well, and no node twice."""
+    """Check that no topic that lacks something is part of a good path, and no line comes twice."""
     lacks = {
         t for seen in every for t in re.findall(r"nobody (?:sends|listens to) (/\S+?)[ ,]", seen)
     }

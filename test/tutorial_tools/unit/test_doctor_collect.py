@@ -1,4 +1,4 @@
-"""What the doctor reads from bytes and answers; no ROS runs here."""
+"""What the doctor reads from bytes and answers, without a running ROS."""
 
 import os
 
@@ -25,7 +25,7 @@ def wire(message):
 
 
 def stamped(late_s):
-    """A message as it arrives, its stamp so many seconds before."""
+    """Return a message as it arrives, with a stamp this many seconds old."""
     joints = JointState(name=["wheel"])
     nanoseconds = round((ARRIVED_S - late_s) * 1e9)
     joints.header.stamp.secs, joints.header.stamp.nsecs = divmod(nanoseconds, 10**9)
@@ -37,20 +37,20 @@ def test_the_fastest_message_shows_the_offset_of_a_clock():
     seconds, topic = offset("/joint_states", [stamped(late) for late in (0.3, 0.01, 0.2)])
     assert (seconds, topic) == (pytest.approx(-0.01, abs=1e-6), "/joint_states")
     assert offset("/a", [(ARRIVED_S, b"short")]) is None
-    near, old = Offset(-0.01, "/odom"), Offset(-1e8, "/joy")  # the latter of a recording
+    near, old = Offset(-0.01, "/odom"), Offset(-1e8, "/joy")  # the latter from a recording
     assert nearest([old, None, near]) == near
 
 
 def test_a_fifo_is_not_opened_in_vain(tmp_path, monkeypatch):
     fifo = tmp_path / "js1"
-    os.mkfifo(fifo)  # which keeps its reader
+    os.mkfifo(fifo)  # opening it would block
     monkeypatch.setattr(os, "open", lambda *_: pytest.fail("it was opened"))
     assert collect.joystick(str(fifo)) == Joystick(str(fifo))
 
 
 def test_what_is_malformed_is_left_out(monkeypatch):
     assert statuses([wire(DiagnosticArray()), (ARRIVED_S, b"nonsense")]) == []
-    monkeypatch.setattr(collect, "parameter", lambda *_: [7])  # of a mux of another kind
+    monkeypatch.setattr(collect, "parameter", lambda *_: [7])  # a mux of another kind
     assert collect.mux("", "/mux", [(ARRIVED_S, b"\x09")]) == Mux(None, [])
 
 
@@ -63,9 +63,9 @@ def test_a_malformed_uri_of_a_master(monkeypatch, uri):
 def test_of_each_frame_the_fastest_message_counts():
     sent = []
     for child, stamp_s in (("/base", -3), ("/base", -1), ("wheel", -7)):
-        one = TransformStamped(child_frame_id=child)
-        one.header.frame_id, one.header.stamp.secs = "odom", int(ARRIVED_S) + stamp_s
-        sent.append(wire(TFMessage([one])))
+        link = TransformStamped(child_frame_id=child)
+        link.header.frame_id, link.header.stamp.secs = "odom", int(ARRIVED_S) + stamp_s
+        sent.append(wire(TFMessage([link])))
     sent.append((ARRIVED_S, b"nonsense"))
     base, wheel = ("/n", "odom", "base"), ("/n", "odom", "wheel")
     moving = transforms_in({("/n", "/tf"): sent, ("/n", "/odom"): sent})
@@ -77,7 +77,7 @@ SUITE = REPOSITORY
 
 
 def package(folder, launch=""):
-    """Make a package with a launch file as rbx1_bringup has it."""
+    """Make a package with a launch file, like rbx1_bringup."""
     (folder / "launch").mkdir(parents=True)
     (folder / "package.xml").write_text("<package><name>any</name></package>")
     (folder / "launch" / "fake_turtlebot.launch").write_text(f"<launch>{launch}</launch>")

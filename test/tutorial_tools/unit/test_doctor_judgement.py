@@ -1,4 +1,4 @@
-"""Each finding of the doctor, from facts made up for it."""
+"""Each finding of the doctor, from invented facts."""
 
 import errno
 import re
@@ -70,8 +70,8 @@ def says(text):
 
 
 def frames(*sent, **changes):
-    """Transforms, each as "NODE PARENT CHILD [LATE_S]"."""
-    parts = [one.split() for one in sent]
+    """Return Facts with transforms, each given as "NODE PARENT CHILD [LATE_S]"."""
+    parts = [text.split() for text in sent]
     transforms = [Transform(*part[:3], *map(float, part[3:])) for part in parts]
     return well(transforms=transforms, **changes)
 
@@ -81,7 +81,7 @@ def lines(facts, level):
 
 
 def unreached(name, own=(), variable="", called_back=None, **changes):
-    """An own name under which the master does not reach this machine."""
+    """Return Facts with an own name under which the master does not reach this machine."""
     own = {"own_name": name, "own_addresses": list(own), "own_variable": variable}
     return well(called_back=called_back, **own, **changes)
 
@@ -96,7 +96,7 @@ JOY_OF_CLASS = {**CLASS, "/robot_2/joy": JOY}
 LISTENING = {"/joy": ["/joy2twist"]}
 SAFETY_TOO = {**WELL.types, SAFETY: TWIST}
 # fmt: off
-WRONG = {  # words of the one line that is wrong, in their order: facts
+WRONG = {  # words of the only wrong line, in order: facts
     "master ... ROS_MASTER_URI=http://robot:11311 ... http://HOST:PORT ... export":
         Facts(**{**vars(WELL), "master": Answer.MALFORMED, "called_back": None}),
     'looked up ... "robot" ... /etc/hosts': well(master=Answer.UNKNOWN_NAME, called_back=None),
@@ -146,7 +146,7 @@ WRONG = {  # words of the one line that is wrong, in their order: facts
 # fmt: on
 BRIDGE = [(False, "the side of ROS 2 is missing"), (False, "/scan: a/msg/B: not carried")]
 LONELY = unreached("1.2.3.4", ["1.2.3.4"], "ROS_IP", own_is_here=False, way_out="")
-# Of robot_2 of the classroom, without a joystick.
+# robot_2 of the classroom, without a joystick
 OF_TWO = replace(
     CLASSROOM,
     subscribers={**CLASSROOM.subscribers, "/robot_2/joy": ["/robot_2/joy2twist"]},
@@ -154,7 +154,7 @@ OF_TWO = replace(
     types=JOY_OF_CLASS,
     states={"/robot_2/joy2twist": (False, "waiting for the joystick")},
 )
-LINES = [  # facts, level, words of one line among others of this level
+LINES = [  # facts, level, words of a line of this level
     (well(publishers=JOY_OF_TWO, nodes=DEAD_BAG), "ok", "/joy_node -> /joy -> /joy2twist ->"),
     (well(clocks={"robot": None}), "unknown", "robot sends no stamped message: compare: date"),
     (mux(None), "unknown", "rostopic echo /cmd_vel_mux/active"),

@@ -1,4 +1,4 @@
-"""The doctor's row on a real Kobuki."""
+"""The doctor's row about a real Kobuki."""
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
@@ -27,8 +27,8 @@ USUAL = "/dev/kobuki"
 
 
 def rows(*samples):
-    found = judge(Facts(kobukis=list(samples)))
-    return [(one.level, one.seen, one.todo) for one in found if one.about == "Kobuki"]
+    findings = judge(Facts(kobukis=list(samples)))
+    return [(line.level, line.seen, line.todo) for line in findings if line.about == "Kobuki"]
 
 
 def test_without_a_port_there_is_no_row():

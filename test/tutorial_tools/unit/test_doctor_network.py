@@ -1,4 +1,4 @@
-"""An answer comes in time, whatever the other end is. No ROS runs here."""
+"""An answer comes in time, whatever the other end is; no ROS runs here."""
 
 import contextlib
 import socket
@@ -22,14 +22,14 @@ def hurry(monkeypatch):
 
 @pytest.fixture
 def server():
-    """A function that serves what it is given to every caller; returns the URI."""
+    """server(answer): answer each caller with a function; return the URI."""
     with contextlib.ExitStack() as stack:
 
         def serve(answer):
             listener = stack.enter_context(socket.create_server(("127.0.0.1", 0)))
 
             def run():
-                with contextlib.suppress(OSError):  # a caller has hung up, or this is the end
+                with contextlib.suppress(OSError):  # a caller has hung up, or the test ends
                     while True:
                         answer(stack.enter_context(listener.accept()[0]))
 
@@ -40,7 +40,7 @@ def server():
 
 
 def dribble(connection):
-    """Send a little, again and again, as a camera on the web does."""
+    """Send a little again and again, like a web camera."""
     connection.sendall(b"HTTP/1.1 200 OK\r\nContent-Type: text/xml\r\n\r\n")
     while True:
         connection.sendall(b" ")

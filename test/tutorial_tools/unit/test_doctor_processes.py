@@ -1,4 +1,4 @@
-"""Which processes of this machine are nodes, and which of them a master does not know."""
+"""Which processes on this machine are nodes, and which of these a master does not know."""
 
 import os
 
@@ -10,7 +10,7 @@ from tutorial_tools.doctor.facts import Stray
 from tutorial_tools.ros.doctor import processes
 from tutorial_tools.ros.doctor.processes import Running
 
-NODES = {  # by port: the answers
+NODES = {  # {port: {method: answer}}
     5001: {"getPublications": [["/chatter", "std_msgs/String"]], "getName": "/talker",
            "getMasterUri": "http://localhost:11311/", "getPid": 71},
     5002: {"getPublications": [["/x", "a/B"], ["/rosout", "rosgraph_msgs/Log"]], "getPid": 72},
@@ -29,7 +29,7 @@ def ask(uri, method, *arguments):
 
 @pytest.fixture
 def proc(tmp_path, monkeypatch):
-    """A folder like /proc, and a function that puts a process into it."""
+    """proc(pid, ports, ...): add a process to a folder like /proc."""
     logs = tmp_path / "log"
     monkeypatch.setattr(processes, "PROC", tmp_path)
     monkeypatch.setattr(processes, "call", ask)
@@ -59,7 +59,7 @@ def test_nodes_are_found_by_the_log_of_rospy_or_by_roscpp_and_no_other_program_i
     proc(71, [5000, 5001], log="talker-1.log")
     proc(72, [5002], maps="/usr/lib/libroscpp.so.4", environ=f"A=b\0ROS_MASTER_URI={OTHER}\0")
     proc(73, [5003], log="master.log")
-    proc(74, [5001])  # neither a log nor roscpp: it is not asked
+    proc(74, [5001])  # neither a log nor roscpp, so it is not asked
     proc(75, [], log="roslaunch.log")
     assert processes.running() == [
         Running("http://127.0.0.1:5001/", "/talker", 71, f"{MASTER}/"),

@@ -1,4 +1,4 @@
-"""draw_graph.py: from what the master answers to the text that graphviz draws."""
+"""draw_graph.py: from the master's answers to the text for graphviz."""
 
 import re
 import shutil

@@ -1,4 +1,4 @@
-"""What was driven, in one line."""
+"""One line about a drive."""
 
 import math
 

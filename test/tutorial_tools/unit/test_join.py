@@ -1,4 +1,4 @@
-"""What join reports before it starts a launch."""
+"""What join refuses before it starts a launch."""
 
 import pytest
 
@@ -42,7 +42,7 @@ def answers(monkeypatch):
 @pytest.mark.parametrize(("given", "line"), [
     ((1, Answer.REFUSED), "has the teacher started"),
     ((1, Answer.WELL, False), "does not reach this machine at 10.0.0.2"),
-    *(((run_id,), "has a /run_id that is no name") for run_id in RUN_IDS),  # a folder for logs
+    *(((run_id,), "has a /run_id that is no name") for run_id in RUN_IDS),  # names a folder
 ])  # fmt: skip
 def test_a_master_that_is_refused(answers, given, line):
     answers(*given)

@@ -1,4 +1,4 @@
-"""Two ./tutorial at once: one builds, and the other one says that it waits."""
+"""Two ./tutorial at once: one builds, the other reports that it waits."""
 
 import fcntl
 import threading

@@ -1,6 +1,6 @@
-"""The list of packages for a ROS in /opt/ros: what Noetic's packages bring, and what is missing.
+"""The list of packages for a ROS in /opt/ros: what Noetic's packages install, and what is missing.
 
-Debian has the package.xml of most of Noetic's packages; the metapackages are those of REP 150.
+Most package.xml of Noetic are in Debian's packages; the metapackages are those of REP 150.
 """
 
 import re
@@ -29,17 +29,17 @@ SUITE = {
 }
 RUN = ("depend", "exec_depend", "run_depend", "build_export_depend", "buildtool_export_depend")
 BUILD = ("depend", "build_depend", "buildtool_depend")
-WITHOUT = {"rviz"}  # [opt-view]; the demo drives without
+WITHOUT = {"rviz"}  # [opt-view]; the demo works without it
 
 
 def needed_by(manifest, tags):
-    """Return the keys of a package.xml for Python 3."""
+    """Return the dependencies of a package.xml under Python 3."""
     parts = (part for part in ElementTree.parse(manifest).getroot() if part.tag in tags)
     return {part.text for part in parts if "== 2" not in part.get("condition", "")}
 
 
 def closure(names, manifests):
-    """Return all that these names bring. manifests: {name: path}."""
+    """Return all packages that these names install. manifests: {name: path}."""
     brought, left = set(), set(names)
     while left:
         name = left.pop()
@@ -53,7 +53,7 @@ def closure(names, manifests):
 
 @pytest.fixture
 def brought(monkeypatch):
-    """brought(section, ...): what [opt-...] brings on Noetic, as keys of package.xml."""
+    """brought(section, ...): what [opt-...] installs on Noetic, by the names in package.xml."""
     monkeypatch.setenv("TUTORIAL_ROS", "/opt/ros/noetic")
     monkeypatch.delenv("TUTORIAL_WITHOUT", raising=False)
     manifests = {path.parent.name: path for path in SHARE.glob("*/package.xml")}
@@ -91,7 +91,7 @@ def test_what_a_section_has_beside_ros_it_has_for_opt_too(brought, section, monk
 @claim("Where the archive ...", because="zstandard")
 @pytest.mark.parametrize(("minor", "has_it"), [(8, True), (10, True), (11, False)])
 def test_zstandard_comes_from_pypi_where_older_archives_lack_it(minor, has_it):
-    """Without it rosbags, and so replay_bag, is missing."""
+    """rosbags, and so replay_bag, needs it."""
     names = names_of((REPOSITORY / "test/requirements.txt").read_text(), minor)
     assert ("zstandard" in names) == has_it and names.count("rosbags") == 1
     lock = lock_of("python").read_text()

@@ -1,4 +1,4 @@
-"""rqt_bag of this suite: the picture of a joystick, and its line about a file that is no bag."""
+"""rqt_bag of this suite: its picture of a joystick, and its line about a file that is no bag."""
 
 from xml.etree import ElementTree
 

@@ -1,4 +1,4 @@
-"""Where the windows of rqt are on the cockpit's page."""
+"""The places of rqt's windows on the cockpit's page."""
 
 from tutorial_tools.rqt_windows import place
 
