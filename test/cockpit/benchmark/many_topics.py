@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Publishes on 2,000 topics: 1,000 messages a second on /fast, 10 MB each second on /big.
 
-Prints "ready", and then each second how many messages of /fast came in how long [s], since then.
+Prints "ready", then each second how many messages went to /fast in how long [s], in total.
 """
 
 import time

@@ -35,7 +35,7 @@ READ = {"stdout": subprocess.PIPE, "text": True}
 
 @contextmanager
 def cockpit():
-    """(port, tokens to look and to drive) of a cockpit with its page, a robot and joy2twist."""
+    """Yield (port, tokens to look and to drive) of a cockpit beside a robot and joy2twist."""
     with ExitStack() as stack:
         stack.enter_context(master())
         for command in (JOY2TWIST, FAKE_TURTLEBOT):
@@ -48,7 +48,7 @@ def cockpit():
 
 
 def test_the_driver_goes_on_beside_thirty_viewers_that_flood(figure):
-    """All that the schema allows, as fast as the server takes it."""
+    """They send all that the schema allows, as fast as the server accepts it."""
     with cockpit() as (port, (to_look, to_drive)):
         page, count = f"page:{port}:{to_drive}", FLOOD_S * INPUTS_PER_S
         alone_s = delays(page, INPUTS_PER_S, ALONE)
@@ -81,7 +81,7 @@ def test_the_driver_goes_on_beside_many_topics_whose_rates_are_right(figure):
         publisher.terminate()
         *_, (count, took_s) = [line.split() for line in publisher.stdout]
     wrong = abs(mean(shown) * float(took_s) / float(count) - 1)
-    # A busy machine adds what it adds without them.
+    # A busy machine adds as much as it does without the topics.
     most_s = max(MOST_FLOODED_S, 2 * alone_s[int(0.99 * len(alone_s))])
     check(figure, "a page with 2,000 topics, 10 MB and 1 kHz", beside_s, alone_s, most_s)
     figure("the rate of 1 kHz that it shows", f"{wrong:.2%} wrong", f"<= {MOST_WRONG:.0%}")
@@ -90,7 +90,7 @@ def test_the_driver_goes_on_beside_many_topics_whose_rates_are_right(figure):
 
 @pytest.mark.parametrize("what", PLOTS)
 def test_a_plot_leaves_the_browser_and_the_driver_their_time(figure, what):
-    """The driven robot is drawn, which asks for the most."""
+    """The driven robot is drawn, which costs the most."""
     if not shutil.which("chromium"):
         pytest.skip("no Chromium here: ./tutorial test browser installs it")
     from tutorial_testing.cockpit.chromium import Chromium  # noqa: PLC0415  needs what that installs
@@ -117,9 +117,9 @@ def tasks(browser):
 
 
 def check(figure, what, beside_s, alone_s, most_s):
-    """Take the delay beside something as a figure, and judge it."""
-    late_s, usual_s = (one[int(0.99 * len(one))] for one in (beside_s, alone_s))
-    found = f"{1e3 * late_s:.1f} ms ({1e3 * usual_s:.1f} ms without them)"
+    """Add the delay under a load to the figures, and check it."""
+    late_s, usual_s = (delays_s[int(0.99 * len(delays_s))] for delays_s in (beside_s, alone_s))
+    measured = f"{1e3 * late_s:.1f} ms ({1e3 * usual_s:.1f} ms without them)"
     demanded = f"<= {1e3 * most_s:.1f} ms"
-    figure(f"an input until /cmd_vel beside {what}, 99 of 100", found, demanded)
+    figure(f"an input until /cmd_vel beside {what}, 99 of 100", measured, demanded)
     assert late_s <= most_s

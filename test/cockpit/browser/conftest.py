@@ -1,4 +1,4 @@
-"""What the tests in browsers share: robots with a cockpit, browsers, the table of times."""
+"""What browser tests share: robots with a cockpit, browsers, the table of times."""
 
 import re
 import shutil
@@ -22,7 +22,7 @@ def pytest_addoption(parser):
 
 
 def pytest_terminal_summary(terminalreporter):
-    """Print how long the robot went on after the operator was lost: (way, time [s]) of tests."""
+    """Print how long the robot drove on after the operator was lost: (way, time [s]) of tests."""
     times = defaultdict(list)
     for report in terminalreporter.getreports("passed") + terminalreporter.getreports("failed"):
         for way, took_s in report.user_properties:
@@ -31,14 +31,14 @@ def pytest_terminal_summary(terminalreporter):
         terminalreporter.section("operator lost to wheels at rest")
         terminalreporter.line("| way | times | median [s] | worst [s] |")
         terminalreporter.line("|---|---|---|---|")
-    for way, found in times.items():
-        middle = median_high(found)
-        terminalreporter.line(f"| {way} | {len(found)} | {middle:.2f} | {max(found):.2f} |")
+    for way, took_s in times.items():
+        middle_s = median_high(took_s)
+        terminalreporter.line(f"| {way} | {len(took_s)} | {middle_s:.2f} | {max(took_s):.2f} |")
 
 
 @pytest.fixture(scope="session")
 def world():
-    """The simulated robot, joy2twist and a cockpit, for tests that leave them as they were."""
+    """The simulated robot, joy2twist and a cockpit, for tests that change none of them."""
     with World() as world:
         yield world
 
@@ -60,11 +60,11 @@ def firefox():
 @pytest.fixture
 def webkit(monkeypatch):
     program = shutil.which("WebKitWebDriver")
-    found = sorted(Path("/usr/lib").glob("*/webkit2gtk-4.*/MiniBrowser"))
-    if not program or not found:
+    browsers = sorted(Path("/usr/lib").glob("*/webkit2gtk-4.*/MiniBrowser"))
+    if not program or not browsers:
         pytest.skip("no WebKit here: apt install webkit2gtk-driver")
     options = Options()
-    options.binary_location = str(found[-1])
+    options.binary_location = str(browsers[-1])
     options.add_argument("--automation")
     with virtual_screen(1280, 800) as screen:
         monkeypatch.setenv("DISPLAY", screen)
@@ -80,13 +80,13 @@ def page(world, shared_browser):
     shared_browser.open(world.address)
     yield shared_browser
     errors = shared_browser.errors()
-    shared_browser.driver.get("about:blank")  # it drives no more
+    shared_browser.driver.get("about:blank")  # so that it stops driving
     assert errors == []
 
 
 @pytest.fixture
 def ros(world):
-    """Run a command of ROS beside the robot; returns what it prints."""
+    """A function that runs a command of ROS beside the robot, and returns its output."""
 
     def ask(*command):
         with world.run(*command) as program:

@@ -1,4 +1,4 @@
-"""The table of a class: all columns in sight, on paper too, and readable for all, by axe."""
+"""The table of a class: all columns in sight, also on paper, and accessible, as axe checks."""
 
 from pathlib import Path
 
@@ -16,7 +16,7 @@ pytestmark = claim(
 )
 WIDTH, HEIGHT = 1280, 800
 A4_LANDSCAPE_PX = 1047  # 277 mm between its margins, 96 px an inch
-TITLES = {name: one.title for name, one in read_course().exercises.items()}
+TITLES = {name: exercise.title for name, exercise in read_course().exercises.items()}
 SEEN = "angular.z = 0.98 * axes[0] in place of 1.00 * axes[0], and zero for what follows"
 ENDS = {
     OK: Result("C1", OK, "one"),
@@ -27,7 +27,7 @@ ENDS = {
 
 @pytest.fixture(scope="module")
 def address(tmp_path_factory):
-    """A class of 40, whose names and causes are long, as a file."""
+    """The URL of a class of 40 with long names and causes, in a file."""
     students = []
     for number in range(40):
         ends = [list(ENDS)[(number + at) % 3] for at in range(len(TITLES))]

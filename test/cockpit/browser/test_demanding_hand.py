@@ -1,4 +1,4 @@
-"""What a person meets who uses every tab: signs of what was done, all in sight, few bytes."""
+"""What a person who uses every tab sees: signs of what was done, all in sight, few bytes."""
 
 import pytest
 import rospkg
@@ -6,7 +6,7 @@ from selenium.webdriver.common.keys import Keys as Key
 
 from tutorial_testing.claims import claim
 from tutorial_testing.cockpit.hands import Keys
-from tutorial_testing.cockpit.world import World
+from tutorial_testing.cockpit.world import EarlyWorld, World
 from tutorial_testing.nodes import node_path
 from tutorial_testing.waiting import wait_for
 
@@ -38,7 +38,7 @@ def test_the_first_click_on_topics_shows_types_and_an_empty_search_says_so(world
     page.wait_for_text("#me", "page")
     page.tab("Topics")
     page.wait_for_text("#topics-rows", "geometry_msgs/Twist")
-    assert page.ask(f"{VISIBLE}.map((one) => one.textContent)")[:2] == ["Name", "Type"]
+    assert page.ask(f"{VISIBLE}.map((cell) => cell.textContent)")[:2] == ["Name", "Type"]
     assert page.ask("document.querySelector('#topics-rows td:nth-child(2)').offsetParent !== null")
     assert max(page.ask(LINES)) == 1, "a type has a line of its own where there is room"
     page.one("#topics-search").send_keys("nothing like it")
@@ -64,12 +64,8 @@ def test_a_phone_has_all_columns_of_topics_and_the_form_near(world, shared_brows
         wait_for(lambda: phone.all("[name='linear/x']"), "form")
         scroll = "document.querySelector('#topics-scroll')"
         assert phone.ask(f"{scroll}.scrollWidth <= {scroll}.clientWidth")
-        assert phone.ask(f"{VISIBLE}.map((one) => one.textContent)") == [
-            "Name",
-            "Type",
-            "Hz",
-            "bytes/s",
-        ]
+        columns = phone.ask(f"{VISIBLE}.map((cell) => cell.textContent)")
+        assert columns == ["Name", "Type", "Hz", "bytes/s"]
         top = "document.querySelector('#topics-form').getBoundingClientRect().top"
         assert phone.ask(top) < 1.25 * PHONE[1]
 
@@ -125,18 +121,11 @@ def test_a_recording_of_rosbag_is_answered_by_how_to_pause_it(world, page):
 
 
 def test_a_page_that_is_opened_before_the_master_comes_by_itself(shared_browser):
-    class Early(World):
-        def begin(self):
-            self.cockpit = self.run(node_path("cockpit", "cockpit.py"), "--port", str(self.port))
-            wait_for(lambda: "waiting for a ROS master" in self.cockpit.output, "its line")
-            shared_browser.driver.get(f"http://127.0.0.1:{self.port}/")
-            wait_for(lambda: "start roscore" in shared_browser.text("body"), "what to do")
-            super().begin()
+    def look(world):
+        shared_browser.driver.get(f"http://127.0.0.1:{world.port}/")
+        wait_for(lambda: "start roscore" in shared_browser.text("body"), "what to do")
 
-        def start_cockpit(self):
-            self.find_page()
-
-    with Early():
+    with EarlyWorld(look):
         wait_for(lambda: shared_browser.all("#me"), "page")
         shared_browser.wait_for_text("#me", "page")
 
@@ -151,7 +140,7 @@ def test_a_tab_without_the_floor_receives_little(world, shared_browser, tab):
             page.wait_for_text("#speed", "0.00 m/s")
             if tab == "doctor":
                 wait_for(lambda: page.text("#doctor-state") not in ("", "Checking …"), "verdict")
-            page.driver.execute_async_script(RECEIVED, 2000)  # what it lacks at first
+            page.driver.execute_async_script(RECEIVED, 2000)  # what it needs at first
             received = page.driver.execute_async_script(RECEIVED, 3000)
     finally:
         page.send("Page.removeScriptToEvaluateOnNewDocument", **script)
@@ -177,9 +166,8 @@ def test_a_recording_without_a_joystick_says_how_to_play_it(world, page):
 def test_turtles_alone_have_no_cards_of_a_robot(shared_browser):
     class Turtles(World):
         def begin(self):
-            self.launched = self.run(
-                "roscore", "-p", self.environment["ROS_MASTER_URI"].split(":")[-1]
-            )
+            port = self.environment["ROS_MASTER_URI"].split(":")[-1]
+            self.launched = self.run("roscore", "-p", port)
             wait_for(lambda: "core service" in self.launched.output, "master")
             self.run(node_path("turtlesim", "turtlesim_node"), "__name:=sim")
             self.start_cockpit()
@@ -187,7 +175,5 @@ def test_turtles_alone_have_no_cards_of_a_robot(shared_browser):
     with Turtles() as world:
         shared_browser.open(world.address)
         shared_browser.wait_for_text("#turtles", "/sim")
-        cards = (
-            "[...document.querySelectorAll('#robot .of-robot')].filter((one) => one.offsetParent)"
-        )
+        cards = "[...document.querySelectorAll('#robot .of-robot')].filter((e) => e.offsetParent)"
         wait_for(lambda: not shared_browser.ask(f"{cards}.length"), "no empty cards")

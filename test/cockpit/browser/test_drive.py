@@ -39,13 +39,13 @@ def test_who_drives_how_fast_and_stop_are_above_every_tab_until_esc(world, page)
     world.wait_for_rest()
     page.wait_for_text("#session", "Nobody drives.")
     page.wait_for_text("#speed", "0.00 m/s, 0.00 rad/s")
-    assert world.stays_at_rest()  # although all is still held
+    assert world.stays_at_rest()  # although the keys are still held
 
 
 @claim("One page drives: others change nothing, and the session is handed over")
 def test_a_second_page_is_refused_until_the_first_hands_over(world, page):
     with SocketPage(urlsplit(world.address).port) as second:
-        second.hand = REST  # as a page that is open: without input it would lose the session
+        second.hand = REST  # as an open page: without input it would lose the session
         Keys(page).drive(world)
         second.say("drive", robot="", mode="D")
         assert "another page drives" in second.wait_for("refused")["why"]
@@ -54,4 +54,4 @@ def test_a_second_page_is_refused_until_the_first_hands_over(world, page):
         world.wait_for_rest()
         second.wait_for("session", lambda session: session["yours"])
         page.wait_for_text("#session", "drives the robot")
-        assert world.stays_at_rest()  # although the first one still holds all
+        assert world.stays_at_rest()  # although the first page still holds all

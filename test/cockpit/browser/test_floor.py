@@ -1,4 +1,4 @@
-"""What is drawn on the floor: the driven robot in sight, walls, the scan, pressed bumpers."""
+"""What the floor shows: the driven robot, walls, the scan, pressed bumpers."""
 
 import pytest
 from selenium.webdriver.common.keys import Keys as Key
@@ -11,8 +11,8 @@ from tutorial_testing.waiting import wait_for
 
 LEAST_TOUCH = 44  # pixel, of what a thumb holds; WCAG 2.5.5
 PHONES = {"upright": (360, 640), "on its side": (640, 360)}
-# How many pixels of the floor have about the colour of a variable of the style sheet, and their
-# middle as a place on the page [pixel].
+# How many pixels of the floor have about the colour of a variable of the style sheet, and where
+# their middle is on the page [pixel].
 DRAWN = """(() => {
   const canvas = document.getElementById("floor"), box = canvas.getBoundingClientRect();
   const hex = getComputedStyle(canvas).getPropertyValue(%r).trim().slice(1);
@@ -33,7 +33,7 @@ DRAWN = """(() => {
 
 @pytest.fixture(scope="module")
 def two():
-    """Two robots in a room, one of which is far away from where the other one drives."""
+    """Two robots in a room, far away from each other."""
     with World("world:=room") as world:
         world.run(node_path("fake_turtlebot_sim", "fake_turtlebot.py"), "__ns:=robot_2")
         yield world
@@ -67,7 +67,7 @@ def test_a_phone_shows_the_driven_one_of_two_robots_beside_what_thumbs_hold(
 
 
 def settled(browser, colour):
-    """Return what is drawn in a colour once two looks agree."""
+    """Return where a colour is drawn, once it no longer changes."""
     drawn = browser.ask(DRAWN % colour)
     return drawn if drawn[0] and drawn == browser.ask(DRAWN % colour) else None
 
@@ -77,8 +77,8 @@ def settled(browser, colour):
 )
 def test_a_change_of_tab_keeps_the_view_of_walls_scan_and_bumper(two, shared_browser):
     page = shared_browser
-    page.errors()  # This drops what earlier pages reported.
-    # At the start of the room: a wall that is nearer than 0.45 m has no scan.
+    page.errors()  # dropped: earlier pages reported them
+    # At the start of the room, as a wall nearer than 0.45 m has no scan.
     with two.run("rosservice", "call", "/fake_turtlebot/reset") as reset:
         assert reset.wait() == 0, reset.output
     page.open(two.address)
@@ -105,7 +105,7 @@ SCAN = """{header: {frame_id: base_link}, angle_min: -0.5, angle_increment: 0.1,
 
 @claim("A scan is drawn without a map, too, until its messages end")
 def test_a_scan_without_a_map_is_on_the_floor_until_it_ends(world, page):
-    """As of a real TurtleBot before gmapping is started."""
+    """As a real TurtleBot shows before gmapping is started."""
     with world.run("rostopic", "pub", "-r", "10", "/scan", "sensor_msgs/LaserScan", SCAN):
         wait_for(lambda: page.ask(DRAWN % "--scan")[0] > 50, "scan")
     wait_for(lambda: page.ask(DRAWN % "--scan")[0] == 0, "end of the scan")

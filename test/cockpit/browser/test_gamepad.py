@@ -31,8 +31,8 @@ def test_hands_on_glass_and_on_a_gamepad_of_the_kernel_give_the_same_message(pag
             "left": controls.left_stick, "right": controls.right_stick, "dpad": controls.dpad,
             "triggers": controls.triggers, "held": sorted(controls.held),
         }  # fmt: skip
-        # Without the standard mapping right and down are positive.
-        held = [{"pressed": bool(one), "value": float(one)} for one in buttons]
+        # Without the standard mapping, right and down are positive.
+        held = [{"pressed": bool(button), "value": float(button)} for button in buttons]
         raw = {"mapping": "", "axes": [-v for v in axes], "buttons": held}
         for hands in (glass, call(page, "handsOfGamepad", raw, NAMES)):
             shown = call(page, "positions", mode, NAMES[mode], hands)

@@ -6,7 +6,7 @@ from selenium.webdriver.common.keys import Keys
 from tutorial_testing.claims import claim
 from tutorial_testing.waiting import wait_for
 
-# A Graph of its own, with a server that is this script: given a graph, and hear() as in main.js.
+# A new GraphTab, to which this script sends a graph in place of the server.
 GRAPH = """const [graph, done] = arguments, handlers = {};
 document.getElementById("robot").hidden = true;
 document.getElementById("graph").hidden = false;
@@ -15,13 +15,13 @@ import("/page/graph_tab.js").then(({GraphTab}) => {
   handlers.graph(graph);
   requestAnimationFrame(() => done());
 });"""
-# Of the picture, and of the room for it.
+# The sizes of the picture and of the room for it.
 SIZES = """(() => {
   const room = document.getElementById("graph-picture");
   const {width, height} = room.querySelector("svg").getBoundingClientRect();
   return [width, height, room.clientWidth, room.clientHeight];
 })()"""
-# Nodes, and topics of names of many lengths; some arrows pass layers.
+# Topics have names of many lengths; some arrows skip layers.
 NODES = [f"/node_{n}" for n in range(6)]
 TOPICS = [f"/robot_{n}/{'long_' * (n % 7)}topic" for n in range(61)]
 EDGES = [(f"node {NODES[n % 4]}", f"topic {name}") for n, name in enumerate(TOPICS)]
@@ -37,7 +37,7 @@ LARGE = {
 def test_large_graph_fits_and_is_zoomed_and_what_is_found_is_in_sight(page):
     page.driver.execute_async_script(GRAPH, LARGE)
     page.click("Fit")
-    page.press("#graph .topic")  # with which the picture gets less room
+    page.press("#graph .topic")  # its details leave less room for the picture
 
     def fitting():
         wide, high, most_wide, most_high = page.ask(SIZES)

@@ -1,4 +1,4 @@
-"""How the page looks at all sizes: one direction of scrolling, Stop in sight, and by axe."""
+"""The page at all sizes: it scrolls in one direction, Stop is in sight, and axe finds nothing."""
 
 import pytest
 
@@ -7,7 +7,7 @@ from tutorial_testing.cockpit.accessibility import violations
 from tutorial_testing.waiting import wait_for
 
 TABS = ("robot", "graph", "topics", "bag", "plot", "log", "doctor")
-# What is chosen in a tab, and what is shown then.
+# What to choose in a tab, and what it then shows.
 CHOSEN = {
     "graph": [("#graph .topic", "#graph-details dd")],
     "topics": [("#topics-rows tr", "#topics-fields input")],
@@ -15,11 +15,11 @@ CHOSEN = {
 }
 NARROW = (320, 256)  # 1280 x 1024 at 400 %: WCAG 2.2, 1.4.10
 VIEWS = {"dark": (1280, 800), "light": NARROW}
-# The widest of what is shown, beside pictures and tables that may be scrolled.
+# The right edge of the widest element, except for pictures and tables, which may scroll.
 WIDEST = """Math.max(document.documentElement.scrollWidth,
-  ...[...document.querySelectorAll("body *")].filter((one) => one.getClientRects().length
-    && !one.closest("#graph-picture svg, pre, .unseen, table"))
-    .map((one) => one.getBoundingClientRect().right))"""
+  ...[...document.querySelectorAll("body *")].filter((element) => element.getClientRects().length
+    && !element.closest("#graph-picture svg, pre, .unseen, table"))
+    .map((element) => element.getBoundingClientRect().right))"""
 
 
 @claim(
@@ -41,7 +41,7 @@ def test_axe_finds_nothing_and_no_tab_is_scrolled_in_two_directions(world, share
             page.press(first)
             wait_for(lambda css=shown: page.all(css), shown)
         if name == "doctor":
-            page.wait_for_text("#doctor-state", "o")  # whatever it found
+            page.wait_for_text("#doctor-state", "o")  # any verdict has this letter
         page.ask(f"document.getElementById('{name}').lastElementChild.scrollIntoView(false)")
         assert 0 < page.middle("#stop")[1] < NARROW[1] / 4, name
         assert violations(page) == [], name

@@ -1,9 +1,8 @@
-"""What the tabs make of rare messages: the test is their server."""
+"""How the tabs handle rare messages, which the test sends in place of the server."""
 
 from tutorial_testing.claims import claim
 
-# A tab of its own beside that of the page. hear() is a message of the server; `sent` is what the
-# tab asks for.
+# A new tab beside the page's own. hear() delivers a message; `sent` has what the tab sends.
 TAB = """const [done] = arguments, sent = [], handlers = {};
 const watch = (fields) => sent.push(["watch", fields]);
 const link = {isOpen: true, send(kind, fields) { return sent.push([kind, fields]); },
@@ -14,7 +13,7 @@ import('/page/%s').then((tabs) => { %s });"""
 
 
 def run(page, module, script):
-    """Make a tab of this module; return what the script calls done() with."""
+    """Run a script with the classes of this module; return what it calls done() with."""
     return page.driver.execute_async_script(TAB % (module, script))
 
 

@@ -1,4 +1,4 @@
-"""The ways to lose the operator, and how long the robot goes on; `--trials 20` for the table."""
+"""The ways to lose the operator, and how long the robot drives on; `--trials 20` for the table."""
 
 import contextlib
 import signal
@@ -15,14 +15,14 @@ from tutorial_testing.cockpit.world import World
 from tutorial_testing.two_hosts.network import AS_ROOT, Network
 from tutorial_testing.waiting import tolerance, wait_for
 
-LIMIT_S = 0.5 + 0.02  # half a second and a period of the odometry are promised
-STEADY_S = 1.0  # steady stick; more than driver_session.TICKS periods
+LIMIT_S = 0.5 + 0.02  # promised: half a second, and a period of the odometry
+STEADY_S = 1.0  # with a steady stick; more than driver_session.TICKS periods
 ROBOT, PHONE = "10.11.12.1", "10.11.12.2"
 CUT = "network cut"
 
 
 class Way(NamedTuple):
-    """One way. lose() and back() get the browser, hands and world; back is None without a return.
+    """A way to lose the operator, and the way back, or None; both get browser, hands and world.
 
     lose() returns the time of the loss [s], or None if it is that of the call.
     """
@@ -30,7 +30,7 @@ class Way(NamedTuple):
     lose: Callable
     back: Optional[Callable]
     hands: type = Keys
-    page_stays: bool = True  # the page that drove is still there after back()
+    page_stays: bool = True  # the page that drove is still open after back()
 
 
 def close_tab(it):
@@ -47,18 +47,8 @@ def open_again(it):
 
 
 def hide(it):
-    send = it.browser.send
-    it.other = send("Target.createTarget", url="about:blank", background=True)["targetId"]
-    now = time.time()
-    send("Target.activateTarget", targetId=it.other)
+    it.other, now = it.browser.hide()
     return now
-
-
-def show(it):
-    driven = it.browser.driver.current_window_handle
-    it.browser.send("Target.activateTarget", targetId=driven)
-    it.browser.send("Target.closeTarget", targetId=it.other)
-    wait_for(lambda: it.browser.ask("document.visibilityState") == "visible", "page")
 
 
 def event(name):
@@ -74,16 +64,20 @@ def close_list(it):
     it.browser.tab("Robot")
 
 
+def cancel_touch(it):
+    it.browser.touch("touchCancel")
+
+
 def gamepad(**values):
     return lambda it: it.hands.set(**values)
 
 
 def freeze_gamepad(it):
-    """Its time goes on, whether or not it is moved, and then it does not."""
+    """Stop the gamepad's clock, which advances while a working gamepad is held still."""
     steady_from = it.world.odometry[-1].stamp + STEADY_S
     wait_for(lambda: it.world.odometry[-1].stamp > steady_from, "driving with a steady stick")
     it.hands.set(frozen=True)
-    # The page knows when it froze: on a busy machine a call takes long to get there.
+    # The page knows when it froze: on a busy machine this call may have come late.
     return it.browser.ask("(performance.timeOrigin + fake.at) / 1000")
 
 
@@ -100,7 +94,7 @@ def start_server(it):
     it.browser.wait_for_text("#connection", "Connected")
     assert "Start it again" not in it.browser.text("#notice")
     it.browser.wait_for_text("#session", "Nobody drives")
-    wait_for(lambda: "/cockpit" not in it.browser.text("#session"), "no word of the killed one")
+    wait_for(lambda: "/cockpit" not in it.browser.text("#session"), "end of the killed cockpit")
 
 
 def plug_cable(it):
@@ -111,19 +105,15 @@ def plug_cable(it):
 
 WAYS = {
     "tab closed": Way(close_tab, open_again, page_stays=False),
-    "page hidden": Way(hide, show),
+    "page hidden": Way(hide, lambda it: it.browser.show(it.other)),
     "browser killed with -9": Way(lambda it: it.browser.kill(), None, page_stays=False),
     "page frozen (SIGSTOP)": Way(
         lambda it: it.browser.signal(signal.SIGSTOP), lambda it: it.browser.signal(signal.SIGCONT)
     ),
-    # Without a screen no window loses the focus, so the event is made.
+    # Without a screen no window loses the focus, so the test sends the event.
     "Alt-Tab with a key held": Way(event("blur"), event("focus")),
-    "pointercancel": Way(
-        lambda it: it.browser.touch("touchCancel"),
-        lambda it: setattr(it.hands, "down", False),
-        Thumbs,
-    ),
-    # Its menu takes the keys, so that their release is not reported.
+    "pointercancel": Way(cancel_touch, lambda it: setattr(it.hands, "down", False), Thumbs),
+    # The menu receives the keys, so that the page does not see their release.
     "right button of the mouse": Way(mouse("mousePressed"), mouse("mouseReleased")),
     # So does an open list, which a driver may open on any tab.
     "a list": Way(lambda it: it.browser.mouse("mousePressed", "#mode", "left", True), close_list),
@@ -136,9 +126,9 @@ WAYS = {
 
 
 def lose(way, it):
-    """Lose the operator of a moving robot; return how long it went on [s].
+    """Lose the operator of a moving robot; return how long it drove on [s].
 
-    None if a busy machine had lost the operator before.
+    Return None if a busy machine had already lost the operator.
     """
     it.hands.drive(it.world)
     now, late_s = time.time(), tolerance()
@@ -152,7 +142,7 @@ def lose(way, it):
 
 
 def come_back(way, it):
-    """Come back with all still held: nothing moves. Release, and hold it again: it drives."""
+    """Come back with all still held: nothing moves. Release and hold again: the robot drives."""
     if way.back:
         way.back(it)
     if way.page_stays:

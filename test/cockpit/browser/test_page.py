@@ -1,4 +1,4 @@
-"""The page itself: small, from this host alone, for keyboards and phones, honest about a loss."""
+"""The page itself: small, loaded from this host alone, usable by keyboard, honest about a loss."""
 
 import re
 import signal
@@ -12,7 +12,7 @@ LOADED = "performance.getEntries().filter((e) => 'encodedBodySize' in e)"
 
 
 def tabs(page):
-    return page.ask("[...document.querySelectorAll('[role=tabpanel]')].map((one) => one.id)")
+    return page.ask("[...document.querySelectorAll('[role=tabpanel]')].map((e) => e.id)")
 
 
 def press(page, code):
@@ -34,7 +34,7 @@ def test_the_keyboard_reaches_everything_of_a_small_page_that_asks_no_other_host
     assert {"take"} <= set(wanted) <= reached
     loaded = page.ask(f"{LOADED}.reduce((sum, e) => sum + e.encodedBodySize, 0)")
     assert 10_000 < loaded < FIRST_LOAD
-    # Tabs are one stop; arrows go from one to the next.
+    # The row of tabs is one stop of the key Tab; arrows go from tab to tab.
     page.driver.execute_script("document.getElementById('tab-robot').focus()")
     first, *others = tabs(page)
     for name in (*others, first):
@@ -44,7 +44,7 @@ def test_the_keyboard_reaches_everything_of_a_small_page_that_asks_no_other_host
     assert len(asked) > 10 and set(asked) == {urlsplit(world.address).netloc}
 
 
-# Of the tab that is shown: whether the line above says that all is old, and whether it looks old.
+# Whether the line above the shown tab says that all is old, and whether the tab looks old.
 LOOKS_OLD = """(() => {
   const heading = document.querySelector("main section:not([hidden]) h2");
   return [document.getElementById("session").innerText,
@@ -84,12 +84,12 @@ def test_a_server_that_hangs_leaves_the_session_and_after_a_loss_every_tab_is_ol
         words, look, heading = page.ask(LOOKS_OLD)
         assert re.fullmatch(r"Not connected: .* is from [\d:]{8}\. The driver is unknown\.", words)
         assert (look, "(old)" in heading) == ("grayscale(1)", True), name
-    assert not any(one.isdigit() for one in page.text("#speed"))
+    assert not any(map(str.isdigit, page.text("#speed")))
     assert page.text("#doctor-state") == f"Not connected. Before: {verdict}"
     assert page.text("#bag-state") == "Not connected."
     buttons = ("take", "stop", "reset", "doctor-run", "bag-open", "bag-play", "bag-pause")
-    assert [one for one in buttons if page.one(f"#{one}").is_enabled()] == []
+    assert [name for name in buttons if page.one(f"#{name}").is_enabled()] == []
     world.start_cockpit()
     page.wait_for_text("#session", "Nobody drives.")
     assert not page.ask("document.body.classList.contains('old')")
-    page.errors()  # those of the loss
+    page.errors()  # dropped: the loss caused them

@@ -1,4 +1,4 @@
-"""Every tab shows what ROS' own commands say."""
+"""Every tab shows what ROS's own commands print."""
 
 import re
 from pathlib import Path
@@ -61,7 +61,7 @@ def test_bag_shows_the_values_at_its_slider_and_publishes_until_it_is_paused(wor
     page.wait_for_text("#bag-about", f"joy.bag: {float(duration):.1f} s")
     page.wait_for_text("#bag-topics", messages)
     wait_for(lambda: page.all("#bag-chart canvas"), "chart")
-    # The slider has the chart's scale.
+    # The slider begins where the chart's axis does.
     middle = "(({left, right}) => (left + right) / 2)(%s.getBoundingClientRect())"
     zero = page.ask(middle % 'document.querySelector("#bag-chart .dygraph-axis-label-x")')
     left = "document.querySelector('#bag-position').getBoundingClientRect().left"
@@ -110,9 +110,9 @@ def test_plot_shows_the_newest_value_saves_all_and_stays_where_a_person_zooms(
 ):
     page.tab("Plot")
     page.one("#plot-search").send_keys(POSITION)
-    found = f'#plot-fields input[value="{POSITION}"]'
-    wait_for(lambda: page.all(found), POSITION)
-    page.one(found).click()
+    box = f'#plot-fields input[value="{POSITION}"]'
+    wait_for(lambda: page.all(box), POSITION)
+    page.one(box).click()
     value = f'[data-field="{POSITION}"] output'
     wait_for(lambda: re.search(r"\d", page.text(value)), "value")
     assert abs(shown(page, value) - world.now.x) < 1e-3
@@ -177,7 +177,7 @@ def test_plot_has_whole_arrays_another_axis_the_value_at_the_mouse_and_a_wheel(w
 @claim("Tab Log: latched lines, levels and filter, levels of loggers; 1,000 lines are kept")
 def test_log_shows_what_nodes_log_by_level_and_filter_and_sets_a_logger(world, page, ros):
     page.tab("Log")
-    page.wait_for_text("#log-lines", "/myjoystick2twist")  # before the cockpit was started
+    page.wait_for_text("#log-lines", "/myjoystick2twist")  # logged before the cockpit started
     entry = '{level: 4, name: /probe, msg: "look here"}'
     with world.run("rostopic", "pub", "/rosout", "rosgraph_msgs/Log", entry):  # latched
         page.wait_for_text("#log-lines", "look here")
@@ -195,8 +195,8 @@ def test_log_shows_what_nodes_log_by_level_and_filter_and_sets_a_logger(world, p
     wait_for(lambda: '"WARN"' in ros("rosservice", "call", "/observer/get_loggers"), "level")
 
 
-# How often the page asked for a frame in a while, and how large what has a curve's colour is in the
-# chart: [frames, width, height].
+# How often the page asked for a frame within a time, and how large a curve of this colour is in
+# the chart: [frames, width, height].
 DRAWN = """const [ms, colour, done] = arguments, ask = window.requestAnimationFrame;
 let frames = 0;
 window.requestAnimationFrame = (draw) => (frames++, ask.call(window, draw));

@@ -10,11 +10,11 @@ from tutorial_testing.cockpit.chromium import Chromium
 from tutorial_testing.socket_page import SocketPage
 from tutorial_testing.waiting import tolerance, wait_for
 
-PERIOD_S, SILENCE_S = 0.05, 0.2  # of what is published, and the silence more that ends it
+PERIOD_S, SILENCE_S = 0.05, 0.2  # between messages; the silence beyond it that ends publishing
 
 
 def publishes(page):
-    """Whether the page publishes at a rate; else begin, and again where a busy machine ended it."""
+    """Return whether the page publishes; else start it, again where a busy machine ended it."""
     if page.text("#topics-send") == "Publish":
         page.press("#topics-send")
     return page.text("#topics-send") != "Publish"
@@ -66,10 +66,10 @@ def test_topics_shows_rates_and_messages_publishes_calls_and_sets(world, page, r
     with world.run("rostopic", "hz", "/probe") as hz:
         wait_for(lambda: page.ask(cells)[3:4] == ["1"], "its subscriber")
         rate = r"average rate: (1\d|2[01])\."
-        found = wait_for(lambda: publishes(page) and re.search(rate, hz.output), "20 Hz")
+        line = wait_for(lambda: publishes(page) and re.search(rate, hz.output), "20 Hz")
         page.wait_for_text("#topics-about", "Publishers: /cockpit")
         page.tab("Log")
-        wait_for(lambda: "no new messages" in hz.output[found.end() :], "end with its tab")
+        wait_for(lambda: "no new messages" in hz.output[line.end() :], "end with its tab")
     page.driver.get(f"{world.address}#topics/probe/rate?kind=parameters")
     ros("rosparam", "set", "/probe/rate", "[1, 2]")
     page.wait_for_text("#topics-rows", "/probe/rate")
@@ -107,13 +107,6 @@ def test_a_page_that_is_killed_or_hangs_publishes_a_zero_and_nothing_more(world,
         assert speed == 0.0 and published_at / 1e9 - lost_at < bound_s
 
 
-def hide(page):
-    """Show another tab of the browser in front of the page."""
-    other = page.send("Target.createTarget", url="about:blank", background=True)["targetId"]
-    page.send("Target.activateTarget", targetId=other)
-    return other
-
-
 @claim("What a page publishes ...", because="end to end, by Stop, Esc and hiding")
 def test_what_a_form_moves_is_named_and_ends_by_stop_of_another_page_esc_and_hiding(world, page):
     mine, nobody = "You drive by a form, on /cmd_vel.", "Nobody drives."
@@ -125,9 +118,8 @@ def test_what_a_form_moves_is_named_and_ends_by_stop_of_another_page_esc_and_hid
         drives = lambda: publishes(page) and page.text("#session") == mine and world.moves  # noqa: E731
         wait_for(drives, "motion")
         assert page.one("#stop").is_enabled()
-        other.wait_for(
-            "drives", lambda said: said["who"].endswith("drives by a form, on /cmd_vel.")
-        )
+        named = lambda said: said["who"].endswith("drives by a form, on /cmd_vel.")  # noqa: E731
+        other.wait_for("drives", named)
         other.say("stop")
         page.wait_for_text("#session", nobody)
         page.wait_for_text("#notice", "pressed Stop")
@@ -139,13 +131,11 @@ def test_what_a_form_moves_is_named_and_ends_by_stop_of_another_page_esc_and_hid
         world.wait_for_rest()
         assert page.text("#topics-send") == "Publish" and world.stays_at_rest()
         page.one("#topics-rate").clear()
-        page.press("#topics-send")  # once: a robot without a timeout drives on until it is stopped
+        page.press("#topics-send")  # once: without a timeout a robot drives on until it is stopped
         page.wait_for_text("#session", mine)
         page.tab("Log")
         driver = other.of("session")[-1]["driver"]
-        front = hide(page)
+        front, _ = page.hide()
         wait_for(lambda: other.of("session")[-1]["driver"] is None, "end")
-        page.send("Target.activateTarget", targetId=page.driver.current_window_handle)
-        page.send("Target.closeTarget", targetId=front)
-        wait_for(lambda: page.ask("document.visibilityState") == "visible", "page")
+        page.show(front)
         assert driver

@@ -1,9 +1,9 @@
-"""The tab Robot draws the fields of turtlesim, as the suite's node has them."""
+"""The tab Robot draws the fields of the suite's turtlesim."""
 
 from tutorial_testing.claims import claim
 from tutorial_testing.waiting import wait_for
 
-# The color of a column and row of the picture, [r, g, b].
+# The color at a column and row of the picture, [r, g, b].
 PIXEL = """((image) => {{
     const pen = Object.assign(document.createElement("canvas"), {{width: 500, height: 500}})
       .getContext("2d");

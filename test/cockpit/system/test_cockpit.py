@@ -15,7 +15,7 @@ import rospkg
 from node_kit.ros.graph.ros_api import call
 from tutorial_testing import flood
 from tutorial_testing.claims import claim
-from tutorial_testing.cockpit.world import World
+from tutorial_testing.cockpit.world import EarlyWorld, World
 from tutorial_testing.nodes import node_path
 from tutorial_testing.socket_page import DRIVE, SocketPage
 from tutorial_testing.waiting import wait_for
@@ -24,7 +24,7 @@ from tutorial_testing.waiting import wait_for
 pytestmark = [pytest.mark.xdist_group("cockpit"), pytest.mark.long]
 VIEWERS, FLOOD_S = 30, 8  # the whole minute, and the latency, are in test/cockpit/benchmark
 MOST_MORE_KB = 20_000
-# Frames of a WebSocket: pings, answers to none, pieces of a message that does not end.
+# Frames of a WebSocket: pings, unrequested pongs, fragments of a message that never ends.
 PINGS, PONGS, PIECES = (1000 * (code + b"\x80" + bytes(4)) for code in (b"\x89", b"\x8a", b"\0"))
 MOST_BYTES = 30_000_000
 # Modules whose import ends a program, opens a browser, or prints.
@@ -40,7 +40,7 @@ def page_of(world):
 
 
 def drive(world, page):
-    """Sit down, release, hold LB and the stick until the robot moves."""
+    """Take the session, release all, then hold LB and the stick until the robot moves."""
     world.drive_by(lambda: page.sit_down(then=DRIVE))
 
 
@@ -54,7 +54,10 @@ def open_world():
 
 @pytest.fixture
 def resting(open_world):
-    """Nothing moves, no token is printed again, and the driver may still drive afterwards."""
+    """The open world; afterwards nothing has moved, and the driver may still drive.
+
+    No token has been printed again.
+    """
     open_world.odometry.clear()
     yield open_world
     assert not [moment for moment in open_world.odometry if moment.moves]
@@ -127,7 +130,7 @@ def connect(open_world):
 
 
 def upgraded(world, made):
-    """Return the socket, on which a viewer's WebSocket is opened by hand."""
+    """Open a viewer's WebSocket on a socket by hand; return the socket."""
     host, token = f"127.0.0.1:{world.port}", world.token("look")
     made.sendall(
         f"GET /ws?token={token} HTTP/1.1\r\nHost: {host}\r\nOrigin: http://{host}\r\n"
@@ -145,7 +148,7 @@ def cockpit_kb(world):
 
 @claim("The driver goes ...", because="endless frames")
 def test_a_program_that_sends_frames_without_end_costs_no_memory(open_world, connect):
-    """It is closed, or not read."""
+    """The connection is closed, or not read."""
     for frames, begin in ((PINGS, b""), (PONGS, b""), (PIECES, b"\x01\x80" + bytes(4))):
         made, before_kb = upgraded(open_world, connect()), cockpit_kb(open_world)
         made.settimeout(5)
@@ -169,12 +172,12 @@ def test_the_driver_goes_on_beside_thirty_viewers_that_flood(open_world):
         with open_world.run(*command, str(VIEWERS), str(FLOOD_S)) as program:
             wait_for(lambda: "ready" in program.output, "flood")
             while not program.ended:
-                drive(open_world, page)  # sits down again, in the midst of it
+                drive(open_world, page)  # takes the session again, during the flood
                 drives += 1
             assert program.wait() == 0, program.output
             assert int(program.output.splitlines()[-1]) > 1000
         assert drives > 0
-        # A busy machine may lose the operator for a moment; nobody else ever sits there.
+        # A busy machine may lose the operator for a moment, but no other page ever drives.
         assert {session["driver"] for session in page.of("session")} <= {number, None}
         assert page.of("closed") == []
         wait_for(lambda: cockpit_kb(open_world) - before_kb <= MOST_MORE_KB, "memory as before")
@@ -186,7 +189,7 @@ def test_viewers_and_connections_make_room_for_a_driver(open_world, connect):
         connect().sendall(b"GET / HTTP/1.1\r\n")
     with contextlib.ExitStack() as stack:
         pages = []
-        # One more than fits; an earlier test may have left some.
+        # One more than the limit; an earlier test may have left some open.
         while len(pages) <= MOST_PAGES and not (pages and pages[-1].refusal):
             viewer = SocketPage(open_world.port, token=open_world.token("look"))
             pages.append(stack.enter_context(viewer))
@@ -238,24 +241,15 @@ def test_a_recording_of_rosbag_is_paused_by_the_page_which_then_drives(open_worl
 
 @claim("A cockpit that waits for a master says so in the browser, and then serves its page")
 def test_a_cockpit_before_its_master_says_so_and_then_serves_its_page():
-    class Early(World):
-        def begin(self):
-            self.cockpit = self.run(node_path("cockpit", "cockpit.py"), "--port", str(self.port))
-            wait_for(lambda: "waiting for a ROS master" in self.cockpit.output, "its line")
-            self.early = get(self, "/")
-            super().begin()
-
-        def start_cockpit(self):
-            self.find_page()
-
-    with Early() as world:
-        status, text = world.early
+    answers = []
+    with EarlyWorld(lambda world: answers.append(get(world, "/"))) as world:
+        [(status, text)] = answers
         assert status == 503 and "start roscore" in text
         wait_for(lambda: get(world, "/")[0] == 200, "page")
 
 
 class Launched(World):
-    """A browser in place of the joystick: the launch file has the cockpit."""
+    """A browser in place of the joystick: the launch file starts the cockpit."""
 
     launch = ("joy2twist", "launch_joy_node.launch", "joystick:=browser", "rviz:=false")
 

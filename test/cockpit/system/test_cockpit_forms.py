@@ -1,5 +1,6 @@
-"""A robot that a form moves: the ends of the cockpit, of its master and of its pages stop it, also
-a robot whose last velocity counts until the next one, as in launch_bag.launch.
+"""A robot that a form moves stops when the cockpit, its master or the page ends.
+
+This holds even for a robot without a timeout, as in launch_bag.launch.
 """
 
 import contextlib
@@ -20,7 +21,7 @@ from tutorial_testing.waiting import tolerance, wait_for
 
 pytestmark = [pytest.mark.xdist_group("cockpit"), pytest.mark.long]
 BOUND_S = 0.6  # from the loss to rest
-ARM_S = 1.0  # A page waits for twice as long for a subscriber that does not connect.
+ARM_S = 1.0  # a page waits twice as long for a subscriber that does not connect
 TWIST = {"topic": "/cmd_vel", "type": "geometry_msgs/Twist"}
 CURVE = {"linear/x": "0.2", "angular/z": "0.5"}
 CONFIG = rospkg.RosPack().get_path("fake_turtlebot_sim") + "/config"
@@ -33,7 +34,7 @@ class Careless(World):
 
 
 class WithMaster(Careless):
-    """Beside a master that may go alone: roslaunch would end with its own."""
+    """With a separate master, which can end alone: roslaunch would end with its own."""
 
     def begin(self):
         uri = self.environment["ROS_MASTER_URI"]
@@ -52,7 +53,7 @@ def world():
 
 @contextlib.contextmanager
 def moved(world, period):
-    """A page whose form moves the robot."""
+    """Yield a page whose form moves the robot."""
     with SocketPage(world.port) as page:
 
         def hold():
@@ -87,11 +88,7 @@ PAGES = {
     "Stop elsewhere": stop_elsewhere,
     "Stop publishing": lambda _, page: page.say("publish_end"),
 }
-SERVERS = {
-    "INT": end(signal.SIGINT),
-    "TERM": end(signal.SIGTERM),
-    "HUP": end(signal.SIGHUP),
-}
+SERVERS = {name: end(signal.Signals[f"SIG{name}"]) for name in ("INT", "TERM", "HUP")}
 
 
 def judge(world, act, bound_s=BOUND_S):
@@ -135,7 +132,7 @@ def test_rosnode_kill_stops_a_robot_without_a_timeout(world):
 
 @claim("A robot without ...", because="the master")
 def test_without_a_master_or_with_one_that_hangs_a_robot_without_a_timeout_is_stopped():
-    """One that hangs is waited for: the page still drives, and its loss stops the robot."""
+    """A master that hangs is waited for: the page still drives, and its loss stops the robot."""
     with WithMaster(f"config:={CONFIG}/rbx1.yaml") as world:
         with moved(world, None) as page, suspended([world.master.pid]):
             judge(world, lambda: fall_silent(world, page))

@@ -1,9 +1,11 @@
-"""A Chromium that a test uses as a person does: looks, presses keys, touches glass."""
+"""A Chromium that a test uses as a person does: it reads, presses keys and touches the screen."""
 
 import contextlib
+import json
 import shutil
 import signal
 import tempfile
+import time
 
 from selenium import webdriver
 from selenium.common.exceptions import WebDriverException
@@ -13,22 +15,22 @@ from selenium.webdriver.common.by import By
 
 from tutorial_testing.cockpit.engines import WebDriver
 from tutorial_testing.processes import signal_all
-from tutorial_testing.waiting import descendants
+from tutorial_testing.waiting import descendants, wait_for
 
 ARGUMENTS = [
     "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
     "--disable-background-networking", "--disable-component-update", "--disable-sync",
 ]  # fmt: skip
-# Key code -> name of the key and the number that Windows has for it.
+# Key code -> (name of the key, its number in Windows).
 KEYS = {
     "ShiftLeft": ("Shift", 16), "ArrowUp": ("ArrowUp", 38), "ArrowRight": ("ArrowRight", 39),
     "Tab": ("Tab", 9), "Escape": ("Escape", 27),
 }  # fmt: skip
-SHIFT = 8  # as the protocol has modifiers
+SHIFT = 8  # a modifier of the DevTools protocol
 
 
 class Chromium(WebDriver):
-    """One browser with one page. A context manager that leaves nothing behind."""
+    """A browser with one page. A context manager that leaves nothing behind."""
 
     def __init__(self):
         self._folder = tempfile.mkdtemp()
@@ -59,7 +61,7 @@ class Chromium(WebDriver):
                 self.driver.close()
             self.driver.switch_to.window(first)
             self.driver.get("about:blank")
-            self.errors()  # a test that looks for errors later finds its own
+            self.errors()  # dropped, so that a later test sees its own only
 
     def __exit__(self, *_):
         self.kill()
@@ -85,20 +87,20 @@ class Chromium(WebDriver):
         return self.driver.find_elements(By.CSS_SELECTOR, css)
 
     def click(self, name, css="button"):
-        """Click on the button of a name, as a screen reader has it."""
-        [found] = [one for one in self.all(css) if one.accessible_name == name]
-        found.click()
+        """Click on the button with this accessible name."""
+        [button] = [button for button in self.all(css) if button.accessible_name == name]
+        button.click()
 
     def tab(self, name):
         self.click(name, "[role=tab]")
 
     def errors(self):
-        """Return the console's errors, except for a connection that the page gave up."""
-        found = [e["message"] for e in self.driver.get_log("browser") if e["level"] != "INFO"]
-        return [one for one in found if "closed before the connection is established" not in one]
+        """Return the console's errors, except of connections that a closing page gave up."""
+        log = [e["message"] for e in self.driver.get_log("browser") if e["level"] != "INFO"]
+        return [text for text in log if "closed before the connection is established" not in text]
 
     def key(self, kind, code, repeats=False):
-        """kind: "rawKeyDown" or "keyUp". repeats: as a key does that is held."""
+        """kind: "rawKeyDown" or "keyUp". repeats: whether a held key repeats itself."""
         name, number = KEYS[code]
         if name == "Shift":
             self._modifiers = 0 if kind == "keyUp" else SHIFT
@@ -118,9 +120,7 @@ class Chromium(WebDriver):
 
     def middle(self, css):
         """Return the middle of an element in the window [pixel], however the page is scrolled."""
-        box = self.driver.execute_script(
-            "return arguments[0].getBoundingClientRect()", self.one(css)
-        )
+        box = self.ask(f"document.querySelector({json.dumps(css)}).getBoundingClientRect()")
         return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
 
     @property
@@ -128,9 +128,22 @@ class Chromium(WebDriver):
         return descendants(self.driver.service.process.pid)[1:]
 
     def signal(self, number):
-        """Send a signal to all of the browser; return the time [s] just before."""
+        """Send a signal to all processes of the browser; return the time [s] just before."""
         return signal_all(self.pids, number)
 
     def kill(self):
-        """Send SIGKILL; return the time [s] just before."""
+        """Kill it with SIGKILL; return the time [s] just before."""
         return self.signal(signal.SIGKILL)
+
+    def hide(self):
+        """Show another tab in front of the page; return (the other tab, the time [s] before)."""
+        new = self.send("Target.createTarget", url="about:blank", background=True)["targetId"]
+        now = time.time()
+        self.send("Target.activateTarget", targetId=new)
+        return new, now
+
+    def show(self, other):
+        """Close that tab, and wait until the page is visible."""
+        self.send("Target.activateTarget", targetId=self.driver.current_window_handle)
+        self.send("Target.closeTarget", targetId=other)
+        wait_for(lambda: self.ask("document.visibilityState") == "visible", "page")

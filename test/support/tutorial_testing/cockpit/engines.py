@@ -1,4 +1,4 @@
-"""Browsers with the cockpit's page: what tests do in any of them, Firefox, and WebDriver's."""
+"""Browsers with the cockpit's page: what all can do, those of WebDriver, and Firefox."""
 
 import asyncio
 import json
@@ -14,7 +14,7 @@ from tutorial_testing.waiting import DEADLINE_S, wait_for
 
 
 class Browser(Started):
-    """A browser with one page, which an engine opens by go() and asks by ask()."""
+    """A browser with one page; a subclass defines go(address) and ask(expression)."""
 
     def open(self, address):
         """Open the cockpit's page, and wait until it is connected."""
@@ -22,7 +22,7 @@ class Browser(Started):
         self.wait_for_text("#connection", "Connected")
 
     def text(self, css):
-        """Return the text of an element, visible or not; "" if there is none."""
+        """Return the text of an element, visible or not; "" if it does not exist."""
         return self.ask(f"document.querySelector({json.dumps(css)})?.textContent ?? ''")
 
     def wait_for_text(self, css, text):
@@ -46,7 +46,7 @@ class WebDriver(Browser):
         return self.driver.execute_script(f"return {expression}")
 
     def keys(self, kind, *keys):
-        """kind: keyDown or keyUp, of each key in turn, as the WebDriver standard codes them."""
+        """kind: keyDown or keyUp. keys: in turn, by their codes in the WebDriver standard."""
         actions = ActionChains(self.driver)
         for key in keys:
             (actions.key_down if kind == "keyDown" else actions.key_up)(key)
@@ -56,8 +56,7 @@ class WebDriver(Browser):
 class Firefox(Browser):
     """Firefox over WebDriver BiDi, used directly: Debian has no geckodriver.
 
-    https://w3c.github.io/webdriver-bidi: JSON over a WebSocket, {id, method, params} and its
-    answer.
+    https://w3c.github.io/webdriver-bidi: JSON over a WebSocket.
     """
 
     def begin(self):
@@ -68,10 +67,10 @@ class Firefox(Browser):
         options = ["--headless", "--no-remote", "--remote-debugging-port", "0"]
         program = Program("firefox-esr", *options, "--profile", profile)
         self._stack.enter_context(program)
-        said = r"BiDi listening on (ws://\S+)"
-        found = wait_for(lambda: re.search(said, program.output), "Firefox")
+        line = r"BiDi listening on (ws://\S+)"
+        match = wait_for(lambda: re.search(line, program.output), "Firefox")
         self._number = 0
-        self._socket = self._wait(websocket_connect, f"{found[1]}/session")
+        self._socket = self._wait(websocket_connect, f"{match[1]}/session")
         self.send("session.new", capabilities={})
         self._context = self.send("browsingContext.getTree")["contexts"][0]["context"]
 
@@ -82,7 +81,7 @@ class Firefox(Browser):
         return self._loop.run_until_complete(waited())
 
     def send(self, method, **parameters):
-        """Send a command; return its result. Raises RuntimeError with Firefox's message."""
+        """Send a command; return its result. RuntimeError with Firefox's message if it refuses."""
         self._number += 1
         command = {"id": self._number, "method": method, "params": parameters}
         self._wait(self._socket.write_message, json.dumps(command))
@@ -98,13 +97,11 @@ class Firefox(Browser):
 
     def ask(self, expression):
         """Return the value of a JavaScript expression: a text, a number or a truth value."""
-        target = {"context": self._context}
-        said = self.send(
-            "script.evaluate", expression=expression, target=target, awaitPromise=False
-        )
-        if said["type"] != "success":
-            raise RuntimeError(said["exceptionDetails"]["text"])
-        return said["result"].get("value")
+        fields = {"target": {"context": self._context}, "awaitPromise": False}
+        answer = self.send("script.evaluate", expression=expression, **fields)
+        if answer["type"] != "success":
+            raise RuntimeError(answer["exceptionDetails"]["text"])
+        return answer["result"].get("value")
 
     def keys(self, kind, *keys):
         actions = [{"type": kind, "value": key} for key in keys]

@@ -1,4 +1,4 @@
-"""Three ways to hold LB and push the stick in a page: keys, thumbs on glass, a gamepad."""
+"""Three ways to hold LB and push the stick in a page: keys, thumbs on a touch screen, a gamepad."""
 
 import contextlib
 
@@ -10,7 +10,7 @@ from tutorial_testing.waiting import wait_for
 SIT_DOWN = """document.getElementById("session").dataset.state !== "yours"
   && document.getElementById("take").click()"""
 ARMED = "document.getElementById('session').dataset.armed"
-# A gamepad of the standard mapping in place of the browser's: no browser here has a real one.
+# Replaces the browser's gamepads by one of the standard mapping: no browser here has a real one.
 FAKE_GAMEPAD = """
 globalThis.fake = {plugged: true, frozen: false, held: false, at: 0};
 navigator.getGamepads = () => {
@@ -27,28 +27,27 @@ navigator.getGamepads = () => {
 class Hands:
     """hold() and release() at a page; drive() until the robot moves."""
 
-    touch = False  # whether the browser is to have a touch screen
+    touch = False  # whether they need a touch screen
 
     def __init__(self, browser):
         self.browser = browser
 
     def prepare(self):
-        """Before the page is opened."""
+        """Prepare the browser, before the page is opened."""
 
     def still_held(self):
-        """Repeat what hands send that still hold everything, as after a return to the page."""
+        """Repeat the input of hands that still hold all, as after a return to the page."""
 
     def drive(self, world, until=None):
-        """Take the session if it is free, and hold all, from all released, until the robot moves,
-        or until a condition(). On a busy machine it may take more than one go:
-        the server lets nobody drive whose page is late.
+        """Take the session if it is free, release all, and hold all until the robot moves, or until
+        a condition(). On a busy machine this may take several attempts: a late page may not drive.
         """
 
         def hold():
             self.release()
             world.wait_for_rest()
             self.browser.ask(SIT_DOWN)
-            # The server has seen that nothing is held, and lets this page drive.
+            # Once armed, the server has seen all released, and lets this page drive.
             with contextlib.suppress(AssertionError):
                 wait_for(lambda: self.browser.ask(ARMED) == "true", "all released", TRY_S)
                 self.hold()

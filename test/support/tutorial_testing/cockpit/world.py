@@ -12,8 +12,8 @@ from tutorial_testing.waiting import wait_for
 class World(Robot):
     """Everything but the browser. A context manager that leaves nothing behind.
 
-    arguments: of the launch file. host: a two_hosts.network.Host on which all of it runs, and its
-    address; else this machine. lan: the page is then opened with a token.
+    arguments: of the launch file. host, address: a two_hosts.network.Host on which all of it runs,
+    in place of this machine. lan: open the page with a token.
     """
 
     launch = (str(Path(__file__).resolve().with_name("world.launch")),)
@@ -52,6 +52,26 @@ class World(Robot):
         self.address = f"http://{self._address}:{self.port}/{f'?token={token}' if token else ''}"
 
     def token(self, role):
-        """Return the token to "look" or to "drive", as it was printed; None without one."""
-        found = re.search(rf"to {role}: .*token=(\S+)", self.cockpit.output)
-        return found and found[1]
+        """Return the printed token to "look" or to "drive", or None."""
+        match = re.search(rf"to {role}: .*token=(\S+)", self.cockpit.output)
+        return match and match[1]
+
+
+class EarlyWorld(World):
+    """A World whose cockpit is started before the master.
+
+    look: called with the World while its cockpit waits.
+    """
+
+    def __init__(self, look):
+        super().__init__()
+        self._look = look
+
+    def begin(self):
+        self.cockpit = self.run(node_path("cockpit", "cockpit.py"), "--port", str(self.port))
+        wait_for(lambda: "waiting for a ROS master" in self.cockpit.output, "its line")
+        self._look(self)
+        super().begin()
+
+    def start_cockpit(self):
+        self.find_page()

@@ -1,6 +1,6 @@
-"""Hosts on a network of their own: Linux network namespaces, joined by a switch.
+"""Hosts on a separate network: Linux network namespaces, joined by a switch.
 
-Nothing of it touches the machine's own network, and it is gone when its last program ends.
+It does not touch the machine's own network, and disappears when its last program ends.
 """
 
 import contextlib
@@ -18,10 +18,10 @@ class Host:
     """A network namespace. Programs started in it see its interfaces and no others."""
 
     def __init__(self, first=None):
-        """first: another host; without root only hosts of one user namespace can be joined."""
+        """first: another host. Without root, only hosts of one user namespace can be joined."""
         enter = first.command() if first and not AS_ROOT else []
         user = [] if AS_ROOT or first else ["--user", "--map-root-user"]
-        # A namespace lives as long as a program in it. This one ends with its standard input.
+        # A namespace lives as long as a program in it. This program ends with its standard input.
         self._holder = subprocess.Popen(
             [*enter, "unshare", *user, "--net", "sh", "-c", "echo; exec cat"],
             stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
@@ -34,7 +34,7 @@ class Host:
         self._holder.communicate("")
 
     def command(self, *command):
-        """Return the command line that runs a command on this host."""
+        """Return the command line that runs a command here."""
         user = [] if AS_ROOT else ["--user", "--preserve-credentials"]
         return ["nsenter", "--target", str(self._holder.pid), *user, "--net", *command]
 
@@ -46,10 +46,9 @@ class Host:
 
     @contextlib.contextmanager
     def inside(self):
-        """Let this thread, and what it starts, be on this host: only root may."""
-        with open("/proc/thread-self/ns/net") as own, open(
-            f"/proc/{self._holder.pid}/ns/net"
-        ) as there:
+        """Move this thread, and what it starts, to this host. Needs root."""
+        theirs = f"/proc/{self._holder.pid}/ns/net"
+        with open("/proc/thread-self/ns/net") as own, open(theirs) as there:
             _enter(there)
             try:
                 yield
@@ -58,7 +57,7 @@ class Host:
 
 
 def _enter(namespace):
-    # os.setns() is Python's from 3.12 on.
+    # Python has os.setns() from 3.12 on.
     libc = ctypes.CDLL(None, use_errno=True)
     if libc.setns(namespace.fileno(), CLONE_NEWNET):
         raise OSError(ctypes.get_errno(), "setns")
@@ -68,7 +67,7 @@ class Network(Started):
     """Two hosts, each with a cable to one switch. A context manager."""
 
     def __init__(self, addresses):
-        """addresses: name of each host -> its IPv4 address, all in one /24."""
+        """addresses: name of a host -> its IPv4 address, all in one /24."""
         super().__init__()
         self._switch = self._host()
         self._hosts = {}
@@ -92,7 +91,7 @@ class Network(Started):
         return host
 
     def pull_cable(self, name):
-        """Pull the cable of a host out of the switch: the host sees that it has no carrier."""
+        """Unplug a host from the switch: the host sees that it has no carrier."""
         self._switch.ip("link", "set", name, "down")
 
     def plug_cable(self, name):

@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""A person at the workstation: an F710 in D mode, held as the words on standard input say.
+"""A person at the workstation, who holds an F710 in D mode as standard input says:
 
 drive    LB and the stick forward
 release  the stick still forward, LB not
 neutral  neither
 
-A change is published at once, as a driver does, and printed: the word and the time [s].
+Each change is published at once, as a driver does, and printed: the word and the time [s].
 """
 
 import select
@@ -21,7 +21,7 @@ PERIOD_S = 0.02
 FORWARD, LB = 1, 4  # indices of the axis and the button
 HANDS = {"drive": (0.5, 1), "release": (0.5, 0), "neutral": (0.0, 0)}
 
-# Without /rosout: to ask the robot's master something at every line would not survive a cut.
+# Without /rosout, which would ask the robot's master at every line, and hang when the cable is cut.
 init_node("pilot", disable_rosout=True, disable_signals=True)
 publisher = rospy.Publisher("joy", Joy, queue_size=1, tcp_nodelay=True)
 joy, word = Joy(axes=[0.0] * 6, buttons=[0] * 12), "ready"

@@ -1,4 +1,4 @@
-"""The two machines of TWO_MACHINES.md: the robot with the master, and the workstation."""
+"""The two machines of TWO_MACHINES.md: the robot, which has the master, and the workstation."""
 
 import re
 import subprocess
@@ -14,7 +14,7 @@ ROBOT, WORKSTATION = "robot", "workstation"
 
 
 def page_blocks():
-    """Return the page's commands: name of the host -> (its address, its variables, its launch)."""
+    """Return the page's commands: name of a host -> (address, variables, launch command)."""
     page = (REPOSITORY / "common/doc/TWO_MACHINES.md").read_text()
     blocks = re.findall(r"^```bash\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
     lines = {host: block.splitlines() for host, block in zip((ROBOT, WORKSTATION), blocks)}
@@ -25,7 +25,7 @@ def page_blocks():
 
 
 class Scene(Robot):
-    """Both hosts and what runs on them. A context manager that leaves nothing behind."""
+    """Both hosts and their programs. A context manager that leaves nothing behind."""
 
     def begin(self):
         self._blocks = page_blocks()
@@ -51,25 +51,24 @@ class Scene(Robot):
         self.observe(self.network[ROBOT].command(*OBSERVER), **environment)
 
     def launch_workstation(self, launch=None):
-        """Start a launch on the workstation, by default the page's."""
+        """Start a launch command on the workstation, by default the page's."""
         self.workstation = self.start(WORKSTATION, launch or self._blocks[WORKSTATION][2])
 
     def launch_pilot(self):
-        """Let a person sit at the workstation, whose joystick tell() moves."""
-        self._pilot = self.start(
-            WORKSTATION, f"'{Path(__file__).with_name('pilot.py')}'", stdin=subprocess.PIPE
-        )
+        """Start the pilot at the workstation, whose joystick tell() moves."""
+        command = f"'{Path(__file__).with_name('pilot.py')}'"
+        self._pilot = self.start(WORKSTATION, command, stdin=subprocess.PIPE)
         wait_for(self._pilot_lines, "pilot")
 
     def tell(self, word):
         """Tell the pilot to drive, release or neutral; return the time [s] of the Joy."""
-        told = len(self._pilot_lines())
+        count = len(self._pilot_lines())
         self._pilot.type(word)
-        line = wait_for(lambda: self._pilot_lines()[told:], f"pilot that does {word}")[0]
+        line = wait_for(lambda: self._pilot_lines()[count:], f"pilot that does {word}")[0]
         return float(line.split()[1])
 
     def drive(self):
-        """Hold LB and the stick until the robot drives; return the Moment of it."""
+        """Hold LB and the stick until the robot drives; return its first Moment."""
         began = self.tell("drive")
         return self.first(lambda m: m.stamp > began and m.v > 0, "driving robot")
 
