@@ -1,4 +1,4 @@
-"""How long after LB is released on the workstation the wheels of the robot are at rest."""
+"""The time from the release of LB on the workstation until the robot's wheels are at rest."""
 
 from statistics import median, quantiles
 
@@ -7,7 +7,7 @@ from tutorial_testing.two_hosts.scene import Scene
 from tutorial_testing.waiting import wait_for
 
 TRIALS = 200
-LONGEST_S = 0.060  # for 99 of 100; 20 ms of it may pass until the next odometry
+LONGEST_S = 0.060  # for 99 of 100; up to 20 ms of it pass until the next odometry
 
 
 @claim("From LB released to wheels at rest over two hosts: the figure")
@@ -21,8 +21,9 @@ def test_stop_latency(figure):
         latencies = [one_stop(scene) for _ in range(TRIALS)]
     p99 = quantiles(latencies, n=100)[-1]
     what = f"LB released to wheels at rest, over two hosts, {TRIALS} times: median, 99 of 100"
-    found = f"{median(latencies) * 1e3:.1f}, {p99 * 1e3:.1f} ms"
-    figure(what, found, f"≤ {LONGEST_S * 1e3:.0f} ms")
+    figure(
+        what, f"{median(latencies) * 1e3:.1f}, {p99 * 1e3:.1f} ms", f"≤ {LONGEST_S * 1e3:.0f} ms"
+    )
     assert p99 <= LONGEST_S
 
 

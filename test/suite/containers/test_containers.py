@@ -29,7 +29,7 @@ PAGE = f"http://localhost:{PORT}/"
 WITH_TESTS = f'PYTHONPATH=$PYTHONPATH:{INSIDE}/test/support exec "$@"'
 LARGEST = 1e9  # bytes
 START_S = 60.0
-STUDENT = 4321  # a user number of the host that the image does not know
+STUDENT = 4321  # a uid of the host that the image does not have
 MAKE = "catkin_create_pkg beginner_tutorials std_msgs rospy roscpp"
 NEIGHBOUR = """
 import urllib.request, urllib.error
@@ -39,15 +39,12 @@ except urllib.error.HTTPError as error: print(error.code)"""
 
 
 def run(*command, text="", **environment):
-    """Run a command to its end; return what it prints. AssertionError if it fails.
-
-    text: for its standard input.
-    """
+    """Run a command; return its output. AssertionError if it fails. text: its standard input."""
     done = subprocess.run(
         command, env={**os.environ, **environment}, cwd=SOURCE, text=True, timeout=300, input=text,
         stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False,
     )  # fmt: skip
-    if done.returncode:  # assert would escape the ends of lines
+    if done.returncode:  # an assert statement would escape the newlines
         raise AssertionError(f"{' '.join(command)}: {done.returncode}\n{done.stdout}")
     return done.stdout
 
@@ -107,11 +104,11 @@ def wait_for_page(browser):
 
 
 def wait_for_movement(call, *terminal, robot=""):
-    """Wait until a robot moves, as rostopic prints it in a terminal."""
+    """Wait until a robot moves, as rostopic shows in a terminal."""
     echo = (*terminal, "rostopic", "echo", "-n", "1", f"{robot}/odom/twist/twist/linear/x")
 
     def moves():
-        with contextlib.suppress(AssertionError):  # its master is not there yet
+        with contextlib.suppress(AssertionError):  # its master does not run yet
             return "0.0" not in call(*echo).splitlines()
         return False
 
@@ -119,7 +116,7 @@ def wait_for_movement(call, *terminal, robot=""):
 
 
 def ends_by_itself(container):
-    """Return whether a container ends when it is asked to, so that the engine need not kill it."""
+    """Return whether a container ends when asked to, so that the engine need not kill it."""
     run("docker", "stop", "--time", "60", container)
     return run("docker", "inspect", "-f", "{{.State.ExitCode}}", container).strip() != "137"
 
@@ -142,7 +139,7 @@ def test_up_shows_a_moving_robot_on_this_host_alone():
         assert PAGE in compose("logs")
 
         interfaces = json.loads(run("ip", "-json", "-4", "address"))
-        addresses = {one["local"] for interface in interfaces for one in interface["addr_info"]}
+        addresses = {entry["local"] for given in interfaces for entry in given["addr_info"]}
         for address in addresses - {"127.0.0.1"}:
             with pytest.raises(OSError):
                 socket.create_connection((address, PORT), 2).close()
@@ -202,7 +199,7 @@ def test_a_students_workspace_stays_the_students(workspace):
 @claim("A student's workspace stays the student's; terminals begin there", because="terminals")
 def test_a_terminal_starts_in_the_workspace_and_ends_at_once(workspace):
     owner = workspace.stat().st_uid
-    if owner == STUDENT:  # so that the image's own user may not write there
+    if owner == STUDENT:  # the image's own user may not write there
         with Compose(CATKIN_WS=str(workspace)) as compose, pytest.raises(AssertionError) as wrong:
             compose("run", "--rm", "-T", "shell")
         assert f"export STUDENT={owner}:{owner}" in str(wrong.value)
@@ -267,7 +264,7 @@ def test_gradescopes_autograder_as_the_service_runs_it(tmp_path):
     file = tmp_path / "autograder.zip"
     run(str(SOURCE / "tutorial"), "check", "--package", "gradescope", "--out", str(file), "2", "3")
     with zipfile.ZipFile(file) as packed:
-        for about in packed.infolist():  # as unzip does it, with the rights
+        for about in packed.infolist():  # as unzip does, with their permissions
             path = packed.extract(about, autograder / "source")
             os.chmod(path, about.external_attr >> 16 & 0o777)
     shutil.copytree(SOURCE / "test/tutorial_check/exercises/literal", autograder / "submission")
@@ -277,9 +274,9 @@ def test_gradescopes_autograder_as_the_service_runs_it(tmp_path):
     results = autograder / "results/results.json"
 
     def scores():
-        found = json.loads(results.read_text())
+        tests = json.loads(results.read_text())["tests"]
         results.unlink()
-        return [one["score"] for one in found["tests"]]
+        return [test["score"] for test in tests]
 
     run(*inside, "/autograder/source/setup.sh && /autograder/source/run_autograder")
     right = scores()

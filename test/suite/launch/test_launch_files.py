@@ -1,4 +1,4 @@
-"""roslaunch can read every launch file, and finds what it names."""
+"""roslaunch can read every launch file, and finds the files and nodes that it names."""
 
 import math
 import os
@@ -22,7 +22,7 @@ CAMERA = """camera publish_tf 3d_sensor depth_registration num_worker_threads sc
     rgb_processing ir_processing scan_processing depth_processing depth_registered_processing
     disparity_processing disparity_registered_processing"""
 PLACE = "world x y yaw"
-# The arguments that a launch file takes, those of upstream and ours.
+# The arguments that a launch file accepts: upstream's, and ours.
 ARGUMENTS = {
     "turtlebot_bringup/minimal.launch": (
         f"base battery stacks 3d_sensor simulation serialport robot_name robot_type {PLACE}"
@@ -61,7 +61,7 @@ def test_arguments_of_public_launch_files(file, tmp_path, monkeypatch):
     outer.write_text(f'<launch><group ns="tb1">{include}</group></launch>')
     config = roslaunch.config.load_config_default([str(outer)], None, verbose=False)
     assert {node.namespace for node in config.nodes} == {"/tb1/"}
-    places = {key.split("/")[-1]: one.value for key, one in config.params.items()}
+    places = {key.split("/")[-1]: param.value for key, param in config.params.items()}
     if "x" in names:
         assert (places["initial_x"], places["initial_y"], places["initial_yaw"]) == (1.5, 1, 1)
 
@@ -93,7 +93,7 @@ def test_a_copy_of_upstreams_own_launch_files_finds_what_these_include(tmp_path,
 
 
 def test_rbx1s_robot_has_the_names_of_the_original(monkeypatch):
-    """Its parameters are set after those of an earlier launch are cleared."""
+    """The launch file clears the parameters of an earlier launch before it sets its own."""
     given = loaded(monkeypatch, "rbx1_bringup/fake_turtlebot.launch")
     assert {node.name for node in given.nodes} == {"arbotix", "robot_state_publisher"}
     values = {key: one.value for key, one in given.params.items()}
@@ -104,9 +104,9 @@ def test_rbx1s_robot_has_the_names_of_the_original(monkeypatch):
 
 
 def loaded(monkeypatch, file, *arguments):
-    """Return what roslaunch makes of a launch file of joy2twist, or of PACKAGE/FILE."""
+    """Return roslaunch's configuration for a launch file of joy2twist, or for PACKAGE/FILE."""
     *package, name = file.split("/")
-    (path,) = (one for one in FILES if one.parts[-3::2] == (*(package or ["joy2twist"]), name))
+    (path,) = (file for file in FILES if file.parts[-3::2] == (*(package or ["joy2twist"]), name))
     monkeypatch.setattr("sys.argv", ["roslaunch", *arguments])
     return roslaunch.config.load_config_default([str(path)], None, verbose=False)
 
@@ -146,7 +146,7 @@ def test_a_preset_without_limits_gets_those_of_a_turtlebot(monkeypatch, tmp_path
 @claim("`joy_pkg` takes another package's node; `joy_node` leaves no parameter")
 def test_joy_pkg_is_the_package_whose_node_reads_the_device(monkeypatch):
     given = loaded(monkeypatch, "launch_joy_node.launch", "joy_pkg:=joy", "joy_dev:=/tmp/a b")
-    (node,) = (one for one in given.nodes if one.name == "joy_node")
+    (node,) = (node for node in given.nodes if node.name == "joy_node")
     assert node.package == "joy"
     assert "_dev:='/tmp/a b'" in node.args or "_dev:=/tmp/a b" in node.args
 
@@ -155,7 +155,7 @@ def test_a_recording_by_a_relative_path_is_found_and_parameters_of_before_are_no
     folder = REPOSITORY / "joy2twist/bag"
     monkeypatch.setenv("PWD", str(folder))
     given = loaded(monkeypatch, "launch_bag.launch", "bag:=../bag/joy.bag", "rviz:=false")
-    (node,) = (one for one in given.nodes if one.name == "rosbag")
+    (node,) = (node for node in given.nodes if node.name == "rosbag")
     assert f"{folder}/../bag/joy.bag" in node.args
     assert "/myjoystick2twist/" in given.clear_params
 
@@ -168,4 +168,4 @@ def test_rviz_opens_where_there_is_a_screen_or_where_it_is_asked_for(monkeypatch
     given = loaded(monkeypatch, "launch_bag.launch", "cockpit:=false", *asked)
     expected = ["/fake_turtlebot", *["/my_rviz"] * opens]
     expected += ["/myjoystick2twist", "/robot_state_publisher", "/rosbag"]
-    assert sorted(one.namespace + one.name for one in given.nodes) == expected
+    assert sorted(node.namespace + node.name for node in given.nodes) == expected

@@ -1,8 +1,8 @@
-"""Makes small changes to the rules, one at a time, and counts those that no unit test notices.
+"""Make small changes to the rules, one at a time, and count those that no unit test notices.
 
-cosmic-ray (PyPI) makes the changes in a copy of the repository and runs the tests of the package,
-those of the module first, and then those of the invariants that use the package. The rules: modules
-that import neither ROS nor the operating system.
+cosmic-ray (PyPI) makes the changes in a copy of the repository. It runs the module's tests, then
+the package's, then the invariants that use the package. The rules are the modules that import
+neither ROS nor the operating system.
 """
 
 import argparse
@@ -19,16 +19,16 @@ from pathlib import Path
 
 REPOSITORY = Path(__file__).resolve().parents[3]
 MOST_SURVIVORS = 10  # %; a module with more fails
-# Longer than all others together; what they find, others must find too.
+# These tests take longer than all others together, which must find the same changes.
 NOT_RUN = "not 100_000 and not whatever_the_rate and not million"
 IMPURE = re.compile(
     r"^(import|from) (os|pathlib|rospy|socket|subprocess|threading|time|\w+_msgs)\b", re.M
 )
-# Each change is tried alone: no plugin that runs tests side by side, or again.
+# Without plugins that run tests in parallel or again.
 PYTEST = "-m pytest -x -q --hypothesis-seed=0" + "".join(
     f" -p no:{plugin}" for plugin in ("cacheprovider", "xdist", "benchmark")
 )
-# Bits of a float, the identity of numbers, and the | of a type say nothing about the rules.
+# Changes to bits of a float, the identity of numbers and the | of a type do not concern the rules.
 CONFIG = """
 [cosmic-ray]
 module-path = "{module}"
@@ -47,7 +47,7 @@ exclude-operators = [
 
 def modules():
     """Return {name of a module: (its file, its tests)}, relative to the repository."""
-    found, invariants = {}, REPOSITORY / "test/suite/unit/test_stateful.py"
+    rules, invariants = {}, REPOSITORY / "test/suite/unit/test_stateful.py"
     judging = [*REPOSITORY.glob("test/support/tutorial_faults/**/*.py"), invariants]
     judges = "".join(path.read_text() for path in judging)
     for folder in sorted(REPOSITORY.glob("test/*/unit/")):
@@ -59,12 +59,12 @@ def modules():
             if using and is_pure and not IMPURE.search(source.read_text()):
                 more = [invariants] if f"from {name.split('.')[0]}." in judges else []
                 tried = [str(path.relative_to(REPOSITORY)) for path in (*using, folder, *more)]
-                found[name] = (str(source.relative_to(REPOSITORY)), " ".join(tried))
-    return found
+                rules[name] = (str(source.relative_to(REPOSITORY)), " ".join(tried))
+    return rules
 
 
 def leave_out(session, sample, seed):
-    """Keep one of `sample` changes, the same for the same seed, and none that was filtered out."""
+    """Keep one in `sample` of the changes that were not filtered out, by a seed."""
     with sqlite3.connect(session) as database:
         order = "operator_name, occurrence, operator_args"
         wanted = "job_id NOT IN (SELECT job_id FROM work_results)"
@@ -83,7 +83,7 @@ def examine(copy, module, source, tests, options):
     if subprocess.call(command, shell=True, cwd=copy, stdout=subprocess.DEVNULL):
         sys.exit(f"{module}: its tests fail as it is: see ./tutorial test unit")
     timeout_s = 10 + 4 * (time.monotonic() - begin_s)
-    # cosmic-ray ends the shell alone, and would wait for a pytest that works without end.
+    # cosmic-ray ends the shell alone, and would wait for a pytest that never ends.
     command = f"timeout --signal=KILL {timeout_s:.0f} {command}"
     config, session = f"{copy}/cosmic-ray.toml", f"{copy}/{module}.sqlite"
     Path(config).write_text(CONFIG.format(module=source, timeout_s=timeout_s + 10, command=command))
@@ -102,7 +102,7 @@ def examine(copy, module, source, tests, options):
 
 
 def main():
-    """Examine the modules that are named, or all; return 1 if one has too many survivors."""
+    """Examine the named modules, or all; return 1 if a module has too many survivors."""
     parser = argparse.ArgumentParser(prog="./tutorial test mutation", description=__doc__)
     known = modules()
     parser.add_argument("modules", nargs="*", metavar="MODULE", help=", ".join(known))
@@ -118,9 +118,8 @@ def main():
         parser.error(f"--sample {options.sample}: not 1 or more")
     os.environ["PYTHONDONTWRITEBYTECODE"] = "1"  # two changes may come within one second
     with tempfile.TemporaryDirectory() as folder:
-        copy = shutil.copytree(
-            REPOSITORY, Path(folder, "copy"), symlinks=True, ignore=shutil.ignore_patterns(".git")
-        )
+        ignored = shutil.ignore_patterns(".git")
+        copy = shutil.copytree(REPOSITORY, Path(folder, "copy"), symlinks=True, ignore=ignored)
         few = [examine(copy, name, *known[name], options) for name in named]
     return 0 if all(few) else 1
 

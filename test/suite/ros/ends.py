@@ -1,4 +1,4 @@
-"""Every node exits in time, a base at rest first, whatever the screen, peers and master do."""
+"""Every node exits in time whatever the screen, peers and master do; a base comes to rest first."""
 
 import contextlib
 import math
@@ -26,7 +26,7 @@ LONGEST_END_S = 1.5 + BUSY_S
 @pytest.mark.long
 class FaultsAtTheEnd(RosTest):
     def check_each(self, rig, number, meanwhile):
-        """Each exits in time, in a context that meanwhile(node) returns, and the robot rests."""
+        """Check that each node exits in time within meanwhile(node), and that the robot rests."""
         for node in rig.nodes:
             rig.drive()
             pid = pid_of(node)
@@ -49,7 +49,7 @@ class FaultsAtTheEnd(RosTest):
             self.check_each(rig, signal.SIGTERM, lambda node: suspended(pids(node)))
 
     def test_a_warning_while_the_master_hangs_makes_no_node_deaf(self):
-        """NaN and a speed beyond the robot's bring a warning of the mux and of the base."""
+        """NaN and a speed beyond the robot's make the mux and the base log a warning."""
         with Rig() as rig:
             rig.drive()
             pilot = self.connected("/cmd_vel_mux/input/teleop", Twist)

@@ -1,4 +1,4 @@
-"""Nodes are suspended, or killed and restarted: while LB is held only a release lets it drive.
+"""Nodes are suspended, or killed and restarted: with LB held, the robot waits for its release.
 
 A program that goes on sending is obeyed again.
 """
@@ -26,7 +26,7 @@ WATCHED_S = 1.2  # after a node is back
 @pytest.mark.long
 class LostNodes(RosTest):
     def check_rest(self, rig, began_s, ended_s, what, rests_s=0.0):
-        """Nothing moves from some time after the end on, for WATCHED_S, or again before that."""
+        """Check that nothing moves for WATCHED_S after rests_s, or again after it has rested."""
         wait_for(lambda: rig.since(ended_s + WATCHED_S), "odometry")
         resting = itertools.dropwhile(lambda moment: moment.moves, rig.since(began_s))
         moved = [moment for moment in resting if moment.moves]
@@ -34,7 +34,7 @@ class LostNodes(RosTest):
         self.assertEqual([moment.stamp - began_s for moment in moved], [], what)
 
     def check_suspension(self, rig, node, duration_s):
-        """The robot comes to rest in time, and stays."""
+        """Check that the robot comes to rest in time, and stays at rest."""
         pids = [pid_of(node)]
         rig.drive()
         late_s, began_s = tolerance(), suspend(pids)
@@ -47,7 +47,7 @@ class LostNodes(RosTest):
         self.check_rest(rig, began_s, ended_s, f"{node} for {duration_s} s", rests_s)
 
     def check_restart(self, rig, node):
-        """The robot stands, although LB is held."""
+        """Check that the robot stays at rest, although LB is held."""
         rig.drive()
         rig.kill(node)
         rig.start(node)
@@ -77,5 +77,6 @@ class LostNodes(RosTest):
             stopped = rig.now.stamp
             threading.Event().wait(1.5)
             signal_all(base, signal.SIGCONT)
-            later = stopped + 1.5 + 2 * TIMEOUT_S  # when what was sent before counts no more
-            wait_for(lambda: any(one.moves for one in rig.since(later)), "robot that drives on")
+            later = stopped + 1.5 + 2 * TIMEOUT_S  # when earlier commands have expired
+            moves = lambda: any(moment.moves for moment in rig.since(later))  # noqa: E731
+            wait_for(moves, "robot that drives on")

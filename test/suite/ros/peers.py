@@ -1,4 +1,4 @@
-"""Other programs that send to a node: another joystick, unreadable messages, silence."""
+"""Other programs that connect to a node: another joystick, unreadable messages, a silent peer."""
 
 import io
 import socket
@@ -40,7 +40,7 @@ class FaultsOfThePeers(RosTest):
         self.velocities.clear()
         seen.clear()
         self.start("rostopic", "pub", "-r", "50", "/joy", "sensor_msgs/Joy", str(HELD))
-        # The first one goes on, so that it is not its silence that disarms.
+        # The first joystick goes on, so that its silence does not disarm.
         held = lambda: sum(joy.buttons[LB] for joy in list(seen))  # noqa: E731
         wait_for(lambda: first.publish(NEUTRAL) or held() >= 50, "second joystick")
         self.assertEqual([v.linear.x for v in self.velocities if v.linear.x], [])
@@ -84,7 +84,7 @@ def way_to(node, topic):
 
 
 def greeting(way, topic, kind):
-    """Return a node's answer to a new subscriber, by hand: rospy counts one before its greeting."""
+    """Return a node's answer to a new subscriber that has sent its header by hand."""
     with socket.create_connection(way) as subscriber:
         subscriber.settimeout(DEADLINE_S)
         header = {"callerid": "/new", "topic": topic, "type": kind._type, "md5sum": kind._md5sum}

@@ -1,4 +1,4 @@
-"""`./tutorial test faults`: some of it finds nothing in ours, and it would find something."""
+"""`./tutorial test faults`: it finds nothing in our nodes, and would find a fault."""
 
 import re
 
@@ -24,7 +24,7 @@ def test_random_faults_violate_nothing(call, base):
     [
         # 6.2 of the handout: one zero, then about 50 more velocities while its shutdown sleeps.
         ("end:joy2twist", r"\(d\) wheels turn \d\.\d+ s after the loss by end:joy2twist"),
-        # A program that goes on sending is obeyed by a base that was restarted.
+        # A restarted base obeys a program that goes on sending.
         ("kill:base", r"\(b\) moved again after \d\.\d+ s"),
     ],
 )

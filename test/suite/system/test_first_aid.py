@@ -1,7 +1,7 @@
 """The problems that beginners of ROS 1 report most, as TROUBLE.md and the doctor answer them.
 
-Each is made here, as far as this machine can, in bash. What is printed must have the sentence of
-the page, in which "..." stands for names, and the doctor's words, where it is the tool.
+A bash script causes each problem, if this machine can. The output must contain the page's sentence,
+in which "..." stands for names, and the doctor's words, if the script runs it.
 """
 
 import re
@@ -21,7 +21,7 @@ PATH = REPOSITORY / "common/doc/TROUBLE.md"
 PAGE = PATH.read_text()
 SENTENCES = PAGE.split("## By message")[1].split("## By what you see")[0]
 CELLS = re.findall(r"^\| (`.*?) \| (.*) \|$", SENTENCES, re.M)
-# What the scripts share: a package in the workspace of their folder, a master, the doctor.
+# What the scripts share: a package in a workspace in their folder, a master, the doctor.
 COMMON = r"""
 cd "$0"
 trap 'kill $(jobs -p) 2>/dev/null; wait' EXIT
@@ -52,7 +52,7 @@ until_it_says() { # WORDS COMMAND ...
 }
 python() { PYTHONPATH=$1:$PYTHONPATH /usr/bin/python3 "${@:2}"; }
 """
-# Of each problem: the sentence of the page, how it is made, and behind > the doctor's words.
+# Of each problem: the page's sentence, the script that causes it, and after > the doctor's words.
 MADE = r"""
 Unable to register with master node ...
     until_it_says Unable rosrun beginner_tutorials talker.py; doctor
@@ -160,7 +160,7 @@ RLException: Invalid <param> tag: Cannot load command parameter
     roslaunch joy2twist launch_bag.launch rviz:=maybe
 """  # noqa: RUF001
 MADE = re.findall(r"^(\S.*)\n((?: {4}.*\n)+)(?:  > (.*))?", MADE, re.M)
-# Which are not made here: the sentence, and why, or what tests the answer in its place.
+# Problems without a script: the sentence, and why, or which test covers the answer.
 NOT_MADE = {
     "EXPKEYSIG F42ED6FBAB17C654 Open Robotics": "needs the archive of packages.ros.org: not tested",
     "No permission to read /dev/input/js0": "root may read all: test_doctor_judgement.py",

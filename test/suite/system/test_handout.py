@@ -1,7 +1,7 @@
-"""The tutorial's handout, typed word for word by a student with a workspace of their own.
+"""The tutorial's handout, typed word for word by a student with a new workspace.
 
-In its order; each row is the terminal, what is typed there, and what must be seen. Nothing of the
-solutions may be.
+Rows in the handout's order: the terminal, what is typed there, and a pattern of its output, which
+comes from none of our solutions.
 """
 
 import re
@@ -12,8 +12,8 @@ from tutorial_testing.claims import claim
 from tutorial_testing.processes import REPOSITORY
 from tutorial_testing.waiting import wait_for
 
-# Programs and launch files as the handout prints them: env python, load_manifest, absolute topics,
-# no queue_size, six axes in one format; but in our own words.
+# Programs and launch files like the handout's: env python, load_manifest, absolute topics, no
+# queue_size, six axes in one format; but in our own words.
 LITERAL = REPOSITORY / "test/tutorial_check/exercises/literal"
 PACKAGES = [
     ("1", "cd ~/ros/hydro/catkin_ws/src", ""),
@@ -68,10 +68,10 @@ TURTLEBOT = [
 
 
 def nothing_of_ours(student):
-    """Return whether no file of the solutions is found from the student's terminals."""
+    """Return whether the student's terminals find no file of the solutions."""
     packages = ("joy2twist", "beginner_tutorials")
-    found = "".join(student.run(f"rospack find {one}; catkin_find {one}") for one in packages)
-    return not any(f"{REPOSITORY}/{package}" in found for package in packages)
+    paths = "".join(student.run(f"rospack find {name}; catkin_find {name}") for name in packages)
+    return not any(f"{REPOSITORY}/{name}" in paths for name in packages)
 
 
 @claim("The handout can be typed word for word; nothing of our solutions is found")
@@ -87,10 +87,8 @@ def test_the_handout_from_its_first_command_to_its_last_and_its_check(student):
     assert nothing_of_ours(student)
     student.close("7")
     student.do(TURTLEBOT)
-    wait_for(
-        lambda: "/myjoystick2twist" in student.run("rostopic info /cmd_vel_mux/input/teleop"),
-        "joy2twist at the robot",
-    )
+    info = "rostopic info /cmd_vel_mux/input/teleop"
+    wait_for(lambda: "/myjoystick2twist" in student.run(info), "joy2twist at the robot")
     assert f"{student.workspace}/src/joy2twist" in student.run("tutorial doctor")
     student.close()
     said = student.run("cd / && tutorial check 2")

@@ -1,7 +1,7 @@
 """The pages of the ROS wiki that the handout links, and those that follow them, as a student types.
 
-In their order; each row is the terminal, what is typed there, and what must be seen. What differs
-from a page is in TUTORIAL.md's table of pages.
+Rows in the pages' order: the terminal, what is typed there, and a pattern of its output. A table of
+TUTORIAL.md says what differs from a page.
 """
 
 import re
@@ -17,13 +17,13 @@ WRITTEN = REPOSITORY / "test/suite/system/linked_pages"  # what the pages show, 
 SOLVED = REPOSITORY / "common/courses/wiki/solutions/right/beginner_tutorials"
 WS = "~/ros/hydro/catkin_ws"
 TWIST = "geometry_msgs/Twist"
-TALKS = r"good day(.*\n)+.*good day"  # A Ctrl-C within the first one may lock rospy for ever.
+TALKS = r"good day(.*\n)+.*good day"  # a Ctrl-C during the first line may deadlock rospy
 CMD_VEL = f"/turtle1/cmd_vel {TWIST}"
-RECORD = "stdbuf -oL rosbag record"  # it prints at once, as it does on a screen
+RECORD = "stdbuf -oL rosbag record"  # prints at once, as on a screen
 
 
 def in_a_tty(command):
-    """Return the line that runs a command with a terminal of its own, which passes keys on."""
+    """Return the line that runs a command in a new terminal, which passes keys on."""
     return f"script -qc '{command}' /dev/null; echo ended-$((1000 + 7))"
 
 
@@ -61,12 +61,9 @@ TOPICS = [
     ("echo", "rostopic echo /turtle1/cmd_vel", ""),
     ("1", "cd; rosrun rqt_graph rqt_graph", "wrote .*rosgraph.png"),
     ("1", "rostopic -h", "rostopic bw"),
-    # rostopic echo says nothing once it subscribes.
-    (
-        "1",
-        "until rostopic list -v | grep '2 subscribers'; do sleep 0.1; done",
-        r"/turtle1/cmd_vel \[geometry_msgs/Twist\] 2 subscribers",
-    ),
+    # rostopic echo does not print that it has subscribed.
+    ("1", "until rostopic list -v | grep '2 subscribers'; do sleep 0.1; done",
+     r"/turtle1/cmd_vel \[geometry_msgs/Twist\] 2 subscribers"),
     ("keys", "\x1b[A", ""),
     ("echo", "", r"^  x: 2.0\n"),
     ("echo", CTRL_C, ""),
@@ -79,7 +76,7 @@ TOPICS = [
     ("echo", "rostopic hz /turtle1/pose", r"average rate: [56]\d\."),
     ("echo", CTRL_C, ""),
     ("keys", CTRL_C, ""),
-]
+]  # fmt: skip
 SERVICES_AND_PARAMETERS = [
     ("1", "rosservice list", "^/turtle1/teleport_absolute"),
     ("1", "rosservice type /clear | rossrv show", "^---"),
@@ -104,7 +101,7 @@ RQT_CONSOLE = [
 ]
 ROSLAUNCH = [
     ("1", "roscd beginner_tutorials\nmkdir launch config scripts", ""),
-    *(("write", "beginner_tutorials/launch", one / "launch") for one in (SOLVED, WRITTEN)),
+    *(("write", "beginner_tutorials/launch", path / "launch") for path in (SOLVED, WRITTEN)),
     ("write", "beginner_tutorials/config", WRITTEN / "config"),
     ("sim", "roslaunch beginner_tutorials turtlemimic.launch", r"process\[mimic-3\]"),
     ("keys", f"rostopic pub /turtlesim1{CMD_VEL} -r 1 -- '[2.0, 0.0, 0.0]' '[0.0, 0.0, -1.8]'", ""),
@@ -189,7 +186,7 @@ ROSWTF = [("1", "roscd rosmaster && roswtf", "rosdep2 --[^E]*Beginning tests")]
 
 
 def uncomment_messages(package):
-    """Edit what catkin_create_pkg has made as the page on messages and services says."""
+    """Edit catkin_create_pkg's files as the page on messages and services says."""
     path = package / "package.xml"
     comment = r"<!-- +(<(?:build|exec)_depend>message_\w+</\w+>) -->"
     path.write_text(re.sub(comment, r"\1", path.read_text()))

@@ -1,8 +1,8 @@
-"""What ./tutorial runs can be reached from this machine only, until the user names an address.
+"""Programs of ./tutorial are reachable from this machine only, until the user names an address.
 
-ROS's own limit, which stays: a C++ node (rosout, robot_state_publisher, rosbag) answers XML-RPC on
-every address. A program that finds that port can end the node, or name another
-publisher to it; the master, the Python nodes and every topic are out of reach.
+A limit of ROS remains: C++ nodes (rosout, robot_state_publisher, rosbag) answer XML-RPC on every
+address, so another machine can end them, or give them a publisher. The master, the Python nodes and
+all topics are out of reach.
 """
 
 import re
@@ -18,13 +18,13 @@ from tutorial_testing.waiting import wait_for
 pytestmark = claim("All stays on this machine until the user names an address")
 CPP_NODES = {"/rosout", "/robot_state_publisher", "/rosbag"}
 MASTER_PORT = 11311
-# Tries each port of an address, and prints those that answer.
+# Prints the ports of an address that accept a connection.
 CONNECT = """
 import socket, sys
 for port in sys.argv[2:]:
     if not socket.socket().connect_ex((sys.argv[1], int(port))): print(port)
 """
-# Every node and its XML-RPC port, by its master.
+# Prints every node and its XML-RPC port.
 XML_RPC_PORTS = """
 import rosgraph, rosnode
 master = rosgraph.Master("/test")
@@ -51,7 +51,7 @@ def listening(host):
 
 
 def reachable(scene):
-    """Return those ports of the robot to which the workstation can connect."""
+    """Return the robot's ports to which the workstation can connect."""
     given = (scene.address(ROBOT), *map(str, listening(scene.network[ROBOT])))
     return set(map(int, said(scene.network[WORKSTATION], sys.executable, "-c", CONNECT, *given)))
 

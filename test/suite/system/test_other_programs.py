@@ -1,4 +1,4 @@
-"""OTHER_PROGRAMS.md: each line, by programs of the same imports, topics and timing.
+"""OTHER_PROGRAMS.md: each line, with programs of the same imports, topics and timing.
 
 They are those of other_programs/, a package in a student's workspace, in our own words.
 """
@@ -29,13 +29,13 @@ LAUNCH = {
     "rbx1": ("rbx1_bringup", "fake_turtlebot.launch"),
     "TurtleBot": ("turtlebot_bringup", "minimal.launch", "world:=room"),
 }
-# What the page has the user do to a program first, in its words and as a command.
+# What the page tells the user to do to a program first, in its words and as a command.
 HOW = {
     "as it is": "true",
     "`2to3`": "2to3 -w {0}",
     "`expand`": "expand -i {0} > new && cat new > {0}",
 }
-LEG_S = 6.0  # The shortest drive of a program takes about so long.
+LEG_S = 6.0  # about the shortest drive of a program
 TO_MUX = "cmd_vel:=cmd_vel_mux/input/teleop"
 JOY = "rostopic pub -r 20 joy sensor_msgs/Joy '{axes: [0, 0.4], buttons: [1]}'"
 PUSH = "rosrun others sender cmd_vel_mux/input/navi 10 60,0.6,0"
@@ -43,7 +43,7 @@ ARC = "rosrun others sender cmd_vel_mux/input/navi 10 1,0.2,0.6"
 
 
 class Row(NamedTuple):
-    """A program for these lines of the page; at least it drives [m], turns [rad], prints this."""
+    """A program for these lines of the page; it drives [m] and turns [rad] this far, or prints."""
 
     names: str
     robot: str
@@ -75,18 +75,13 @@ ROWS = [
 ]  # fmt: skip
 # In a terminal, with keys.
 KEYBOARD = Row("teleop_twist_keyboard.py", "TurtleBot", f"teleop {TO_MUX}")
-# What waits for ever.
-WAIT = {
-    **dict.fromkeys(
-        ("move_base_square.py", "goforward_and_avoid_obstacle.py", "follow_the_route.py"),
-        "waits for move_base",
-    ),
-    "follower.py": "waits for a camera",
-}
+# Programs that wait without end.
+PLANNED = ("move_base_square.py", "goforward_and_avoid_obstacle.py", "follow_the_route.py")
+WAIT = {**dict.fromkeys(PLANNED, "waits for move_base"), "follower.py": "waits for a camera"}
 
 
 class Place(Robot):
-    """A robot with its observer on a master of its own, and the shell of a student there."""
+    """A robot and its observer with a separate master, and a student's shell there."""
 
     def __init__(self, folder, robot):
         super().__init__()
@@ -113,14 +108,14 @@ class Place(Robot):
             return program.output
 
     def way_since(self, begin):
-        """Return how far [m] it has driven and turned [rad] since it had so much odometry."""
+        """Return how far it has driven [m] and turned [rad] since this index of its odometry."""
         poses = [moment.pose for moment in self.odometry[begin:]]
         steps = list(zip(poses, poses[1:]))
         metres = sum(math.dist(old[:2], new[:2]) for old, new in steps)
         return metres, sum(abs(math.remainder(new[2] - old[2], math.tau)) for old, new in steps)
 
     def prepare(self, row):
-        """Do what the page says, without which Python 3 cannot read the program."""
+        """Do what the page says, which Python 3 needs to read the program."""
         path = self.scripts / row.command.split()[0]
         if row.how == "`expand`" and path.name == "sender":
             path.write_text(re.sub("^ {8}(?=self|rate)", "\t", path.read_text(), flags=re.M))
@@ -146,7 +141,7 @@ def test_a_program_drives_or_prints_what_it_does_on_a_robot(row, places):
 
     def done():
         metres, radians = place.way_since(begin)
-        # A program that drives by time drives less of its way on a busy machine.
+        # A program that drives by time drives less far on a busy machine.
         share = max(0.2, 1 - watch.lost_s / LEG_S)
         enough = metres >= share * row.metres and radians >= share * row.radians
         return enough and re.search(row.prints, it.output)
@@ -187,7 +182,7 @@ def lines():
 
 
 def packages(what):
-    """Return the names of ROS packages of which the page says this."""
+    """Return the names of the ROS packages for which the page says this."""
     return {name for name, row in lines().items() if row[1].strip() == what}
 
 
@@ -225,5 +220,5 @@ def test_debian_has_what_hints_name():
     listed = [row.partition(":")[0].replace("*", "") for t in tables for row in t.splitlines()]
     names = " ".join([*listed, causes.MODULES, causes.DEV_PACKAGES]).split()
     packages = {causes.package_of_module(name) for name in names} - {""}
-    packages |= {one for name in names for one in causes.packages_of_ros(name).split()}
+    packages |= {package for name in names for package in causes.packages_of_ros(name).split()}
     assert shown(*packages) == packages

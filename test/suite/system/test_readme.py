@@ -1,7 +1,7 @@
-"""The commands of the README and its pages, read from them, run: section by section, in order.
+"""The commands of the README and its pages run, section by section, in order.
 
-A section's ```bash blocks are its commands. What lasts until Ctrl-C goes on until the section ends,
-or until another one that drives begins. A block that opens a student's shell is run in a new
+A section's ```bash blocks are its commands. A command that runs until Ctrl-C is ended with its
+section, or before another one that drives. A block that opens a student's shell runs in a new
 workspace.
 """
 
@@ -15,7 +15,7 @@ from tutorial_testing.waiting import wait_for
 
 README = REPOSITORY / "README.md"
 PAGES = [README, *sorted((REPOSITORY / "common/doc").glob("*.md"))]
-# What lasts until Ctrl-C, and what it prints once it runs ("": nothing, being there is enough).
+# Commands that run until Ctrl-C, and what they print once they run ("": nothing).
 LASTING = {
     "rosrun beginner_tutorials talker.py": "hello world",
     "roslaunch beginner_tutorials talker_listener.launch": "I heard hello world",
@@ -30,13 +30,13 @@ LASTING = {
     "rostopic hz": "average rate",
     "rostopic echo /": "---",
 }
-# Of those, one of each line at a time: the others are ended before the next one starts.
+# Of each line, one command runs at a time: the others are ended before it starts.
 EITHER = (
     ("rosrun joy2twist", "roslaunch joy2twist"),
     ("roslaunch fake_turtlebot_sim", "roslaunch joy2twist"),
     ("rosrun beginner_tutorials stop", "rosrun beginner_tutorials wander"),
 )
-# What is not run here, and why.
+# What does not run here, and why.
 LEFT_OUT = {
     "roscore": "runs already: this test has one for every section",
     "./tutorial demo": "test_demo.py and test/check_bare_machine run it",
@@ -55,7 +55,7 @@ STUDENTS_SHELL = "./tutorial shell --in ~/catkin_ws"
 
 
 def sections():
-    """(heading, blocks) of every section with commands; a block is a list of lines."""
+    """Yield the blocks of every section with commands; a block is a list of lines."""
     for page in PAGES:
         for part in re.split(r"^#+ ", page.read_text(), flags=re.MULTILINE)[1:]:
             heading, _, body = part.partition("\n")
@@ -70,7 +70,7 @@ def sections():
 
 @pytest.fixture
 def roscore(tutorial, host, master_uri):
-    """A ROS master, which the README's user starts once and keeps."""
+    """A ROS master, which the README's user starts once and leaves running."""
     with host.start(tutorial, "run", "roscore", "-p", master_uri.rsplit(":", 1)[1]) as program:
         wait_for(lambda: "started core service" in program.output, "roscore")
         yield

@@ -1,4 +1,4 @@
-"""What the judge of the live hunt sees in a stream of events."""
+"""What the judge of the live hunt reports for a stream of events."""
 
 import pytest
 
@@ -11,7 +11,7 @@ DRIVES, RESTS = velocity(0.3, 0.0), velocity(0.0, 0.0)
 
 
 def odometry(begin_s, end_s, seen):
-    """Return what a base reports at 50 Hz."""
+    """Return what a base reports, at 50 Hz."""
     return [Event(k / 50, WHEELS, seen) for k in range(round(begin_s * 50), round(end_s * 50))]
 
 

@@ -1,4 +1,4 @@
-"""What holds for every package: catkin's rules, versions, and what leads to which file."""
+"""What holds for every package: versions, declarations, sizes of files, and who may do what."""
 
 import ast
 import re
@@ -69,7 +69,7 @@ def test_what_is_imported_is_declared(package):
     for path in (REPOSITORY / package).glob("src/**/*.py"):
         for name in imported_packages(path):
             if path.with_name(f"{name}.py").exists():
-                continue  # run by the Python of ROS 2, which knows no packages of the suite
+                continue  # a program for the Python of ROS 2, which imports the file beside it
             needed = DEBIAN.get(name, name)
             assert is_of_python(name) or needed in {own, *declared, *UNDECLARED}, f"{path}: {name}"
 
@@ -109,26 +109,25 @@ def test_class_names_are_unique_and_variables_are_nouns():
 
 def test_no_class_of_the_checker_has_more_than_twelve_attributes():
     for path in REPOSITORY.glob("common/tutorial_check/src/**/*.py"):
-        for one in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            if isinstance(one, ast.ClassDef):
-                fields = {node.target.id for node in one.body if isinstance(node, ast.AnnAssign)}
-                stored = (node for node in ast.walk(one) if isinstance(node, ast.Attribute))
-                stored = (node for node in stored if isinstance(node.ctx, ast.Store))
-                own = {node.attr for node in stored if getattr(node.value, "id", "") == "self"}
-                assert len(fields | own) <= 12, f"{path}: {one.name}"
+        nodes = ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        for kind in (node for node in nodes if isinstance(node, ast.ClassDef)):
+            fields = {node.target.id for node in kind.body if isinstance(node, ast.AnnAssign)}
+            stored = (node for node in ast.walk(kind) if isinstance(node, ast.Attribute))
+            stored = (node for node in stored if isinstance(node.ctx, ast.Store))
+            own = {node.attr for node in stored if getattr(node.value, "id", "") == "self"}
+            assert len(fields | own) <= 12, f"{path}: {kind.name}"
 
 
 @claim("pip installs no ...", because="only what a lock has")
 def test_pip_installs_only_what_a_lock_has():
-    """What is asked for stands in the lock, which test/lock makes; each release has its hashes."""
+    """A lock, which test/lock writes, has all requirements, and each release its hashes."""
     locks = dict(re.findall(r'"(\w+)": \("(\S+)"', (REPOSITORY / "test/lock").read_text()))
     assert len(locks) == len(list((REPOSITORY / "test/locks").glob("*.txt"))) >= 5
     for name, requirements in locks.items():
         text = (REPOSITORY / "test/locks" / f"{name}.txt").read_text()
-        asked = re.findall(
-            r"^([\w-]+)(?:\[\w+\])?(==[\w.]+)", (REPOSITORY / requirements).read_text(), re.M
-        )
-        assert {"".join(one) for one in asked} <= set(re.findall(r"^\w\S*", text, re.M)), name
+        pattern = r"^([\w-]+)(?:\[\w+\])?(==[\w.]+)"
+        required = re.findall(pattern, (REPOSITORY / requirements).read_text(), re.M)
+        assert set(map("".join, required)) <= set(re.findall(r"^\w\S*", text, re.M)), name
         for entry in re.split(r"\n(?=\w)", text)[1:]:
             assert re.search(r"--hash=sha256:[0-9a-f]{64}", entry), entry
     words = (REPOSITORY / "common/tutorial_tools/src/tutorial_tools/command").glob("*.py")
@@ -138,7 +137,7 @@ def test_pip_installs_only_what_a_lock_has():
 
 
 def test_ci_has_an_environment_like_a_users():
-    """With what the network needs; PYTHONUNBUFFERED would hide a test that awaits a pipe."""
+    """It keeps what the network needs; PYTHONUNBUFFERED would hide a test that waits for a pipe."""
     path, kept = "/usr/bin:/bin", {"PIP_CERT": "a", "https_proxy": "b", "TUTORIAL_JOBS": "1"}
     left = ("PYTHONUNBUFFERED", "PYTHONDONTWRITEBYTECODE", "DEBIAN_FRONTEND", "USER", "CERTAIN")
     given = {**kept, **dict.fromkeys(left, "1"), "HOME": "/h", "PATH": path, "LANG": "C"}
@@ -155,9 +154,8 @@ def test_workflows_may_only_read_and_take_actions_by_their_commit():
     made = REPOSITORY / "common/tutorial_check/src/tutorial_check/commands/autograder/check.yml"
     for text in map(Path.read_text, [made, *(REPOSITORY / ".github/workflows").glob("*.yml")]):
         assert re.search(r"^permissions: \{contents: read\}$", text, re.M)
-        assert len(re.findall(r"\buses: ", text)) == len(
-            re.findall(r"\buses: [\w-]+/[\w-]+@[0-9a-f]{40} # v\d+\.\d+\.\d+$", text, re.M)
-        )
+        fixed = re.findall(r"\buses: [\w-]+/[\w-]+@[0-9a-f]{40} # v\d+\.\d+\.\d+$", text, re.M)
+        assert len(re.findall(r"\buses: ", text)) == len(fixed)
 
 
 @claim("The compose files open nothing to other machines")
@@ -175,7 +173,7 @@ def test_nothing_of_a_container_is_open_to_other_machines(name):
 @claim("No program and no test needs more than Python 3.8")
 @pytest.mark.skipif(not find_spec("vermin"), reason="vermin missing: ./tutorial setup")
 def test_no_program_and_no_test_needs_more_than_python_3_8():
-    """As far as vermin (PyPI) knows; annotations that 3.8 evaluates are found by ruff (FA102)."""
+    """As far as vermin (PyPI) can tell; ruff (FA102) finds annotations that 3.8 evaluates."""
     options = ["--target=3.8-", "--violations", "--no-eval-annotations", "--no-tips", "--quiet"]
     vermin = [sys.executable, "-c", "import vermin; vermin.main()", *options]
     folders = {REPOSITORY / package.split("/")[0] for package in PACKAGES}
@@ -191,7 +189,7 @@ UNIT_TESTS = [
 
 @pytest.mark.parametrize("test", UNIT_TESTS, ids=lambda path: path.stem)
 def test_a_unit_test_is_named_for_its_module_or_folder_of_modules(test):
-    """Or FOLDER_MODULE, as for one of several modules that are called parameters."""
+    """Or FOLDER_MODULE, where several modules have the same name, such as parameters."""
     places = [f"{root[:-1]}{test.parts[-3]}/**/*" for root in (*ROOTS, "test/*")]
     paths = [path for place in places for path in REPOSITORY.glob(place)]
     names = {name for path in paths for name in (path.stem, f"{path.parent.name}_{path.stem}")}

@@ -1,7 +1,4 @@
-"""The rules of joy2twist and mux under any events at any time, judged by the invariants.
-
-derandomize: the same examples in every run.
-"""
+"""The rules of joy2twist and mux under any events at any time, judged by the invariants."""
 
 import math
 
@@ -24,21 +21,20 @@ SETTINGS = settings(
     max_examples=200,
     stateful_step_count=40,
     deadline=None,
-    derandomize=True,
+    derandomize=True,  # the same examples in every run
     suppress_health_check=list(HealthCheck),
 )
-# Each threshold of the rules, and just before it; else any time, mostly short.
+# Each threshold of the rules, and just before it; else any time, mostly a short one.
 THRESHOLDS_S = (0.02, 0.05, 0.1, 0.15, 0.25, 0.3, 0.45, 0.5, 0.6, 1.0)
-seconds = st.sampled_from(
-    [0.001, *THRESHOLDS_S, *(one - 1e-6 for one in THRESHOLDS_S)]
-) | st.floats(0, 1.5)
-# Without what is so small that half of it is 0.
+times_s = [0.001, *THRESHOLDS_S, *(time_s - 1e-6 for time_s in THRESHOLDS_S)]
+seconds = st.sampled_from(times_s) | st.floats(0, 1.5)
+# Without numbers so small that half of them is 0.
 sticks = st.floats(-1, 1, width=32).filter(lambda value: value == 0 or abs(value) > 1e-30)
 any_number = st.floats(width=32).filter(lambda value: value == 0 or abs(value) > 1e-30)
 
 
 class Rules(RuleBasedStateMachine):
-    """Shows a World what is drawn."""
+    """Lets a World handle the events that hypothesis draws."""
 
     world = None
 
@@ -52,7 +48,7 @@ class Rules(RuleBasedStateMachine):
         self.world.take(TICK)
 
 
-# What decides which way a message takes; with all of it a held stick drives.
+# The parameters that decide which way a message takes; with these a held stick drives.
 BASE = {
     "enable_button": 0, "enable_turbo_button": 1, "scale_linear": 0.5, "joy_timeout": 0.5,
     "output_rate": 4.0, "stop_messages": 2, "max_linear_speed": 0.75, "max_angular_speed": 1.0,
@@ -87,8 +83,8 @@ any_others = st.fixed_dictionaries({
 
 
 def joined(*drawn):
-    """Draw one dict of several: private parameters of joy2twist that fit together."""
-    return st.tuples(*drawn).map(lambda ones: {k: v for one in ones for k, v in one.items()})
+    """Draw several dicts, joined: private parameters of joy2twist that fit together."""
+    return st.tuples(*drawn).map(lambda parts: {k: v for part in parts for k, v in part.items()})
 
 
 arming = st.sampled_from(ARMING)
@@ -147,16 +143,14 @@ class Teleoperation(Rules):
 
 
 timeouts = st.sampled_from([0.02, 0.5, 1.0]) | st.floats(0.02, 60)
-inputs = st.lists(
-    st.builds(
-        lambda timeout, priority: Input(f"in {priority}", f"topic_{priority}", timeout, priority),
-        timeouts,
-        st.integers(0, 99),
-    ),
-    min_size=1,
-    max_size=4,
-    unique_by=lambda one: one.priority,
-)
+
+
+def input_of(timeout, priority):
+    return Input(f"in {priority}", f"topic_{priority}", timeout, priority)
+
+
+any_input = st.builds(input_of, timeouts, st.integers(0, 99))
+inputs = st.lists(any_input, min_size=1, max_size=4, unique_by=lambda given: given.priority)
 
 
 class Mux(Rules):
@@ -164,7 +158,7 @@ class Mux(Rules):
 
     @initialize(given=inputs)
     def start(self, given):
-        self.names = [one.name for one in given]
+        self.names = [drawn.name for drawn in given]
         self.world = ArbiterWorld(given)
 
     @rule(

@@ -1,1 +1,1 @@
-"""What must never happen to a robot, as invariants; and the searches for a way to break them."""
+"""What must never happen to a robot, as invariants, and the searches for violations."""

@@ -1,6 +1,6 @@
 """Teleoperation (Mapping, Safety, arming), judged by (a) to (f) and (h).
 
-What a message means is written from joy2twist's documentation.
+The meaning of a message follows joy2twist's documentation, not its code.
 """
 
 import copy
@@ -13,8 +13,8 @@ from node_kit.rules.arming import SETTLING_S, ZERO
 from tutorial_faults.worlds import ROUNDING, SUSPENDED, TICK, World, beyond, moves
 
 LEFT = "left"  # an event: no node publishes joystick messages
-RELEASED = 0.1  # a stick within this part of its way is released
-LARGEST = 1e6  # a length of all axes beyond this is noise
+RELEASED = 0.1  # a stick within this part of its range is released
+LARGEST = 1e6  # axes whose length as a vector is beyond this are noise
 
 
 class Message(NamedTuple):
@@ -48,7 +48,7 @@ class Meaning:
         )
 
     def holds(self, joy):
-        """Return whether the robot may move by it."""
+        """Return whether it lets the robot move."""
         return self.is_good(joy) and (not self._p.require_enable_button or self._presses(joy))
 
     def is_released(self, joy):
@@ -77,19 +77,19 @@ class TeleoperationWorld(World):
         """given: private parameters of joy2twist."""
         p = self._p = load(given)
         self._meaning = Meaning(p)
-        self._woken = []  # in the current transition
+        self._woken = []  # has an item if the node was woken during the current event
         self._machine = Teleoperation(p, lambda line: None, lambda: self._woken.append(True))
         self._suspensions = 0
         self._sent, self._has_moved = ZERO, False
-        self._zeros = p.stop_messages  # sent since the last motion, as far as they count
-        self._held_s = self._still_s = -math.inf  # before both the robot may move
+        self._zeros = p.stop_messages  # sent since the last motion, at most p.stop_messages
+        self._held_s = self._still_s = -math.inf  # the robot may move before both
         self._heard_s = -math.inf  # the last good message
-        self._settled_s = -math.inf  # what arrives before was sent before a suspension
+        self._settled_s = -math.inf  # until then messages may be older than a suspension
         self._shown = self._sender = None  # newest good message
-        self._armed = False  # all was seen released since a start, silence or loss
-        self._all_released = True  # by the last message, if no loss came after it
-        self._latched = False  # the stop button was pressed, and not yet the reset button
-        self._is_reset = True  # since then all was seen released after the reset button, too
+        self._armed = False  # all was seen released since the last start, silence or loss
+        self._all_released = True  # in the last message, unless a loss came after it
+        self._latched = False  # the stop button was pressed, and the reset button not yet
+        self._is_reset = True  # after the reset button, all was seen released, too
 
     def happen(self, event):
         self._woken.clear()
@@ -215,7 +215,7 @@ class TeleoperationWorld(World):
         return machine.due <= self.now
 
     def _must_go_on(self, event, answer, was_late):
-        """Yield (h): a dead-man button that is held, in time and armed, drives."""
+        """Yield (h) if a dead-man button that is held, in time and armed, does not drive."""
         p = self._p
         ramps = p.max_linear_acceleration > 0 or p.max_angular_acceleration > 0
         if not isinstance(event, Message) or ramps or was_late or self.now < self._settled_s:

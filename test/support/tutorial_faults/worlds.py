@@ -1,7 +1,7 @@
-"""Real objects, the invariants of FAULTS.md that they must keep, and a clock.
+"""Real objects, what must never happen to them (FAULTS.md), and a clock.
 
-What they are judged by is written from the documentation, and knows nothing of their code. A
-velocity is linear x, y, z [m/s] and angular x, y, z [rad/s], in the frame of the base.
+The invariants follow the documentation, not the code. A velocity is linear x, y, z [m/s] and
+angular x, y, z [rad/s], in the frame of the base.
 """
 
 import math
@@ -11,7 +11,7 @@ ROUNDING = 1e-9  # float64 rounding, as part of a limit
 
 
 def moves(velocity):
-    """Return whether a velocity is other than zero; NaN is, too."""
+    """Return whether a velocity is not zero; NaN is not."""
     return any(part != 0 for part in velocity)
 
 
@@ -20,40 +20,40 @@ def beyond(velocity, linear=math.inf, angular=math.inf):
     if not all(map(math.isfinite, velocity)):
         yield "c", f"{velocity} is not finite"
     lengths = math.hypot(*velocity[:3]), math.hypot(*velocity[3:])
-    if any(one > most * (1 + ROUNDING) for one, most in zip(lengths, (linear, angular))):
+    if any(length > most * (1 + ROUNDING) for length, most in zip(lengths, (linear, angular))):
         yield "c", f"{velocity} is beyond the limits"
 
 
 class Moment(int):
-    """A time [us] to which seconds are added without rounding: at a threshold is at it exactly."""
+    """A time [us], so that sums of seconds meet a threshold exactly."""
 
     __slots__ = ()
 
     def __add__(self, seconds):
-        """Return the Moment so many seconds later, or infinity."""
+        """Return the Moment this many seconds later, or infinity."""
         return seconds if math.isinf(seconds) else Moment(int(self) + round(seconds * 1e6))
 
     __radd__ = __add__
 
     def __sub__(self, other):
-        """Return the seconds since another Moment, or the Moment so many seconds before."""
+        """Return the seconds since another Moment, or the Moment this many seconds before."""
         if isinstance(other, Moment):
             return (int(self) - int(other)) / 1e6
         return self + -other
 
 
 class World:
-    """Shows events to real objects, by their public interface, and judges what they answer.
+    """Passes events to real objects, by their public interface, and judges their answers.
 
-    happen(event) yields the letter of each invariant that is violated, and how.
+    A subclass's happen(event) yields (letter of a violated invariant, how).
     """
 
     now = Moment(0)
 
     def take(self, event):
-        """Let an event happen (a number: seconds pass).
+        """Let an event happen; a number lets so many seconds pass.
 
-        Raises AssertionError with the letter of an invariant that is violated, and how.
+        Raise AssertionError with the letter of a violated invariant, and how.
         """
         if isinstance(event, float):
             self.now += event

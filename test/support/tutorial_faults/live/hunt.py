@@ -1,4 +1,4 @@
-"""./tutorial test faults: hits the live system with random faults, and reports what it did."""
+"""./tutorial test faults: hit the live system with random faults, and report its reactions."""
 
 import contextlib
 import itertools
@@ -21,17 +21,17 @@ from tutorial_faults.worlds import moves
 from tutorial_testing.hands import DRIVE, RELEASED, STICK, TURBO, TURN
 from tutorial_testing.processes import free_port
 
-# The handout's own class, as printed there, and its name for --node.
+# The value of --node for the handout's own class, as printed there.
 HANDOUT = "handout"
 LITERAL = "test/tutorial_check/exercises/literal/joy2twist/scripts/new_joy2twist.py"
 SHORTEST_S = 60.0  # without --for and --trials
-WATCHED_S = 1.8  # after all of a trial, as a node that is restarted needs a second
-ATTEMPTS = 4  # at a trial in which this machine was late
+WATCHED_S = 1.8  # after the last act of a trial: a restarted node needs a second
+ATTEMPTS = 4  # at a trial for which this machine was late
 CANNOT = 2  # exit code
 
 
 class Plan(NamedTuple):
-    """A trial; times [s] count from when the robot, driven by the hands, has started to move."""
+    """A trial; times [s] count from when the hands have made the robot move."""
 
     seed: int
     hands: list  # (time, what they show from then on)
@@ -42,7 +42,7 @@ class Plan(NamedTuple):
 def draw(seed, names):
     """Return the Plan of a seed, with faults of these names; always the same Plan.
 
-    Most hands hold on; some let go, and some of these take hold again.
+    The hands mostly hold on; some release, and some of these hold again.
     """
     dice = random.Random(seed)
     hands, hits, at_s = [(0.0, DRIVE)], [], dice.uniform(0.05, 0.3)
@@ -81,7 +81,7 @@ def parse(arguments):
 
 
 def named(options):
-    """Return the names of the chosen faults that this world can have."""
+    """Return the names of the wanted faults that can hit this system."""
     wanted = {*(options.kinds or FAULTS)}
     return [
         name
@@ -100,7 +100,7 @@ def tried(world, plan):
 
 
 def show(options, plan, trial):
-    """Print a trial that violates an invariant: each start, stop and fault, how to repeat it."""
+    """Print a trial that violates an invariant: its events, and how to repeat it."""
     print(f"VIOLATION, seed {plan.seed}: {' + '.join(name for *_, name in plan.hits)}")
     begin, last = trial.events[0].at_s, {}
     for letter, at_s, what in trial.violations:
@@ -120,7 +120,7 @@ def show(options, plan, trial):
 
 
 def hunt(options):
-    """Yield the Trials; replace the world when it cannot be repaired."""
+    """Yield Trials; a world that cannot be repaired is replaced."""
     names = named(options)
     node = [LITERAL] if options.node == [HANDOUT] else options.node
     end_s = time.monotonic() + (math.inf if options.trials else options.seconds or SHORTEST_S)
@@ -145,7 +145,7 @@ def hunt(options):
 
 
 def main():
-    """Run until done; return 1 if an invariant was violated, 2 if this cannot work."""
+    """Run the hunt; return 1 if an invariant was violated, 2 if no trial was possible."""
     options = parse(sys.argv[1:])
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     logging.disable(logging.CRITICAL)  # this process reports what it ended itself
@@ -155,12 +155,11 @@ def main():
         with contextlib.suppress(KeyboardInterrupt):
             for trial in hunt(options):
                 trials.append(trial)
-    print(
-        f"{len(trials)} trials, {sum(len(trial.hits) for trial in trials)} faults,"
-        f" {sum(bool(trial.violations) for trial in trials)} violations,"
-        f" worst time to rest {max((trial.rest_s for trial in trials), default=0.0):.2f} s"
-    )
-    return int(any(trial.violations for trial in trials)) if trials else CANNOT
+    hits, violations = (sum(len(t.hits) for t in trials), sum(bool(t.violations) for t in trials))
+    worst_s = max((trial.rest_s for trial in trials), default=0.0)
+    counts = f"{len(trials)} trials, {hits} faults, {violations} violations"
+    print(f"{counts}, worst time to rest {worst_s:.2f} s")
+    return int(violations > 0) if trials else CANNOT
 
 
 if __name__ == "__main__":

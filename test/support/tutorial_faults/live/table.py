@@ -1,4 +1,4 @@
-"""The table of faults: what is done to a live world, for how long, and what must hold."""
+"""The table of faults: what happens to a live world, for how long, and what must hold."""
 
 import contextlib
 import math
@@ -15,13 +15,13 @@ from sensor_msgs.msg import Joy
 from tutorial_testing.nodes import serialised
 from tutorial_testing.rig import DRIVER, JOYSTICK, MUX
 
-BASE = "base"  # whichever there is: World.base
+BASE = "base"  # World.base
 NODES = {"joy_node": JOYSTICK, "joy2twist": DRIVER, "mux": MUX, BASE: BASE}
 TELEOP = "cmd_vel_mux/input/teleop"
 TOPICS = {"teleop": TELEOP, "navi": "cmd_vel_mux/input/navi", "cmd_vel": "cmd_vel"}
-# What must hold: the wheels rest in time, and then wait for the release of all; they wait for it
-# if they were at rest; the robot is driven on meanwhile; it may stop and drive on: no loss; the
-# wheels rest in time, and may then drive on, as after a cable that was out.
+# What must hold. RESTS: the wheels rest in time, and then wait for the release of all. WAITS:
+# wheels at rest wait for it. DRIVES_ON: the robot does. MAY_STOP: it may also stop for a while.
+# PAUSES: the wheels rest in time, and may then drive on, as after an unplugged cable.
 RESTS, WAITS, DRIVES_ON, MAY_STOP = "rests", "waits", "drives on", "may stop"
 PAUSES = "pauses"
 
@@ -33,15 +33,15 @@ ODD = (math.nan, math.inf, -math.inf, 0.0, 1.0, -1.0, 1e38, 1e-45, 2.0, 1e6)
 
 
 class Fault(NamedTuple):
-    """A row; do(world) is a generator that begins it, and when asked again undoes it."""
+    """A row; do(world) is a generator: its first step begins the fault, the second one ends it."""
 
     family: str
-    part: str  # that is hit
+    part: str  # the part that is hit
     must: str
     lasts_s: tuple  # the shortest and the longest time
     do: Any
     late_s: float = 0.0  # what it may add to the time until the wheels are at rest
-    of_line: bool = False  # hits a Kobuki's serial line, which the simulated base lacks
+    of_line: bool = False  # whether it hits a serial line, which the simulated base lacks
 
     @property
     def name(self):
@@ -54,7 +54,7 @@ class Fault(NamedTuple):
 
 
 class Raw:
-    """A message that goes over the wire as these bytes."""
+    """A message that is sent as these bytes."""
 
     def __init__(self, data=b""):
         super().__init__()
@@ -68,15 +68,15 @@ RawJoy, RawTwist = type("RawJoy", (Raw, Joy), {}), type("RawTwist", (Raw, Twist)
 
 
 def broken(message):
-    """Return bytes that are none of its kind: cut, or with wrong lengths.
+    """Return bytes that are no message of this type: truncated, or with wrong lengths.
 
-    Of what is too long rospy reads the beginning, so a Joy would be a Twist, of tiny velocities.
+    rospy reads the beginning of longer ones, so that a Joy would be a Twist of tiny velocities.
     """
     return b"", bytes(20), serialised(message)[:-3], b"\xff" * 100_000
 
 
 def odd_joy(random):
-    """Return a Joy of any shape and any values that holds no dead-man button."""
+    """Return a Joy with any lengths and values, but no dead-man button held."""
     values = [random.choice(ODD) for _ in range(random.choice((0, 1, 6, 6, 8, 39)))]
     return Joy(axes=values, buttons=[0] * random.choice((0, 5, 12)))
 
@@ -86,7 +86,7 @@ def says(topic, kind, make, world):
     over, random = threading.Event(), Random(world.seed)
 
     def say():
-        with contextlib.suppress(OSError, rospy.ROSException):  # its master may be gone
+        with contextlib.suppress(OSError, rospy.ROSException):  # the master may be suspended
             publisher = rospy.Publisher(topic, kind, queue_size=10)
             while not over.wait(PERIOD_S):
                 publisher.publish(make(random))
@@ -138,7 +138,7 @@ def rows():
     yield Fault("unplug", "gamepad", RESTS, (0.02, 1.2), partial(hands, "plug", False))
     freezes = partial(hands, "freeze", True)
     yield Fault("stop", "gamepad", RESTS, (0.7, 1.5), freezes)
-    # Out of reach: the receiver keeps the last state, and only joy2twist can notice.
+    # Out of reach: the receiver keeps the last state, which only joy2twist can notice.
     yield Fault("silence", "gamepad", RESTS, (0.1, 2.5), freezes, VIGILANCE_S)
     for family, part, do in (
         ("unplug", "cable", partial(asks, "plug_in", False)),

@@ -25,12 +25,12 @@ REPORTS_S = 0.5  # for which a base that was restarted is watched, at least
 
 
 class World(rig.Rig):
-    """All processes of the system and a viewer beside it. A context manager that ends them all.
+    """All processes of the system, and a viewer. A context manager that ends them all.
 
-    This process is also the other programs that send nonsense.
+    This process also acts as the other programs, which send nonsense.
     """
 
-    sees_truth = False  # whether wheels are seen also while their base is gone
+    sees_truth = False  # whether wheels are seen even while their base is down
 
     def __init__(self, command):
         """command: in place of joy2twist, if any."""
@@ -43,7 +43,7 @@ class World(rig.Rig):
         self.programs["master"] = Program("rosmaster", "--core", "-p", uri.rsplit(":", 1)[1])
         self._stack.callback(self._end_nodes)
         wait_for(lambda: call(uri, "getPid")[1], "master")
-        # Or every line of a node's log asks the master first.
+        # Otherwise every log line of a node asks the master first.
         call(uri, "setParam", "/rosout_disable_topics_generation", False)
         init_node("hunt", disable_signals=True, disable_rosout=True)
         super().begin()
@@ -72,7 +72,7 @@ class World(rig.Rig):
             signal_all([self.programs[part].pid], number)
 
     def restart(self, node):
-        """Wait until a node that was asked to exit does; report it if it does not; start it."""
+        """Wait until a node has exited as asked, or report that it has not; start it again."""
         node = self.base if node == BASE else node
         program, now = self.programs[node], time.time()
         with contextlib.suppress(AssertionError):
@@ -97,7 +97,7 @@ class World(rig.Rig):
         self._see(judge.ENDS, name, time.time() + judge.STARTS_S if is_restart else now)
 
     def hold(self):
-        """Hold LB and the stick after a release, and begin to keep what is seen."""
+        """Hold LB and the stick after a release, and start a new record of events."""
         for node in self.nodes:
             if self.programs[node].ended:
                 self.start(node)
@@ -111,7 +111,7 @@ class World(rig.Rig):
         return shown
 
     def _release(self, plan):
-        """Release all, but not before the wheels of a base that was restarted are seen."""
+        """Release all, once a restarted base has reported its wheels for a while."""
         restarts = any(name in ("kill:base", "end:base") for *_, name in plan.hits)
         if restarts and not self.sees_truth:
             restarted_s = max(at_s for at_s, what, _ in self._stream if what == judge.ENDS)
