@@ -1,4 +1,4 @@
-"""The programs of lesson 7 with scans of a simulated and of a real robot."""
+"""The programs of lesson 7, with scans of a simulated and of a real robot."""
 
 import runpy
 from math import inf, nan

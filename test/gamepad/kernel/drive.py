@@ -30,32 +30,32 @@ SHOWN = (
 
 
 def check_stop(robot, end, within_s):
-    """The robot stands soon after end() was called."""
+    """Check that the robot is at rest soon after end() was called."""
     since, late_s = time.time(), tolerance()
     end()
     assert robot.wait_for_rest(since) - since < within_s + PERIOD_S + late_s()
 
 
 def show_on_joy(pad, joy, controls):
-    """Show a position, which must appear on /joy as the kernel has it."""
+    """Hold a position, and wait for it on /joy, as the kernel rounds it."""
     axes, buttons = positions(F710_D, controls)
     pad.show((axes, buttons))
     raw = [-axis.js_value(axis.raw(place)) / 32767 for axis, place in zip(F710_D.axes, axes)]
-    axes = [copysign(max(0.0, abs(one) - DEADZONE) / (1 - DEADZONE), one) for one in raw]
+    axes = [copysign(max(0.0, abs(axis) - DEADZONE) / (1 - DEADZONE), axis) for axis in raw]
     shown = [*axes, *buttons]
     seen = lambda: np.allclose([*joy[-1].axes, *joy[-1].buttons], shown, atol=1e-7)  # noqa: E731
     wait_for(seen, f"{shown} on /joy")
 
 
 def drive(pad, robot, joy):
-    """Let go of everything, then drive forward."""
+    """Release all, then drive forward."""
     show_on_joy(pad, joy, Controls())
     pad.show(positions(F710_D, HELD))
     wait_for(lambda: abs(robot.now.v - METRES_PER_S) < 1e-6, f"speed {METRES_PER_S} m/s")
 
 
 def check_unplugged(pad, launch, robot, joy):
-    """Neutral at once, no other gamepad, and no motion before neutral was seen again."""
+    """Check a lost gamepad: neutral at once, no other gamepad, no motion before neutral again."""
     drive(pad, robot, joy)
     check_stop(robot, lambda: pad.show(None), PROMPT_S)
     neutral = joy[-1]

@@ -1,6 +1,6 @@
 """A virtual F710 in the kernel drives the simulated robot through the cockpit's page in Chromium.
 
-In both of its modes, for which Chromium has layouts of its own; it knows gamepads from udev.
+Chromium has a layout for each of its two modes, and learns of gamepads from udev.
 """
 
 from drive import FORWARD, HELD, METRES_PER_S, check_stop
@@ -18,14 +18,14 @@ SEEN = "navigator.getGamepads().filter((pad) => pad?.connected).map((pad) => pad
 
 
 def check_mode(browser, world, mode):
-    """Check what the page makes of an F710 in a mode, from the first button to its end."""
+    """Check an F710 in a mode on the page, from its first button to its end."""
     with UinputPad(F710[mode]) as pad:
         show = lambda controls: pad.show(positions(F710[mode], controls))  # noqa: E731
         hands = Hands(browser)
         hands.hold, hands.release = lambda: show(HELD), lambda: show(Controls())
-        show(Controls(held=frozenset(["A"])))  # by a pressed button a page gets to know it
+        show(Controls(held=frozenset(["A"])))  # a page sees a gamepad once a button is pressed
         assert wait_for(lambda: browser.ask(SEEN), "gamepad in the page") == ["standard"]
-        # For longer than a second: the gamepad's own time stands still where the stick does.
+        # For longer than a second: a gamepad's timestamp does not change while its stick is still.
         begin_m = world.now.x
         hands.drive(world, until=lambda: world.now.x > begin_m + 0.5)
         assert abs(world.now.v - METRES_PER_S) < 1e-3

@@ -1,8 +1,8 @@
-"""A joystick of a real Linux kernel drives: here, or in QEMU where this kernel makes none.
+"""A joystick of a real Linux kernel drives: of this one, or of Debian's in QEMU if it makes none.
 
-There Debian's own is emulated in software (TCG), for which no right is needed. Its root is this
-system's, read-only over 9p, below an overlay in memory. Its clock counts its instructions: the work
-of other programs makes the test longer, but no time that is measured in it.
+QEMU emulates the processor in software (TCG), which needs no privileges. The guest's root is this
+system's, read-only over 9p, below an overlay in memory. Its clock counts instructions, so the load
+of other programs prolongs the test, but no time that the test measures.
 """
 
 import lzma
@@ -21,12 +21,12 @@ from tutorial_testing.processes import Program, free_port
 LONGEST_S = 3600.0  # alone some minutes; beside other tests several times as long
 CACHE = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "ros1_tutorial/kernel"
 BUSYBOX, QEMU = "/bin/busybox", "qemu-system-x86_64"
-# In about this order; what a kernel has built in, or not at all, has no file.
+# Loaded in this order; a module that is built in, or missing, has no file.
 MODULES = (
     "virtio_ring", "virtio", "virtio_pci_modern_dev", "virtio_pci_legacy_dev", "virtio_pci",
     "netfs", "fscache", "9pnet", "9pnet_virtio", "9p", "overlay", "evdev", "joydev", "uinput",
 )  # fmt: skip
-# What the guest's environment has of this one's.
+# The variables that the guest's environment keeps.
 KEPT = r"PATH|PYTHONPATH|CMAKE_PREFIX_PATH|LD_LIBRARY_PATH|PKG_CONFIG_PATH|ROS_(?!IP|LOG_DIR).*"
 INIT = """\
 #!/bin/busybox sh
@@ -51,7 +51,7 @@ $b sleep 60
 
 
 def makes_joysticks():
-    """Return whether this kernel does, and has none that would be taken for the virtual one."""
+    """Return whether this kernel does, and has no joystick yet, which js0 would be."""
     there = map(os.path.exists, ("/sys/module/joydev", "/run/udev/control"))
     return os.access("/dev/uinput", os.W_OK) and all(there) and not Path("/dev/input/js0").exists()
 
@@ -70,7 +70,7 @@ def kernel():
 
 
 def in_guest(command, folder, shift):
-    """Return the command of a machine in which a command runs; folder: for what it starts with."""
+    """Return the command that starts a guest which runs a command; folder: for its initramfs."""
     image, files = kernel()
     modules = [files[name] for name in MODULES if name in files]
     (folder / "bin").mkdir(parents=True)
@@ -79,7 +79,7 @@ def in_guest(command, folder, shift):
         data = path.read_bytes()
         (folder / path.stem).write_bytes(lzma.decompress(data) if path.suffix == ".xz" else data)
     given = {name: value for name, value in os.environ.items() if re.fullmatch(KEPT, name)}
-    # A folder of the guest's own: QEMU, which another user than root runs, may not read root's.
+    # The home is in the guest: a QEMU that root did not start may not read root's.
     given.update(HOME="/run", ROS_HOSTNAME="localhost", PYTHONUNBUFFERED="1")
     given["ROS_MASTER_URI"] = "http://localhost:11311"
     udev, words = "/lib/systemd/systemd-udevd --daemon", shlex.join(map("=".join, given.items()))
@@ -99,7 +99,7 @@ def in_guest(command, folder, shift):
     )  # fmt: skip
 
 
-# An instruction takes 2**shift ns: for the page less, which the cockpit calls late after 0.2 s.
+# An instruction takes 2**shift ns: less for the page, which is late for the cockpit after 0.2 s.
 @claim("A joystick of a real kernel drives, by the nodes and by Chromium's page, in both modes")
 @pytest.mark.parametrize(("script", "shift"), [("drive", 1), ("drive_page", 0)])
 def test_a_joystick_of_the_kernel_drives_the_robot_by(script, shift, tmp_path):

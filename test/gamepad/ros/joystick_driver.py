@@ -1,4 +1,4 @@
-"""joy_node over a FIFO: what it publishes of events, recordings and scripts, and at what cost."""
+"""joy_node over a FIFO: what it publishes for events, recordings and scripts, and its cost."""
 
 import math
 import os
@@ -30,7 +30,7 @@ LB, A = frozenset(["LB"]), frozenset(["A"])
 REST, PRESSED, HELD = (positions(F710_X, Controls(held=held)) for held in ((), A, LB))
 PUSHED = positions(F710_X, Controls(left_stick=(0.0, 1.0), triggers=(0.0, 1.0), held=LB))
 STILL_S = 5.0
-# Measured: 26. The driver alone wakes 10 times, to ask whether it is to end.
+# Measured: 26. The driver alone wakes 10 times, to check whether it must exit.
 WAKINGS_A_SECOND = 50
 CORNERS = [(1.0, 0.0), (1.0, 1.0), (0.0, 1.0), (0.0, 0.0)]  # [m], in their order
 NEAR_M = 0.25  # on a busy machine each move may be some hundredths of a second off
@@ -47,9 +47,9 @@ class DriverTest(RosTest):
         self._subscriber = self.hear("joy", Joy, self.joys.append)
 
     def plug_in(self):
-        """Make the device, and wait for its reader; return the gamepad, which rests."""
+        """Create the device, and wait for its reader; return the gamepad, at rest."""
         pad = self.enter(StreamPad(F710_X, self.device))
-        pad.gives_signs = False  # as the kernel, which gives none
+        pad.gives_signs = False  # as the kernel's devices
         wait_for(lambda: pad.show(REST) or pad.connected, "reader of the device")
         return pad
 
@@ -91,7 +91,7 @@ class DriverTest(RosTest):
         watch = Stopwatch()
         pad = self.plug_in()
         self.assertLess(watch.took_s, 1.0 + BUSY_S)
-        # Silent until it is touched: the state at opening may be made up.
+        # Silent until it is touched: the state at opening may be wrong.
         pad.show(HELD)
         wait_for(lambda: len(self.joys) > count, "message")
         self.assertEqual(self.joys[count].buttons[4], 1)
@@ -100,7 +100,7 @@ class DriverTest(RosTest):
     def test_a_still_stick_hardly_wakes_the_driver(self):
         program = self.start_driver("autorepeat_rate:=0")
         pad = self.plug_in()
-        # It repeats nothing, and may not know of its subscriber yet.
+        # The driver repeats nothing, and may not be connected to its subscriber yet.
         wait_for(lambda: pad.show(PRESSED) or pad.show(REST) or self.joys, "first message")
         before = wakings(program.pid)
         time.sleep(STILL_S)  # what is measured
@@ -143,6 +143,6 @@ class DriverTest(RosTest):
 
 
 def wakings(pid):
-    """How often the threads of a process waited so far: unlike their time, the same beside load."""
+    """Return how often the threads of a process have waited, which does not depend on the load."""
     states = [path.read_text() for path in Path(f"/proc/{pid}/task").glob("*/status")]
     return sum(int(re.search(r"^voluntary_ctxt_switches:\s*(\d+)", s, re.M)[1]) for s in states)

@@ -1,4 +1,4 @@
-"""joy_remap: a gamepad that looks like another one, and one that lacks what a formula needs."""
+"""joy_remap: a gamepad that looks like another one, or that lacks what a formula needs."""
 
 from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import Joy

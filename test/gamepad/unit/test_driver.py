@@ -30,7 +30,7 @@ PUSHED = ((AXIS, 5, 32767), (AXIS, 1, -32767), (BUTTON, 4, 1))
     ("how", "sent", "neutral"),
     [
         ({"triggers": (2, 5)}, PUSHED, ((0.0, 0.0, 1.0, 0.0, 0.0, 1.0), (0,) * 5)),
-        # A gamepad of which only the number of axes is known.
+        # A gamepad whose triggers are unknown.
         ({"triggers": None}, PUSHED, ((0.0,) * 6, (0,) * 5)),
         ({"triggers": None, "kernel_device": False}, ((AXIS, 7, 32767), *PUSHED),
          ((0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0), (0,) * 5)),
@@ -41,7 +41,7 @@ def test_a_lost_gamepad_gives_one_neutral_message_with_released_triggers(how, se
     ours.read(events(*sent), now=0.0)
     assert ours.lost(0.1) == [neutral]
     assert ours.due == INF
-    assert ours.lost(0.2) == driver().lost(0.2) == []  # nobody has to know
+    assert ours.lost(0.2) == driver().lost(0.2) == []  # nothing to report
 
 
 @claim("After a loss it publishes one neutral message, then nothing until the gamepad is touched")
@@ -53,7 +53,7 @@ def test_after_a_loss_it_is_silent_until_the_user_touches_the_gamepad():
     ours.lost(1.0)
     assert ours.opens_at == 1.0 + SHORTEST_SILENCE_S
     untouched = events((BUTTON | INIT, 4, 0), (AXIS | INIT, 0, 0))
-    for now in (2.0, 4.0):  # lost again before it was touched: there is nothing to release
+    for now in (2.0, 4.0):  # lost again before it was touched: nothing to release
         ours.opened((), kernel_device=True)
         assert ours.read(untouched, now) == []
         assert ours.due == INF
@@ -61,7 +61,7 @@ def test_after_a_loss_it_is_silent_until_the_user_touches_the_gamepad():
         assert ours.lost(now + 1.0) == []
     ours.opened((), kernel_device=True)
     ours.read(untouched, now=6.0)
-    # A sticky button that was switched on before the loss was released by it.
+    # The loss released a sticky button that was on.
     assert ours.read(events((BUTTON, 4, 1)), now=6.1) == [((0.0,), (0, 0, 0, 0, 1))]
 
 
@@ -75,10 +75,10 @@ KERNEL, FIFO = True, False
     ("about", "kernel_device", "read", "last_sign"),
     [
         ("signs that end", FIFO, ALIVE, 1.0),
-        # A byte that was lost makes noise of all that comes after it, and noise is no life.
+        # A lost byte turns all that follows into noise, which is no sign of life.
         ("noise is no sign", FIFO, [*ALIVE, (b"?" + sign(*STATE), 1.2), (events(STATE[1]), 1.3)],
          1.0),
-        # As when the source is opened in the middle of an event.
+        # As after opening the source in the middle of an event.
         ("noise before any sign", FIFO, [(b"???" + sign(*STATE), 1.0), (sign(*STATE), 1.3)], 1.0),
         ("a source that never gave a sign", FIFO, [(events(*STATE), 1.0)], INF),
         ("a change at the time of a sign", FIFO,
@@ -88,29 +88,29 @@ KERNEL, FIFO = True, False
 )  # fmt: skip
 def test_a_source_that_owes_signs_of_life_is_lifeless(about, kernel_device, read, last_sign):
     assert 0.3 < LONGEST_LIFELESS_S < 0.5  # two signs of virtual_joystick; joy2twist's ~joy_timeout
-    one = driver(kernel_device, autorepeat_rate=0)
+    ours = driver(kernel_device, autorepeat_rate=0)
     for data, now in read:
-        one.read(data, now)
-        one.tick(now + 0.01)
-    assert not one.is_lifeless(min(1e9, last_sign + LONGEST_LIFELESS_S - 0.01)), about
-    assert one.is_lifeless(1e10) is (last_sign < INF)
-    assert not last_sign < INF or one.is_lifeless(last_sign + LONGEST_LIFELESS_S)
-    assert one.due == last_sign + LONGEST_LIFELESS_S
-    one.lost(2.0)
-    assert not one.is_lifeless(1e9)
-    one.opened((), kernel_device)
-    assert not one.is_lifeless(1e9)
+        ours.read(data, now)
+        ours.tick(now + 0.01)
+    assert not ours.is_lifeless(min(1e9, last_sign + LONGEST_LIFELESS_S - 0.01)), about
+    assert ours.is_lifeless(1e10) is (last_sign < INF)
+    assert not last_sign < INF or ours.is_lifeless(last_sign + LONGEST_LIFELESS_S)
+    assert ours.due == last_sign + LONGEST_LIFELESS_S
+    ours.lost(2.0)
+    assert not ours.is_lifeless(1e9)
+    ours.opened((), kernel_device)
+    assert not ours.is_lifeless(1e9)
 
 
 def test_a_sign_publishes_nothing_and_moves_nothing():
-    one = driver(FIFO, autorepeat_rate=0)
+    ours = driver(FIFO, autorepeat_rate=0)
     for data, now in ALIVE:
-        one.read(data, now)
-        one.tick(now + 0.05)
-    assert one.read(sign((BUTTON, 4, 0), (AXIS, 1, 0)), 1.1) == []
-    assert one.tick(1.2) == []
-    data = sign(*STATE) + events((BUTTON, 0, 1)) + sign(*STATE)  # a change that comes with signs
-    ((axes, buttons),) = one.read(data, 1.3)
+        ours.read(data, now)
+        ours.tick(now + 0.05)
+    assert ours.read(sign((BUTTON, 4, 0), (AXIS, 1, 0)), 1.1) == []
+    assert ours.tick(1.2) == []
+    data = sign(*STATE) + events((BUTTON, 0, 1)) + sign(*STATE)  # a change between signs
+    ((axes, buttons),) = ours.read(data, 1.3)
     assert (axes[1], buttons) == (pytest.approx(1.0), (1, 0, 0, 0, 1))
 
 
@@ -135,11 +135,11 @@ class Simulated:
     def __init__(self, **parameters):
         self.driver = driver(deadzone=0.0, **parameters)
         self.now, self.sent = 0, 0
-        self.untold = []  # when the changes were read that no message has shown yet
+        self.untold = []  # the times of changes that no message has published yet
         self.ages = []  # age of the oldest unsent change, per message
 
     def change(self, after, pressed=False):
-        """After a time an axis changes to the number of changes so far, and maybe a button."""
+        """Let time pass, then set an axis to the number of changes so far, and maybe a button."""
         self.now += after
         while self.driver.due < self.now:
             due = self.driver.due

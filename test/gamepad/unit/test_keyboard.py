@@ -7,7 +7,7 @@ import pytest
 from gamepad.virtual.controls import Controls
 from gamepad.virtual.keyboard import FIRST_HOLD_S, REPEAT_HOLD_S, Keyboard
 
-# A row: what is pressed at once; then where the left stick is, and the buttons that are held.
+# Rows: the keys pressed together, the place of the left stick, and the buttons held.
 PRESSED = [
     ("bcefghijklnopvxyz-+", (0, 0), []),  # all other keys do nothing
     *[(key, (0, 1), []) for key in ("w", "W", "\x1b[A", "\x1bOA")],
@@ -21,7 +21,7 @@ PRESSED = [
     ("5w\u00b2", (0, 0.5), []),  # a superscript, of French keyboards, is no digit
     ("\u0130w", (0, 1), []),  # Turkish keyboards: two letters in lower case
     ("5wa", (0.5, 0.5), []),  # directions add up
-    ("wad\x1bOB", (-1, -1), []),  # opposite ones replace each other
+    ("wad\x1bOB", (-1, -1), []),  # the later one of two opposites counts
 ]
 
 
@@ -72,13 +72,13 @@ def test_the_dead_man_stays_held_while_a_later_key_repeats_and_all_are_released_
 # F4, F1 and F5; arrows with Ctrl or Shift; Delete.
 @pytest.mark.parametrize("key", ["\x1bOS", "\x1b[[A", "\x1b[15~", "\x1b[1;5A", "\x1bOa", "\x1b[3~"])
 def test_a_function_key_does_nothing_whatever_letters_it_sends_and_wherever_it_is_cut(key):
-    """F4 drove backward, and over a slow line an arrow's last letter came alone."""
+    """F4 once drove backward, and over a slow line an arrow's last letter came alone."""
     for cut in range(1, len(key) + 1):
         keyboard = Keyboard()
         keyboard.press(f"w{key[:cut]}", 1.0)
         keyboard.press(f"{key[cut:]}a", 1.0)
         assert keyboard.at(1.0)[0] == Controls(left_stick=(1, 1)), cut
         assert not keyboard.quit
-        keyboard.press(key[:1], 1.0)  # one that never ends holds no key back
+        keyboard.press(key[:1], 1.0)  # an unfinished sequence delays no key
         keyboard.press("\x03", 2.0)
         assert keyboard.quit

@@ -1,4 +1,4 @@
-"""joy.bag is what the handout needs, and is exactly what its script writes."""
+"""joy.bag is exactly what its script writes, and what the handout needs."""
 
 import math
 

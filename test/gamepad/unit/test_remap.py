@@ -20,7 +20,7 @@ CONTROLS = {"axes": [0.5, -0.25, 1.0], "buttons": [0, 1]}
     [
         ("axes[0]", 0.5),
         ("0", 0.0),
-        (0.5, 0.5),  # YAML makes numbers of some
+        (0.5, 0.5),  # YAML reads some as numbers
         ("-axes[1] * 2.0", 0.5),
         ("(axes[2] - 3) / 4", -0.5),
         ("max(axes[0], axes[1], 0.75) + min(axes[0], 0)", 0.75),

@@ -1,4 +1,4 @@
-"""What moves a virtual gamepad, in time: hands, keys, a script of moves, or a recording."""
+"""What moves a virtual gamepad over time: hands, keys, a script of moves, or a recording."""
 
 import math
 
@@ -25,12 +25,12 @@ def test_a_script_is_followed_in_time_and_begins_again_if_it_loops(loop):
 
 
 def recording(*times):
-    """Messages at these times; axis 1 counts them, in quarters."""
+    """Return messages at these times; axis 1 counts them, in quarters."""
     return [(t, ((0.0, n / 4, 0.0, 0.0, 0.0, 0.0), (0,) * 12)) for n, t in enumerate(times)]
 
 
-# A row: the times of the messages; then when axis 1 changes, from the start, and the end. The last
-# message is held for the average. One that is older than the one before takes no time.
+# Rows: the times of the messages; then when axis 1 changes, and the end, both from the start. The
+# last message is held for the average time. A message older than the one before takes no time.
 @pytest.mark.parametrize(
     ("times", "changes"),
     [

@@ -1,4 +1,4 @@
-"""rbx1's fake TurtleBot, by the names that its book's programs and views use."""
+"""rbx1's fake TurtleBot has the names that the programs and views of its book use."""
 
 import rosgraph
 import rospy

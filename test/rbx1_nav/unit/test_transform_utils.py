@@ -1,4 +1,4 @@
-"""The two functions that programs after ROS by Example import."""
+"""The two functions that programs of ROS by Example import."""
 
 from math import cos, pi, sin
 
@@ -14,7 +14,7 @@ pytestmark = claim("Programs after ROS by Example find quat_to_angle and normali
 @pytest.mark.parametrize("yaw", [0.0, 1.0, -1.0, 3.1, -3.1])
 @pytest.mark.parametrize("roll", [0.0, 0.5])
 def test_the_angle_of_a_quaternion_is_its_yaw(yaw, roll):
-    """Of a turn about x, then one about z."""
+    """The rotation is about x, then about z."""
     c, s, rolled_c, rolled_s = cos(yaw / 2), sin(yaw / 2), cos(roll / 2), sin(roll / 2)
     quaternion = Quaternion(c * rolled_s, s * rolled_s, s * rolled_c, c * rolled_c)
     assert quat_to_angle(quaternion) == pytest.approx(yaw)
@@ -22,14 +22,8 @@ def test_the_angle_of_a_quaternion_is_its_yaw(yaw, roll):
 
 @pytest.mark.parametrize(
     ("angle", "normal"),
-    [
-        (0.0, 0.0),
-        (pi, pi),
-        (-pi, -pi),
-        (4.0, 4.0 - 2 * pi),
-        (-4.0, 2 * pi - 4.0),
-        (50.0, 50.0 - 16 * pi),
-    ],
-)
+    [(0.0, 0.0), (pi, pi), (-pi, -pi),
+     (4.0, 4.0 - 2 * pi), (-4.0, 2 * pi - 4.0), (50.0, 50.0 - 16 * pi)],
+)  # fmt: skip
 def test_an_angle_is_turned_by_whole_circles(angle, normal):
     assert normalize_angle(angle) == pytest.approx(normal)

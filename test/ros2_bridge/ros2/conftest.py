@@ -12,7 +12,7 @@ from tutorial_testing.processes import Program
 
 
 def pytest_addoption(parser):
-    """Of test_faults.py: how many trials, and the seed of the first: here each side is killed."""
+    """Add the options of test_faults.py; by default each side is killed in some trial."""
     parser.addoption("--trials", type=int, default=3, metavar="N")
     parser.addoption("--seed", type=int, default=5)
 
@@ -24,7 +24,7 @@ def master():
 
 
 def starting():
-    """Yield start(words): a program that ends, as by Ctrl-C, with what asked for it."""
+    """Yield start(words), which starts a program that ends by Ctrl-C after the test."""
     with ExitStack() as stack:
 
         def begin(*words):
@@ -54,7 +54,7 @@ def start_ros2(start):
 
 @pytest.fixture
 def bridge(start, tmp_path):
-    """bridge({topic: direction}): a Bridge that carries these, or those of our own list."""
+    """bridge({topic: direction}): a Bridge that carries these topics, or those of our list."""
 
     def begin(topics=None):
         given, file = [], tmp_path / "topics.yaml"
@@ -69,7 +69,7 @@ def bridge(start, tmp_path):
 
 @pytest.fixture
 def ear():
-    """ear(topic, kind): the list of what comes on a topic of ROS 1, which grows."""
+    """ear(topic, kind): the growing list of messages on a topic of ROS 1."""
     with ExitStack() as stack:
 
         def listen(topic, kind):

@@ -1,4 +1,4 @@
-"""A master of its own, the bridge, a stick that is held, and what the wheels say."""
+"""A separate master, the bridge, a held stick, and the velocities that the bridge carries."""
 
 import os
 import struct
@@ -19,12 +19,12 @@ RATE = 50.0  # [Hz]
 BRIDGE = "/ros2_bridge"
 SIDES = {"ROS 1": "ros2_bridge.ros.ros1_side", "ROS 2": "ros2_bridge.ros.ros2_side"}
 ZERO = (0.0, 0.0)  # velocity [m/s, rad/s]
-REST_S = 0.62  # by then a robot without a driver stands, but for a tolerance()
+REST_S = 0.62  # after which a robot without a driver is at rest, within a tolerance()
 
 
 @contextmanager
 def own_master():
-    """Have a master and a domain of ROS 2 for this process alone, which is a node then."""
+    """Provide a master and a domain of ROS 2 for this process alone, which becomes a node."""
     port = free_port()
     os.environ["ROS_MASTER_URI"] = f"http://127.0.0.1:{port}"
     os.environ["ROS_DOMAIN_ID"] = str(1 + port % 100)
@@ -36,7 +36,7 @@ def own_master():
 
 
 def single(value):
-    """A number as a float32 of the wire."""
+    """Return a number rounded to float32."""
     return struct.unpack("f", struct.pack("f", value))[0]
 
 
@@ -46,7 +46,7 @@ class Bridge:
         wait_for(self.is_up, "both sides of the bridge")
 
     def process(self, side):
-        """The id of a side's process; None if it does not run."""
+        """Return the id of a side's process; None if it does not run."""
         pids = descendants(self.program.pid)[1:]
         return next((pid for pid in pids if SIDES[side] in command_line(pid)), None)
 
@@ -90,7 +90,7 @@ class Stick:
         return self.sent[-1]
 
     def end(self):
-        """Stop publishing; return when: a time [s] as stamps are."""
+        """Stop publishing; return the time [s] of the end, as stamps have it."""
         self._ends.set()
         if self._thread.is_alive():
             self._thread.join()
@@ -98,11 +98,11 @@ class Stick:
 
 
 def carried(twists):
-    return [(one.linear.x, one.angular.z) for one in twists if sender_of(one) == BRIDGE]
+    return [(twist.linear.x, twist.angular.z) for twist in twists if sender_of(twist) == BRIDGE]
 
 
 def wait_for_doctor(start, line):
-    """Wait until the doctor says it: what it knows of the bridge comes each half second."""
+    """Wait until the doctor prints it: the bridge reports its state twice a second."""
 
     def says():
         doctor = start("rosrun", "tutorial_tools", "doctor.py")

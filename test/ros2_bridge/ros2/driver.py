@@ -1,4 +1,4 @@
-"""With ROS 2: publishes a velocity on /cmd_vel, ten times a second. DURABILITY RELIABILITY SPEED"""
+"""In ROS 2: publish a velocity on /cmd_vel, ten times a second. DURABILITY RELIABILITY SPEED"""
 
 import sys
 
@@ -20,4 +20,4 @@ node.create_timer(0.1, lambda: publisher.publish(twist))
 try:
     rclpy.spin(node)
 finally:
-    node.destroy_node()  # so that others know at once
+    node.destroy_node()  # so that other nodes notice at once

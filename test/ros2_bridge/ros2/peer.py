@@ -1,4 +1,4 @@
-"""With ROS 2: answers on /reply what comes on /note, and prints a picture's size."""
+"""In ROS 2: repeat on /reply the messages of /note, and print a picture's size."""
 
 import rclpy
 from rclpy.qos import DurabilityPolicy, QoSProfile

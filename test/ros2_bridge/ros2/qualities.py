@@ -1,4 +1,4 @@
-"""With ROS 2: prints which quality of service the bridge takes, and what its publishers keep."""
+"""In ROS 2: print which quality of service the bridge chooses, and what its publishers keep."""
 
 import socket
 import struct
@@ -15,10 +15,8 @@ from ros2_bridge.ros.ros2_side import Ros2Side, fitting
 from ros2_bridge.routes import Route
 
 KIND = "std_msgs/msg/String"
-KEPT, PLAIN = (
-    QoSProfile(depth=9, durability=each)
-    for each in (DurabilityPolicy.TRANSIENT_LOCAL, DurabilityPolicy.VOLATILE)
-)
+KEPT = QoSProfile(depth=9, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+PLAIN = QoSProfile(depth=9, durability=DurabilityPolicy.VOLATILE)
 LOOSE = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 FORGET = Frame("/note", "", b"", 0.0, announces=True)
 
@@ -29,14 +27,14 @@ def note(text, is_latched=True):
 
 
 def kept_of(*carried):
-    """Return the texts that a late subscriber gets, up to one that says "end"."""
+    """Return the texts that a late subscriber gets, up to the text "end"."""
     node_end, bridge_end = socket.socketpair()
     with node_end, bridge_end:
         side, texts = Ros2Side([Route("/note", "to_ros2")], bridge_end), []
         node_end.sendall(b"".join(frame.packed() for frame in carried))
         node_end.shutdown(socket.SHUT_WR)
         side.carry(bridge_end)
-        side.node.create_subscription(String, "/note", lambda one: texts.append(one.data), KEPT)
+        side.node.create_subscription(String, "/note", lambda text: texts.append(text.data), KEPT)
         while "end" not in texts:
             rclpy.spin_once(side.node, timeout_sec=0.1)
         side.node.destroy_node()

@@ -40,7 +40,7 @@ def latched(topic, message):
 
 @claim("Every Joy becomes one Twist through the bridge, equal to the bit and in order")
 def test_every_joy_becomes_one_twist_equal_to_the_bit(bridge, start, start_ros2, ear, stick):
-    """One after the other, without an age limit: so none is late on a busy machine."""
+    """One after the other, and without an age limit, so that a busy machine makes none late."""
     bridge({"/joy": "to_ros2", **VELOCITY})
     twists, _ = ear("/cmd_vel", Twist), start_ros2(CLASS)
     wait_for(lambda: stick.push(0.5, 0.25) in carried(twists), "a first Twist")
@@ -57,13 +57,13 @@ def test_every_joy_becomes_one_twist_equal_to_the_bit(bridge, start, start_ros2,
     "joy2twist, and `./tutorial ros2 new_joy2twist` drives then"
 )
 def test_the_launch_file_has_the_bridge_in_place_of_joy2twist(start):
-    """The two commands of the page on ROS 2."""
+    """These are the two commands of the page on ROS 2."""
     start("roslaunch", "joy2twist", "launch_bag.launch", "ros2:=true", *WITHOUT_SCREEN)
     start(REPOSITORY / "tutorial", "ros2", "new_joy2twist")
     with Robot() as robot:
         wait_for(lambda: robot.moves, "a robot that drives")
     assert "/myjoystick2twist" not in rosnode.get_node_names()
-    rospy.delete_param("/fake_turtlebot")  # as it is in this file, it never stops by itself
+    rospy.delete_param("/fake_turtlebot")  # with the launch file's, it never stops by itself
 
 
 @claim(
@@ -72,9 +72,9 @@ def test_the_launch_file_has_the_bridge_in_place_of_joy2twist(start):
 )
 @pytest.mark.parametrize("topics", [None, VELOCITY], ids=["with our age limit", "without a limit"])
 def test_drivers_of_any_quality_are_carried_in_turn(bridge, start, start_ros2, topics):
-    """Also to a subscriber that is busy while the next one is carried to another subscriber.
+    """One subscriber is busy with a velocity while the next one reaches another subscriber.
 
-    And no velocity is latched that has an age limit.
+    Velocities with an age limit are not latched.
     """
     heard, are_carried = [], [threading.Event() for _ in range(6)]  # by the driver's number
 
@@ -106,19 +106,19 @@ def test_drivers_of_any_quality_are_carried_in_turn(bridge, start, start_ros2, t
     "not what gone ones did"
 )
 def test_quality_of_service_and_what_is_kept_for_late_subscribers(start_ros2):
-    """All publishers are heard; with an age limit, or what this node keeps, nothing old is.
+    """All publishers are received; nothing old is, with an age limit or of what this node keeps.
 
-    A publisher is not renewed for a sender that does not latch; it is after the last that does.
+    A sender that does not latch does not renew a publisher; the end of the last latched one does.
     """
     program = start_ros2(QUALITIES, SOURCES)
     assert program.wait() == 0, program.output
     wanted = ["TRANSIENT_LOCAL", "VOLATILE", "VOLATILE", "VOLATILE"]
-    lines = [*(f"{each} RELIABLE" for each in wanted), "VOLATILE BEST_EFFORT"]
+    lines = [*(f"{durability} RELIABLE" for durability in wanted), "VOLATILE BEST_EFFORT"]
     assert program.output.splitlines() == [*lines, "latched not end", "end"]
 
 
 def test_the_first_message_of_a_connection_is_known_and_who_is_connected():
-    """What a late subscriber gets was latched; a message that was not replaces it."""
+    """A late subscriber gets the latched message, until one that is not latched replaces it."""
     heard, publisher = [], RawPublisher("/old", "std_msgs/String", 10, is_latched=False)
     publisher.publish(b"old", True)
     subscriber = subscribe("/old", heard.append, 10)
@@ -155,9 +155,8 @@ def test_what_is_latched_is_carried_to_late_subscribers_ten_megabytes_too(bridge
 def test_a_type_that_ros2_lacks_or_that_changes_is_one_line_and_others_go_on(
     bridge, start, start_ros2, ear
 ):
-    made = bridge(
-        {**dict.fromkeys(["/bumper", "/changing", "/note"], "to_ros2"), "/reply": "to_ros1"}
-    )
+    to_ros2 = dict.fromkeys(["/bumper", "/changing", "/note"], "to_ros2")
+    made = bridge({**to_ros2, "/reply": "to_ros1"})
     kept = [latched("/bumper", BumperEvent(1, 1))]
     wait_for(lambda: "ROS 2 has no such type here" in made.program.output, "a line")
     assert made.program.output.count("kobuki_msgs/msg/BumperEvent") == 1
@@ -217,7 +216,7 @@ def test_a_failed_start_is_one_line(start, monkeypatch, tmp_path, python, text, 
 @claim("colcon builds the programs in ROS 2 by the page's commands")
 @pytest.mark.skipif(not shutil.which("colcon"), reason="no colcon in this system's archive")
 def test_the_package_is_built_by_colcon_and_runs(start, tmp_path):
-    """The commands of the page on colcon."""
+    """These are the page's commands for colcon."""
     (commands,) = re.findall(r"^## With colcon.*?```bash\n(.*?)```", PAGE.read_text(), re.S | re.M)
     talker = "install/ros2_tutorials/lib/ros2_tutorials/talker"
     script = f'cd "{REPOSITORY}"\nset -e\n{commands}\nexec "$0" {talker}'

@@ -1,8 +1,8 @@
-"""What is lost on the way through ROS 2: the robot rests in time, and is driven again.
+"""Losses on the way through ROS 2: the robot rests in time, and can be driven again.
 
-The class in ROS 2 is the handout's and obeys any Joy. So what is judged is the bridge's: the wheels
-rest in time when a part of the way is lost (d), nothing that waited anywhere moves them later (f),
-and the robot is driven again once all is back (h). ./tutorial test faults --bridge: at random.
+The class in ROS 2 is the handout's, which obeys any Joy. So these tests judge the bridge: wheels
+rest in time when a part of the way is lost (d), no delayed message moves them later (f), and the
+robot can be driven once all is back (h). ./tutorial test faults --bridge: at random.
 """
 
 import random
@@ -20,12 +20,12 @@ from tutorial_testing.processes import signal_all
 from tutorial_testing.robot import Robot
 from tutorial_testing.waiting import HOP_S, tolerance, wait_for
 
-OLD_S = 0.5  # how old the list lets a Joy be, and a velocity
+OLD_S = 0.5  # the age limit of a Joy, and of a velocity, in our list of topics
 PROGRAM = "program"
 SIGNALS = {"kill": signal.SIGKILL, "end": signal.SIGTERM, "stop": signal.SIGSTOP}
 # SIGTERM to the side of ROS 1, as by rosnode kill, ends the whole bridge.
 FAULTS = {"ROS 1": ["kill", "stop"], "ROS 2": sorted(SIGNALS), PROGRAM: sorted(SIGNALS)}
-SEEN_S, LONGEST_S = REST_S + HOP_S, 5.0  # a loss of so long is seen; the longest one
+SEEN_S, LONGEST_S = REST_S + HOP_S, 5.0  # the shortest loss that is noticed; the longest one
 
 
 class Way:
@@ -38,7 +38,7 @@ class Way:
         self.program = self._start()
 
     def drives(self):
-        """Whether the robot does; the program is started again if it has ended."""
+        """Return whether the robot drives; restart the program if it has ended."""
         if self.program.ended:
             self.program = self._start()
         return self.bridge.is_up() and self.robot.moves
@@ -49,7 +49,7 @@ class Way:
         return signal_all([pid] if pid else [], number)
 
     def hit(self, kind, part, lasts_s):
-        """Return whether a part was lost for long enough to be seen."""
+        """Lose a part; return whether the loss was long enough to be noticed."""
         self.send(part, SIGNALS[kind])
         if kind == "stop":
             time.sleep(lasts_s)
@@ -92,7 +92,7 @@ def test_what_waited_for_a_suspended_side_does_not_move_the_robot(way, stick, si
 
     wait_for(has_passed, "a zero, which comes after all that waited")
     late = [pair for pair in carried(way.twists)[before:] if any(pair)]
-    assert len(late) <= RATE * OLD_S  # those of the last half second, which the Joys may be old
+    assert len(late) <= RATE * OLD_S  # those of the last half second, within the age limit
     way.robot.wait_for_rest()
 
 
@@ -105,7 +105,7 @@ def test_ctrl_c_of_the_class_ends_with_zeros(way):
 
 
 def trial(seed, way):
-    """A drive with one or two faults, then a release. Raises AssertionError with the seed."""
+    """Drive with one or two faults, then release."""
     draw = random.Random(seed)
     parts = draw.sample(sorted(FAULTS), k=draw.choice((1, 2)))
     faults = [(draw.choice(FAULTS[part]), part) for part in parts]
@@ -120,13 +120,13 @@ def trial(seed, way):
                 lost.append(began_s)
         time.sleep(draw.uniform(0.0, 2.0))
         ended_s = stick.end() + REST_S + OLD_S
-    # A second in which what waited somewhere would move it.
+    # In this second a delayed message would move the robot.
     wait_for(lambda: way.robot.now.stamp > ended_s + late_s() + 1.0, "odometry")
     for began_s in lost:
         until_s = began_s + REST_S + late_s()
-        after = [one.moves for one in way.robot.since(began_s) if one.stamp <= until_s]
+        after = [moment.moves for moment in way.robot.since(began_s) if moment.stamp <= until_s]
         assert not all(after), f"{faults}: (d) it drove on"
-    late = [one.moves for one in way.robot.since(ended_s + late_s())]
+    late = [moment.moves for moment in way.robot.since(ended_s + late_s())]
     assert late and not any(late), f"{faults}: (f) it moved after the release"
 
 

@@ -1,4 +1,4 @@
-"""The way between the two sides of the bridge."""
+"""The connection between the two sides of the bridge."""
 
 import socket
 import time

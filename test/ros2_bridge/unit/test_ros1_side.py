@@ -44,7 +44,7 @@ class Room:
         self._path, self._frames = path, frames(self.other)
 
     def connect(self):
-        """Let the other side come, and wait until it is known."""
+        """Connect the other side, and wait until this side reports it."""
         self.other.connect(self._path)
         self.other.sendall(Frame("", "", b"", time.monotonic()).packed())
         wait_for(lambda: self.states and not self.states[-1].status[0].level, "a sign of life")
@@ -63,12 +63,12 @@ class Room:
         self._hear(RawMessage(data, "std_msgs/String", sender, is_latched, is_first))
 
     def senders_are(self, *names):
-        """Connect these alone, and wait until that is noticed."""
+        """Let only these senders be connected, and wait until that is noticed."""
         self.there, before = set(names), len(self.states)
         wait_for(lambda: len(self.states) > before + 2, "looks at who is connected")
 
     def carried(self):
-        """Return (data, type) of all that came since the last time."""
+        """Return (data, type) of all frames since the last call."""
         self.send("/last", END, is_latched=False)
         came = takewhile(lambda frame: frame.data != END, self._frames)
         return [(frame.data, frame.type) for frame in came]
@@ -110,7 +110,7 @@ def test_what_has_an_age_limit_is_not_latched_and_not_carried_with_an_unknown_ag
 
 
 def test_a_publisher_is_made_again_when_its_type_changes_and_not_when_its_latching_does(room):
-    """A master that does not answer ends nothing."""
+    """A master that does not answer stops nothing."""
     made = room()
     made.connect()
     made.other.sendall(Frame("/note", "no/msg/Answer", b"1", time.monotonic()).packed())

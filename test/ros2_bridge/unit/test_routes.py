@@ -1,4 +1,4 @@
-"""The list of topics of the bridge."""
+"""The bridge's list of topics."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""The multiplexer (Arbiter, BacklogFilter), judged by (c) to (f), called as the node calls it."""
+"""The multiplexer (Arbiter, BacklogFilter), called as the node calls it, judged by (c) to (f)."""
 
 import math
 from typing import Any, NamedTuple
@@ -13,7 +13,7 @@ SILENCE_S, AT_ONCE_S, DELIVERED_S = 0.5, 0.02, 0.25
 
 
 class Command(NamedTuple):
-    """A velocity at an input of the multiplexer; its sender uses no other input."""
+    """A velocity at an input of the multiplexer, of a sender that has no other input."""
 
     input: str
     velocity: tuple
@@ -21,10 +21,10 @@ class Command(NamedTuple):
 
 
 class Lateness:
-    """(f) Which commands of a sender are late after a silence during a motion.
+    """(f) Which commands of one sender are late after a silence in a motion.
 
-    Commands that arrive together move nothing; a single one may be a slow sender's. A stick must
-    rest before it moves the robot.
+    Commands that arrive at once must not move the robot; one alone may be a slow sender's. A stick
+    must rest before it moves.
     """
 
     def __init__(self, is_stick):
@@ -34,7 +34,7 @@ class Lateness:
         self._rests_since_s = math.inf  # the first zero after a motion
 
     def take(self, velocity, now):
-        """Handle a command; return whether it must not go through at once."""
+        """Take a command; return whether it must not go through at once."""
         since_s, self.last_s = now - self.last_s, now
         was_moving, self._moving = self._moving, moves(velocity)
         is_first = was_moving and since_s > SILENCE_S
@@ -60,8 +60,8 @@ class ArbiterWorld(World):
     """The real Arbiter, and the invariants that it must keep."""
 
     def __init__(self, inputs):
-        self._inputs = sorted(inputs, key=lambda given: given.priority, reverse=True)
-        self._spoke_s = {given.name: -math.inf for given in inputs}
+        self._inputs = sorted(inputs, key=lambda source: source.priority, reverse=True)
+        self._spoke_s = {source.name: -math.inf for source in inputs}
         self._arbiter = Arbiter(inputs)
         self._waiting = {}  # sender -> its Command that waits
         self._lateness = {}  # sender -> Lateness
@@ -73,10 +73,11 @@ class ArbiterWorld(World):
     def _speaking(self):
         """Return the inputs that send, the highest first."""
         spoke_s = self._spoke_s
-        return [known for known in self._inputs if self.now < spoke_s[known.name] + known.timeout]
+        inputs = self._inputs
+        return [source for source in inputs if self.now < spoke_s[source.name] + source.timeout]
 
     def _is_highest(self, name):
-        return [name] == [highest.name for highest in self._speaking()[:1]]
+        return [name] == [source.name for source in self._speaking()[:1]]
 
     def _tick(self):
         due = {
@@ -100,11 +101,11 @@ class ArbiterWorld(World):
         yield from self._must_look_in_time()
 
     def _must_look_in_time(self):
-        ends_s = [self._spoke_s[i.name] + i.timeout - self.now for i in self._speaking()]
+        ends_s = [self._spoke_s[s.name] + s.timeout - self.now for s in self._speaking()]
         if moves(self._sent) and not ends_s:
             yield "d", "no stop, though all inputs are silent"
         lull_s = self._arbiter.lull(self.now)
-        shortest_s = min(known.timeout for known in self._inputs)
+        shortest_s = min(source.timeout for source in self._inputs)
         if not 0 < lull_s <= shortest_s or (moves(self._sent) and lull_s > max(ends_s, default=0)):
             yield "d", f"sleeping for {lull_s} s, and something is due sooner"
 

@@ -11,7 +11,7 @@ ROUNDING = 1e-9  # float64 rounding, as part of a limit
 
 
 def moves(velocity):
-    """Return whether a velocity is not zero; NaN is not."""
+    """Return whether a velocity is not zero, as NaN is not."""
     return any(part != 0 for part in velocity)
 
 

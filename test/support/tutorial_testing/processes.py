@@ -71,7 +71,7 @@ def suspend(pids):
 
 @contextlib.contextmanager
 def suspended(pids):
-    """Suspend processes for a while. A suspended master accepts connections without answering."""
+    """Suspend processes. A suspended master accepts connections, but does not answer."""
     suspend(pids)
     try:
         yield
@@ -88,7 +88,7 @@ def _is_stopped(pid):
 
 
 class Started:
-    """A context manager: begin() starts things, self._stack ends them, also if begin() fails."""
+    """A context manager: self._stack ends what begin() starts, also if begin() fails."""
 
     def __init__(self):
         self._stack = contextlib.ExitStack()

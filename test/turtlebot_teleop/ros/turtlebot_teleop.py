@@ -1,4 +1,4 @@
-"""The launch files of turtlebot_teleop, as the real one's."""
+"""The launch files of turtlebot_teleop behave as those of the real package."""
 
 import rospy
 from geometry_msgs.msg import Twist
@@ -16,7 +16,7 @@ LB, L1 = 4, 10
 
 
 def pair(twist):
-    """Speed and turn rate, rounded as the steps are."""
+    """Return speed and turn rate, rounded for comparison."""
     return round(twist.linear.x, 6), round(twist.angular.z, 6)
 
 
@@ -26,7 +26,7 @@ class TeleopTest(RosTest):
         robot, sent = self.enter(Robot()), self.record(TELEOP, Twist)
         terminal = Tmux("roslaunch turtlebot_teleop keyboard_teleop.launch")
         self.addCleanup(terminal.close)
-        wait_for(lambda: sent, "first velocity, which is none")
+        wait_for(lambda: sent, "first velocity, a zero")
         terminal.hold("i", lambda: pair(sent[-1]) == (0.2, 0.0), "full speed")
         wait_for(lambda: robot.moves, "motion")
         speeds = [pair(twist)[0] for twist in sent]
@@ -41,7 +41,7 @@ class TeleopTest(RosTest):
         count = len(sent)
         terminal.press("C-c")
         wait_for(lambda: terminal.ended, "end")
-        wait_for(lambda: len(sent) > count, "velocity of the end")  # later than its program's end
+        wait_for(lambda: len(sent) > count, "last velocity")  # it may arrive after the exit
         self.assertEqual(pair(sent[-1]), (0.0, 0.0))
         self.assertNotIn("Traceback", terminal.history)
 

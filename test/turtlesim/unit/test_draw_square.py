@@ -1,4 +1,4 @@
-"""draw_square: the corners of a square, driven by the rules of the field."""
+"""draw_square: it drives to the corners of a square in a simulated field."""
 
 import runpy
 from types import SimpleNamespace

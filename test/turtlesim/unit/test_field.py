@@ -1,4 +1,4 @@
-"""Names, pens, teleports, colors and lines of the field, as upstream's; motion, to 1e-6."""
+"""Names, pens, teleports, colors and lines of the field, as upstream's; motion within 1e-6."""
 
 import cmath
 import math
@@ -55,7 +55,7 @@ def test_names_are_chosen_or_given_once(field):
         field.call("kill", {"name": "turtle2"}, 0.0)
     with pytest.raises(ValueError, match=r"there is no turtle \[turtle2\]"):
         field.call("turtle2/command", {}, 0.0)
-    assert spawn(field, "") == "turtle4"  # not the free one, as upstream
+    assert spawn(field, "") == "turtle4"  # not the free name, as upstream
     field.call("reset", {}, 0.0)
     assert [*field.turtles] == ["turtle1"]
     # As upstream's wiki has it.
@@ -67,7 +67,7 @@ def test_velocities_are_published_without_a_sign_and_end_after_a_second(field):
     drive(field, -3.0, 4.0, -1.0)
     for now_s, velocities in ((0.5, (5.0, -1.0)), (1.0, (0.0, 0.0))):
         field.step(now_s)
-        assert (turtle.pose[3:], turtle.seen) == (velocities, BLUE)  # it sees before it draws
+        assert (turtle.pose[3:], turtle.seen) == (velocities, BLUE)  # seen before the line is drawn
 
 
 def test_a_teleport_draws_the_way_and_the_drive_before_it(field):
@@ -103,7 +103,8 @@ def test_what_no_message_holds_is_refused_and_moves_nothing(field, value):
         with pytest.raises(ValueError, match="is not a length"):
             call()
     field.step(1.0)
-    assert {name: one.pose[:3] for name, one in field.turtles.items()} == {"turtle1": START}
+    poses = {name: turtle.pose[:3] for name, turtle in field.turtles.items()}
+    assert poses == {"turtle1": START}
 
 
 @pytest.mark.parametrize(("width", "reach"), [(1, 0), (3, 1), (9, 4), (None, 1)])
@@ -142,7 +143,7 @@ def test_the_picture_is_new_while_turtles_move_and_shows_them(field):
     assert picture()[0] > before[0] and picture()[1] == PEN
 
 
-HALF = (22, 15 - 5j, 13 - 14j, 7 - 11j, -9 - 11j, -16 - 14j)  # ahead, and to the right [pixels]
+HALF = (22, 15 - 5j, 13 - 14j, 7 - 11j, -9 - 11j, -16 - 14j)  # ahead + right * j [pixels]
 
 
 def test_the_picture_is_the_lines_with_turtles_as_they_head_and_their_names(field):
@@ -153,7 +154,8 @@ def test_the_picture_is_the_lines_with_turtles_as_they_head_and_their_names(fiel
     for (name, turtle), color in zip(field.turtles.items(), (*COLORS, COLORS[0])):
         x, y, theta = turtle.pose[:3]
         at, turn = complex(45 * x, 499 - 45 * y), cmath.rect(1.0, -theta)
-        outline = [at + turn * one for one in (*HALF, -20, *(p.conjugate() for p in HALF[:0:-1]))]
+        corners = (*HALF, -20, *(p.conjugate() for p in HALF[:0:-1]))
+        outline = [at + turn * corner for corner in corners]
         draw.polygon([(p.real, p.imag) for p in outline], color, "#222")
         for shift, shade in ((17, "#222"), (16, "white")):
             draw.text((at.real + shift, at.imag + shift), name, shade)
@@ -173,7 +175,7 @@ def pose(turtle):
 
 
 def driven(command, *times, theta=0.0):
-    """Return a turtle that got a command at 0 s and drove until each of these times [s]."""
+    """Return a turtle that got a command at 0 s and drove from time to time [s]."""
     turtle = Turtle(MIDDLE, MIDDLE, theta)
     turtle.command(*command)
     for before_s, now_s in zip((0.0, *times), times):

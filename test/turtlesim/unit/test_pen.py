@@ -1,4 +1,4 @@
-"""Lines are Qt's, pixel by pixel: the pictures were drawn by QPainter of Qt 5.15."""
+"""Lines are Qt's, pixel by pixel: QPainter of Qt 5.15 drew the pictures."""
 
 import numpy as np
 import pytest

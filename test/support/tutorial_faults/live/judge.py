@@ -1,6 +1,6 @@
-"""What is wrong with a trial, judged by the hands and the wheels, not by the nodes under test.
+"""Judges a trial by what the hands showed and what the wheels did.
 
-Times [s] are those of the system clock, as the stamps of /odom.
+The nodes under test have no say. Times [s] are of the system clock, as the stamps of /odom.
 """
 
 import math
@@ -16,13 +16,13 @@ LIMIT_S = TIMEOUT_S + 0.02  # from a loss to wheels at rest; /odom comes every 0
 SLACK_S = 0.05  # between the stamps of this process and those of the nodes
 # What the preset of the F710 allows with RB held, and the mux and the base with it.
 MAX_LINEAR, MAX_ANGULAR = 0.7, 2.0
-STARTS_S = 0.3  # a node that is restarted does nothing sooner: it loads rospy
-LATE_S = 0.15  # a gap in the odometry, or the delay of a fault
-LINE_LATE_S = 0.08  # a gap in the ground truth: a robot without packets for 0.1 s is offline
+STARTS_S = 0.3  # a restarted node first loads rospy for so long
+LATE_S = 0.15  # a gap in the odometry, or a fault that began late
+LINE_LATE_S = 0.08  # a gap of the truth: after 0.1 s without a packet a driver's robot is offline
 
 # What an Event is about; the value of the last two is a velocity.
 HANDS, BEGINS, ENDS, LATE = "hands show", "begins:", "ends:", "late by [s]:"
-SEEN = "seen:"  # a Violation that the wheels do not show
+SEEN = "seen:"  # a Violation that wheels do not show
 VELOCITIES = COMMAND, WHEELS = "the base receives", "wheels turn at"
 
 
@@ -33,7 +33,7 @@ class Event(NamedTuple):
 
 
 def velocity(linear, angular):
-    """Return the velocity of a robot that drives [m/s] and turns [rad/s] this fast."""
+    """Return the velocity of a robot that drives [m/s] and turns [rad/s]."""
     return linear, 0.0, 0.0, 0.0, 0.0, angular
 
 
@@ -44,14 +44,14 @@ class Violation(NamedTuple):
 
 
 def spans(changes):
-    """Return (begin, end) of each span in which something is true, from [(time, whether)]."""
-    known = []
+    """Return (begin, end) of the spans that are true, from [(time, whether true from then on)]."""
+    true = []
     for at_s, is_true in changes:
-        if is_true and (not known or known[-1][1] < math.inf):
-            known.append((at_s, math.inf))
-        elif not is_true and known:
-            known[-1] = known[-1][0], min(at_s, known[-1][1])
-    return known
+        if is_true and (not true or true[-1][1] < math.inf):
+            true.append((at_s, math.inf))
+        elif not is_true and true:
+            true[-1] = true[-1][0], min(at_s, true[-1][1])
+    return true
 
 
 class Trial:
@@ -71,7 +71,7 @@ class Trial:
 
     @property
     def was_late(self):
-        """Whether this machine may have been too late for a fair judgement."""
+        """Whether this machine was too slow for a verdict."""
         stamps = [event.at_s for event in self.of(WHEELS)]
         gaps_s = [after - before for before, after in zip(stamps, stamps[1:])]
         is_base_hit = not self._sees_truth and any(fault.part == BASE for fault in self.hits)
@@ -92,7 +92,7 @@ class Trial:
         violations += self._waits() if not {MAY_STOP, PAUSES} & must else []
         violations += self._drives_on() if must == {DRIVES_ON} else []
         first = {}
-        for violation in sorted(violations, key=lambda known: known.at_s):
+        for violation in sorted(violations, key=lambda violation: violation.at_s):
             first.setdefault(violation.invariant, violation)
         return [*first.values()]
 
@@ -100,7 +100,7 @@ class Trial:
         """Yield (a), (d) if wheels turn too long after a release of LB or the loss of a part."""
         causes = [("a", "LB was released", *span) for span in self._free]
         for fault, span in self.hits.items():
-            is_seen = self._sees_truth or fault.part != BASE  # a lost base does not report wheels
+            is_seen = self._sees_truth or fault.part != BASE  # a lost base reports no wheels
             if fault.must in (RESTS, PAUSES) and is_seen:
                 causes.append(("d", f"the loss by {fault.name}", *span))
         limit_s = LIMIT_S + sum(fault.late_s for fault in self.hits)
