@@ -14,3 +14,7 @@ class SetUpError(TutorialError):
 
 class JoinError(TutorialError):
     """A classroom or its robot cannot be joined."""
+
+
+class DemoError(TutorialError):
+    """The demonstration cannot run."""

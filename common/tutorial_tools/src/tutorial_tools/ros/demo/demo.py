@@ -24,8 +24,9 @@ from launch_kit.ros.running_nodes import held_names
 from node_kit.ros.graph.ros_api import accepts, call
 from node_kit.rules.answer import Answer
 from tutorial_tools.command.subcommands import fail, parser_of
+from tutorial_tools.errors import DemoError
 from tutorial_tools.ros.cockpit_page import address
-from tutorial_tools.ros.demo.running_launch import ENDING, TOPICS, DemoError, DemoLaunch
+from tutorial_tools.ros.demo.running_launch import ENDING, TOPICS, DemoLaunch
 
 PAGE_TIMEOUT_S = 5.0  # tornado and rospy load on a slow and busy machine, too
 WITHOUT_SCREEN = "there is no screen (DISPLAY is not set), so RViz is left out; to see it drive, "

@@ -17,6 +17,7 @@ from rospy import AnyMsg
 
 from node_kit.ros.rospy_patches.connections import connect_once, sender_of
 from tutorial_tools.demo.drive_report import DriveReport
+from tutorial_tools.errors import DemoError
 
 TOPICS = ("/joy", "/cmd_vel", "/odom")
 START_TIMEOUT_S = 60.0  # until the first odometry, on a slow and busy machine
@@ -24,10 +25,6 @@ COMPLETE_TIMEOUT_S = 3.0  # for a launch that is ended while it starts
 END_TIMEOUT_S = 30.0  # roslaunch itself kills stubborn nodes after 17 s
 # What ends the demonstration: Ctrl-C, kill, a terminal that is closed.
 ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-
-
-class DemoError(Exception):
-    """What keeps the demonstration from starting or from driving, in one line for the user."""
 
 
 class DemoLaunch:
