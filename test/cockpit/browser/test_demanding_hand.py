@@ -24,11 +24,11 @@ globalThis.WebSocket = class extends WebSocket {
 };"""
 RECEIVED = "const [ms, done] = arguments, n = received; setTimeout(() => done(received - n), ms);"
 MOST_BYTES_S = 2000
-VISIBLE = "[...document.querySelectorAll('#topics thead th')].filter((one) => one.offsetParent)"
-# In how many lines each type is.
-LINES = """[...document.querySelectorAll("#topics-rows td:nth-child(2)")].map((one) => {
+VISIBLE = "[...document.querySelectorAll('#topics thead th')].filter((cell) => cell.offsetParent)"
+# The number of lines of each type.
+LINES = """[...document.querySelectorAll("#topics-rows td:nth-child(2)")].map((cell) => {
   const range = document.createRange();
-  range.selectNodeContents(one);
+  range.selectNodeContents(cell);
   return new Set([...range.getClientRects()].map((box) => box.top)).size;
 })"""
 

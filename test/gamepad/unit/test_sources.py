@@ -60,7 +60,7 @@ def messages(*axes, buttons=12, times=(0.0,)):
         (messages(*(0.0,) * 8, buttons=11),
          "a message has 8 axes and 11 buttons; this gamepad has 6 and 12"),
         (messages(*(0.0,) * 5, 1.01), "a message has axes beyond"),
-        # The kernel's range is not quite even, so that some drivers go a little beyond 1.
+        # The kernel's range is not quite symmetric, so some drivers go slightly beyond 1.
         (messages(-1.001, *(1.001,) * 5), "there are fewer than two messages"),
         (messages(*(0.0,) * 6, times=(1.0, 1.0)), "all messages have the same time"),
     ],

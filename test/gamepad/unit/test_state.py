@@ -1,4 +1,4 @@
-"""Bytes to events, and what each event makes of axes and buttons."""
+"""Bytes to events, and their effect on axes and buttons."""
 
 import pytest
 from hypothesis import given
@@ -9,7 +9,7 @@ from tutorial_testing.gamepad_events import AXIS, BUTTON, INIT, driver, events
 
 
 def upstream(sequence, deadzone, default_trig_val, sticky):
-    """The messages of ROS Noetic's joy_node, if it publishes after each event, written plainly."""
+    """Return the messages of ROS Noetic's joy_node, if it publishes after each event."""
     axes, buttons, before, switched = {}, {}, {}, {}
     messages = []
     deadzone = min(deadzone, 0.9)
@@ -36,7 +36,7 @@ def upstream(sequence, deadzone, default_trig_val, sticky):
 
 EVENTS = st.tuples(
     st.sampled_from((BUTTON, AXIS, BUTTON | INIT, AXIS | INIT, 0, 3, 0x42)),
-    st.integers(0, 2),  # so few that a button is pressed twice
+    st.integers(0, 2),  # few enough that a button is pressed twice
     st.sampled_from((0, 1, -1, 1638, 1639, -1639, 32767, -32767, -32768))
     | st.integers(-32768, 32767),
 )

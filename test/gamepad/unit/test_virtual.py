@@ -1,4 +1,4 @@
-"""The virtual gamepad: which one it is, how a held stick trembles, and the FIFO that it serves."""
+"""The virtual gamepad: its model, how a held stick trembles, and the FIFO that it serves."""
 
 import select
 import struct
@@ -24,7 +24,7 @@ pytestmark = claim(
 )
 REST = positions(F710_D, Controls())
 PUSHED = positions(F710_D, Controls(left_stick=(0.0, 1.0), held=frozenset(["LB"])))
-# Least, most and middle of an axis in hid-input.c or xpad.c.
+# Minimum, maximum and middle of an axis in hid-input.c or xpad.c.
 BYTE, WORD, HAT = (0, 255, 127), (-32768, 32767, 0), (-1, 1, 0)
 
 
@@ -55,9 +55,8 @@ def test_an_axis_gives_the_part_of_its_way(axis, position):
 
 @pytest.mark.parametrize("pad", F710.values(), ids=F710)
 def test_a_held_stick_trembles_by_one_step_and_nothing_else_does(pad):
-    held = [
-        axis.raw(position) for axis, position in zip(pad.axes, (1.0, -0.5, 1.0, 0.0, -1, 1, 1, 1))
-    ]
+    places = (1.0, -0.5, 1.0, 0.0, -1, 1, 1, 1)
+    held = [axis.raw(place) for axis, place in zip(pad.axes, places)]
     steps = [new - old for new, old in zip(pad.trembled(held), held)]
     assert steps == ([1, -1, 1, 0, 0, 0] if pad is F710_D else [1, -1, 0, 0, -1, 0, 0, 0])
 
@@ -72,7 +71,7 @@ def test_one_of_many_equal_messages_trembles_by_the_last_bit():
 
 
 def events(device):
-    """Read (time, value, type, number) of what has come."""
+    """Read the new events as (time, value, type, number)."""
     return list(struct.iter_unpack("=IhBB", device.read()))
 
 
@@ -91,13 +90,14 @@ def test_a_fifo_has_the_state_at_opening_then_the_changes_and_signs_of_life(tmp_
             assert sorted(event[1:] for event in events(device)) == [(-32767, 2, 1), (1, 1, 4)]
             clock[0] += SIGN_OF_LIFE_S - 0.01
             pad.show(PUSHED)
-            assert device.read() == b""  # nothing new, and not the end
+            assert device.read() == b""  # nothing new, but not the end
             assert pad.watch(select.poll()) <= SIGN_OF_LIFE_S
             clock[0] += 0.02
             pad.show(PUSHED)
-            signs = events(device)  # the whole state; the time says what it is
-            assert sorted(one[1:] for one in signs if one[1]) == [(-32767, 0x82, 1), (1, 0x81, 4)]
-            assert [one[0] for one in signs] == [SIGN_OF_LIFE_MS] * 18
+            signs = events(device)  # the whole state; its time marks it as a sign of life
+            state = sorted(event[1:] for event in signs if event[1])
+            assert state == [(-32767, 0x82, 1), (1, 0x81, 4)]
+            assert [event[0] for event in signs] == [SIGN_OF_LIFE_MS] * 18
             device.close()
             pad.show(PUSHED)
         device = Finder(str(path), "").open()
@@ -112,7 +112,7 @@ def test_a_fifo_has_the_state_at_opening_then_the_changes_and_signs_of_life(tmp_
 
 @pytest.mark.parametrize("pad", F710.values(), ids=F710)
 def test_a_stick_held_through_a_fifo_trembles_for_the_joy_node_of_noetic(pad, tmp_path):
-    """By its rules: it takes no axis from what is marked as the state at opening."""
+    """That joy_node ignores axes that are marked as the state at opening."""
     clock, joy, changes = [5.0], GamepadState(0.0, False, False), []
     axes, buttons = positions(pad, Controls(left_stick=(-0.4, 1.0), held=frozenset(["LB"])))
     with StreamPad(pad, str(tmp_path / "pad"), clock=lambda: clock[0]) as stream:

@@ -1,6 +1,6 @@
-"""With ROS 2: publishes odometry on /odom_of_ros2 at a rate, and counts what comes on /odom.
+"""In ROS 2: publish odometry on /odom_of_ros2 at a rate, and count the messages on /odom.
 
-many.py COUNT RATE: so many, after one on /odom; prints how many came, once none come any more.
+many.py COUNT RATE: begins with the first message on /odom; prints how many arrived after the last.
 """
 
 import sys

@@ -1,4 +1,4 @@
-"""How long a Joy takes through the bridge to ROS 2 and its Twist back, and how much is carried."""
+"""How long a Joy to ROS 2 and its Twist back take through the bridge, and how much it carries."""
 
 import statistics
 import threading
@@ -21,9 +21,7 @@ pytestmark = [
         "The bridge's figures: milliseconds for a Joy and its Twist, 1,000 odometry messages a "
         "second each way"
     ),
-    pytest.mark.skipif(
-        not ros2_python.is_there(), reason="no ROS 2 here: ./tutorial ros2 --yes sets it up"
-    ),
+    pytest.mark.skipif(not ros2_python.is_there(), reason="no ROS 2 yet: ./tutorial ros2 --yes"),
 ]
 PROGRAM = CLASS.with_name("publish_twist.py")
 MANY = Path(__file__).with_name("many.py")
@@ -57,14 +55,14 @@ def test_a_joy_is_answered_through_the_bridge_in_milliseconds(bridge, figure):
     with Program("rosrun", "joy2twist", "publish_twist.py"):
         beside = delays("joy", RATE, COUNT)
     with Program(*ros2_python.command([str(PROGRAM)])):
-        found = delays("joy", RATE, COUNT)
-    median, late = (1e3 * one for one in (statistics.median(found), found[int(0.99 * len(found))]))
+        through = delays("joy", RATE, COUNT)
+    median, late = 1e3 * statistics.median(through), 1e3 * through[int(0.99 * len(through))]
     alone = 1e3 * statistics.median(beside)
-    figure("Joys answered in ROS 2", f"{len(found)} of {COUNT}", f"{COUNT}")
+    figure("Joys answered in ROS 2", f"{len(through)} of {COUNT}", f"{COUNT}")
     figure("Joy to Twist through the bridge and back, median", f"{median:.2f} ms", f"{MOST_MS} ms")
     figure("of 99 in 100", f"{late:.2f} ms", f"{MOST_LATE_MS} ms")
     figure("the same program in ROS 1, median", f"{alone:.2f} ms", "")
-    assert len(found) == COUNT
+    assert len(through) == COUNT
     assert median < MOST_MS and late < MOST_LATE_MS
 
 

@@ -1,4 +1,4 @@
-"""The side of ROS 1, without a master: what it keeps and carries of latched senders."""
+"""The side of ROS 1, without a master: what it keeps and carries from latched senders."""
 
 import socket
 import threading
@@ -21,7 +21,7 @@ FORGET = (b"", "")
 
 
 class Room:
-    """A Ros1Side that runs, the nodes that it knows, and the other side."""
+    """A running Ros1Side, the nodes that it knows, and the other side."""
 
     def __init__(self, path, monkeypatch, **route):
         self.there, self.publishers, self.states = set(), [], []

@@ -86,10 +86,7 @@ def test_the_commands_of_a_section_run(blocks, tutorial, host, suite_workspace, 
     lasting = {}
 
     def run(script, *options):
-        """Start a script in the folder and with the home of a new user.
-
-        Only where it says so is there a screen: what RViz draws there takes a whole processor.
-        """
+        """Start a script in a new user's home; only RViz gets a screen: it costs a processor."""
         display, script = screen if "rviz" in script else "", f"cd '{tmp_path}' && {script}"
         command = ("run", *options, "bash", "-ec", script)
         return host.start(tutorial, *command, DISPLAY=display, **environment)
@@ -108,15 +105,14 @@ def test_the_commands_of_a_section_run(blocks, tutorial, host, suite_workspace, 
             if block[0] == STUDENTS_SHELL:
                 run_to_its_end("\n".join(block[1:]), "--in", f"{tmp_path}/catkin_ws")
                 continue
-            for command in block:  # each may have a terminal
-                sign = next(
-                    (LASTING[start] for start in LASTING if command.startswith(start)), None
-                )
+            for command in block:
+                signs = [LASTING[start] for start in LASTING if command.startswith(start)]
+                sign = signs[0] if signs else None
                 if sign is None:
                     run_to_its_end(command)
                     continue
                 rivals = sum((line for line in EITHER if command.startswith(line)), ())
-                for other in [each for each in lasting if rivals and each.startswith(rivals)]:
+                for other in [name for name in lasting if rivals and name.startswith(rivals)]:
                     end(other)
                 program = lasting[command] = run(f"exec {command}")
                 what = f"{sign} of {command}"

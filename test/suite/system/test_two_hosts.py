@@ -11,7 +11,7 @@ TIMEOUT_S = 0.6  # the base's
 
 
 def ends_with(topic, text):
-    """Whether the last message that rostopic echo has printed contains the text."""
+    """Return whether the last message that rostopic echo has printed contains the text."""
     return text in "".join(topic.output.split("---")[-2:])
 
 
@@ -19,9 +19,7 @@ def ends_with(topic, text):
 def test_the_readme_commands_drive_the_recording_across_and_the_tools_see_it(scene, tmp_path):
     scene.launch_robot()
     scene.launch_workstation()
-    scene.first(
-        lambda moment: moment.x**2 + moment.y**2 > 0.5**2, "robot that follows the recording"
-    )
+    scene.first(lambda moment: dist(moment.pose[:2], (0, 0)) > 0.5, "robot that follows the bag")
     assert not scene.workstation.ended
     for host, other in ((WORKSTATION, ROBOT), (ROBOT, WORKSTATION)):
         doctor = scene.start(host, f"'{REPOSITORY}/tutorial' doctor")

@@ -38,7 +38,7 @@ class TurtlesimTest(RosTest):
         wait_for(lambda: self.poses and self.colors, "pose and color")
 
     def wait_for_pose(self, *wanted, poses=None):
-        """Wait for x, y, theta to within what a float32 holds of them."""
+        """Wait for x, y, theta, within the precision of float32."""
         poses = self.poses if poses is None else poses
 
         def is_there():
@@ -48,19 +48,18 @@ class TurtlesimTest(RosTest):
         wait_for(is_there, f"pose {wanted}", 30)
 
     def wait_for_log(self, words):
-        wait_for(lambda: any(words in one.msg for one in list(self.logs)), f"log {words}", 30)
+        wait_for(lambda: any(words in log.msg for log in list(self.logs)), f"log {words}", 30)
 
     def test_one_command_is_an_arc_of_a_second_and_the_mimic_drives_too(self):
-        call("/turtlesim2/reset", Empty)  # it has mimicked what other tests did
+        call("/turtlesim2/reset", Empty)  # it has mimicked other tests
         followers = self.record("/turtlesim2/turtle1/pose", Pose)
         self.commands.publish(Twist(linear=Vector3(x=2.0), angular=Vector3(z=1.8)))
         radius = 2.0 / 1.8
         x, y = MIDDLE + radius * math.sin(1.8), MIDDLE + radius * (1 - math.cos(1.8))
         self.wait_for_pose(x, y, 1.8)
         wait_for(lambda: followers and followers[-1].theta > 1.7, "mimic", 30)
-        self.assertIn(
-            (2.0, 1.8), {(p.linear_velocity, round(p.angular_velocity, 6)) for p in followers}
-        )
+        velocities = {(p.linear_velocity, round(p.angular_velocity, 6)) for p in followers}
+        self.assertIn((2.0, 1.8), velocities)
 
     def test_services_of_the_field(self):
         name = call(f"{FIRST}spawn", srv.Spawn, 2.0, 3.0, 0.2, "").name
@@ -108,21 +107,17 @@ class TurtlesimTest(RosTest):
         terminal = Tmux(f"rosrun turtlesim turtle_teleop_key __ns:={FIRST.strip('/')}")
         self.addCleanup(terminal.close)
         greeting = (
-            "Reading from keyboard",
-            "---------------------------",
-            "Use arrow keys to move the turtle. 'q' to quit.",
+            f"Reading from keyboard\n{27 * '-'}\nUse arrow keys to move the turtle. 'q' to quit."
         )
-        wait_for(lambda: all(line in terminal.screen for line in greeting), "greeting")
+        wait_for(lambda: greeting in terminal.screen, "greeting")
         terminal.hold("Up", lambda: self.poses[-1].linear_velocity == 2.0, "drive")
         terminal.press("q")
         wait_for(lambda: terminal.ended, "end")
 
     def test_keys_come_from_a_pipe_too_and_its_end_ends_the_node(self):
-        name = FIRST.strip("/")
-        program = self.start(
-            node_path("turtlesim", "turtle_teleop_key"), f"__ns:={name}", stdin=subprocess.PIPE
-        )
-        program.type("\x1b[D")  # and the end of the line, which is no key here
+        command = node_path("turtlesim", "turtle_teleop_key"), f"__ns:={FIRST.strip('/')}"
+        program = self.start(*command, stdin=subprocess.PIPE)
+        program.type("\x1b[D")  # with the end of the line, which is no key here
         wait_for(lambda: self.poses[-1].angular_velocity == 2.0, "turn")
         program.close_input()
         self.check_end(program)

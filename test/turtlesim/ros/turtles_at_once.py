@@ -1,4 +1,4 @@
-"""turtlesim's services are there before the node has loaded rospy: for rosservice beside it."""
+"""turtlesim's services exist before the node has loaded rospy, for a rosservice beside it."""
 
 import sys
 from io import BytesIO
@@ -17,7 +17,7 @@ from tutorial_testing.processes import Program
 from tutorial_testing.rostests import RosTest
 from tutorial_testing.waiting import wait_for
 
-# Runs a program in whose way rospy is not found until a file is there.
+# Runs a program that cannot import rospy until a file exists.
 GATED = """
 import pathlib, runpy, sys, time
 

@@ -1,4 +1,4 @@
-"""The background's parameters, read as roscpp reads whole numbers; a node without a screen."""
+"""The background's parameters are read as roscpp reads whole numbers; a node without a screen."""
 
 import math
 import sys
@@ -14,20 +14,9 @@ from tutorial_testing.claims import claim
 @claim("turtlesim's background is read as roscpp reads whole numbers")
 @pytest.mark.parametrize(
     ("value", "red"),
-    [
-        (150, 150),
-        (10.7, 11),
-        (10.5, 11),
-        (10.4, 10),
-        (-0.2, 255),
-        (300, 44),
-        (True, 69),
-        ("150", 69),
-        (None, 69),
-        (math.nan, 0),
-        (1e10, 0),
-    ],
-)
+    [(150, 150), (10.7, 11), (10.5, 11), (10.4, 10), (-0.2, 255), (300, 44), (True, 69),
+     ("150", 69), (None, 69), (math.nan, 0), (1e10, 0)],
+)  # fmt: skip
 def test_numbers_are_rounded_and_the_rest_is_the_default(value, red):
     given = {"~background_r": value}
     with mock.patch.object(rospy, "get_param", given.get):
