@@ -15,6 +15,13 @@ def link(tmp_path):
     return str(tmp_path / "kobuki")
 
 
+@pytest.fixture
+def line(link):
+    serial_line = SerialLine(link)
+    yield serial_line
+    serial_line.unplug()
+
+
 @contextmanager
 def opened(path):
     descriptor = os.open(path, os.O_RDWR | os.O_NOCTTY | os.O_NONBLOCK)
@@ -24,8 +31,7 @@ def opened(path):
         os.close(descriptor)
 
 
-def test_all_bytes_pass_unchanged_both_ways_and_also_when_it_is_opened_again(link):
-    line = SerialLine(link)
+def test_all_bytes_pass_unchanged_both_ways_and_also_when_it_is_opened_again(link, line):
     for _ in range(2):
         assert not line.is_open
         with opened(link) as driver:
@@ -34,34 +40,27 @@ def test_all_bytes_pass_unchanged_both_ways_and_also_when_it_is_opened_again(lin
             assert os.read(driver, 1000) == BYTES
             os.write(driver, BYTES)
             assert line.read() == BYTES
-    line.unplug()
 
 
-def test_what_is_sent_while_it_is_closed_is_lost(link):
-    line = SerialLine(link)
+def test_what_is_sent_while_it_is_closed_is_lost(link, line):
     line.write(b"old")
     with opened(link) as driver, pytest.raises(BlockingIOError):
         os.read(driver, 10)
-    line.unplug()
 
 
-def test_a_driver_that_does_not_read_holds_up_nothing(link):
-    line = SerialLine(link)
+def test_a_driver_that_does_not_read_holds_up_nothing(link, line):
     with opened(link):
         for _ in range(1000):
             line.write(BYTES)
-    line.unplug()
 
 
-def test_what_waits_is_dropped_on_request(link):
-    line = SerialLine(link)
+def test_what_waits_is_dropped_on_request(link, line):
     with opened(link) as driver:
         os.write(driver, BYTES * 10)
         line.drain()
         assert line.read() == b""
         os.write(driver, b"new")
         assert line.read() == b"new"
-    line.unplug()
 
 
 def test_unplugged_the_link_is_gone_and_the_driver_reads_its_end(link):
@@ -87,9 +86,7 @@ def test_a_file_where_the_link_would_be_is_left_alone(link, make):
     assert os.path.exists(link)
 
 
-def test_the_link_of_a_living_one_is_left_alone(link):
-    line = SerialLine(link)
+def test_the_link_of_a_living_one_is_left_alone(link, line):
     with pytest.raises(ValueError, match="which exists; end its program"):
         SerialLine(link)
     assert os.readlink(link) == line.path
-    line.unplug()

@@ -82,12 +82,9 @@ def test_what_is_no_port_is_one_line(tmp_path):
         SerialPort(str(tmp_path / "nothing"))
     file = tmp_path / "file"
     file.write_text("")
-    with pytest.raises(PortError, match="is not a working serial port"):
-        SerialPort(str(file))
-    with pytest.raises(PortError, match="is not a working serial port"):
-        SerialPort(str(tmp_path))
-    with pytest.raises(PortError, match="is not a working serial port"):
-        SerialPort("/dev/null")
+    for path in (file, tmp_path, "/dev/null"):
+        with pytest.raises(PortError, match="is not a working serial port"):
+            SerialPort(str(path))
 
 
 def test_no_permission_is_one_line(tmp_path, monkeypatch):

@@ -1,6 +1,7 @@
 """The framer finds the next packet after any damage to the stream."""
 
 import random
+from collections import Counter
 
 import pytest
 
@@ -56,23 +57,17 @@ def test_every_undamaged_packet_is_delivered_and_no_other():
     for _ in range(STREAMS):
         sent = [payload(values) for _ in range(PACKETS)]
         stream, places = b"", []
-        for one in sent:
-            places.append((len(stream), len(stream) + len(one) + 4))
-            stream += packet(one)
+        for part in sent:
+            places.append((len(stream), len(stream) + len(part) + 4))
+            stream += packet(part)
         stream, (start, end) = damaged(values, stream)
         stream += packet(b"\x01\x00") * 130  # a false length can swallow 255 bytes
         framer, received = Framer(), []
         for piece in in_pieces(values, stream):
             received += framer.feed(piece)
-        whole = [one for one, (a, b) in zip(sent, places) if b <= start or a >= end]
-        rest = list(received)
-        lost = 0
-        for one in whole:
-            if one in rest:
-                rest.remove(one)
-            else:
-                lost += 1
-        strange = [one for one in rest if one != b"\x01\x00" and one not in sent]
+        whole = Counter(part for part, (a, b) in zip(sent, places) if b <= start or a >= end)
+        lost, rest = whole - Counter(received), Counter(received) - whole
+        strange = [part for part in rest.elements() if part not in (b"\x01\x00", *sent)]
         false += len(strange)
         assert not lost or strange, (sent, received)
     assert false <= STREAMS / 500

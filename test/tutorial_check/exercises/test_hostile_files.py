@@ -31,18 +31,11 @@ for number, order in enumerate(line.makefile()):
     line.sendall(json.dumps(answer).encode() + b"\\n")
 """
 TARGETS = [
-    "beginner_tutorials/scripts/talker.py",
-    "beginner_tutorials/scripts/listener.py",
-    "beginner_tutorials/package.xml",
-    "beginner_tutorials/CMakeLists.txt",
-    "joy2twist/package.xml",
-    "joy2twist/scripts/joy2twist.py",
-    "joy2twist/launch/launch_bag.launch",
-    "other/package.xml",
-    "../devel/setup.sh",
-    "../devel/_setup_util.py",
-    "output",
-]
+    "beginner_tutorials/scripts/talker.py", "beginner_tutorials/scripts/listener.py",
+    "beginner_tutorials/package.xml", "beginner_tutorials/CMakeLists.txt",
+    "joy2twist/package.xml", "joy2twist/scripts/joy2twist.py", "joy2twist/launch/launch_bag.launch",
+    "other/package.xml", "../devel/setup.sh", "../devel/_setup_util.py", "output",
+]  # fmt: skip
 UNITS = (
     "<!--", "-->", "--", "<![CDATA[", "]]>", "<a>", "<a", "&lt;", '="', "='", "</", "<arg name=",
     "$(find ", "$(arg ", "(", "[", "{", ")", "x = 1\n", "x = [1, 2]\n", "except ", "    except\t",

@@ -76,6 +76,6 @@ def test_a_recording_of_what_is_no_data_is_one_line_that_names_the_recorder(make
 
 
 class Clock:
-    """A quiet machine's."""
+    """The clock of a quiet machine."""
 
     busy = overloaded = staticmethod(lambda: False)

@@ -31,7 +31,7 @@ class Seen:
 
 
 def look(workspace) -> Seen:
-    """Recorded by the worker of the test below."""
+    """A recorder, whose worker the test below imitates."""
 
 
 @dataclass(frozen=True)
