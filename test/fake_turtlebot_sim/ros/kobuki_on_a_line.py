@@ -73,9 +73,9 @@ class SerialKobukiTest(RosTest):
             driver.wait_for(Core, lambda core: core.buttons == 2)
             call_service("charge", SetBool, True)
             driver.wait_for(Core, lambda core: core.charger == 6)
-            driver.drive(0.3, 0.0, lambda core: core.left_encoder > 500)
+            driven = driver.drive(0.3, 0.0, lambda core: core.left_encoder > 500)
             call_service("reboot", Empty)
-            back = driver.wait_for(Core, lambda core: core.time_stamp < 1000)
+            back = driver.wait_for(Core, lambda core: core.time_stamp < driven.time_stamp)
             self.assertEqual((back.left_encoder, back.right_encoder), (0, 0))
             self.assertEqual(call_service("plug_in", SetBool, False).message, "the cable is out")
             with self.assertRaises(EOFError):
