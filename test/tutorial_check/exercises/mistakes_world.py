@@ -39,7 +39,7 @@ ROWS = [
     bumper("one line for all", SHOWN, 'rospy.loginfo("left, center or right: %s", change)',
         "for all: left"),
     mistake("no bumper.py", [*SOLVED, remove(BUMPER)], "C35", "scripts/bumper.py"),
-    stop("it never stops", "not any(one < TO_FRONT + GAP for one in scan.ranges)", "True",
+    stop("it never stops", "not any(distance < TO_FRONT + GAP for distance in scan.ranges)", "True",
         "into the wall"),
     stop("from the camera, not the front", "TO_FRONT = 0.087 + 0.178", "TO_FRONT = 0.0", "0.087 m"),
     stop("it stops too early", "GAP = 0.4", "GAP = 0.7", "m before the wall"),
@@ -51,7 +51,7 @@ ROWS = [
     stop("a scan that is no list", "scan.ranges)", "scan.ranges.values())", "stop_before_wall.py:"),
     wander("it ignores the bumper and the laser", "if since_bump < BACK_S:",
         "if True:\n            twist.linear.x = SPEED\n        el&", "it pushed"),
-    wander("it turns on the spot", "any(one < FREE for one in scan.ranges)", "True",
+    wander("it turns on the spot", "any(distance < FREE for distance in scan.ranges)", "True",
         "turn until it is"),
     wander("it stands before a wall", "twist.angular.z = self.turn", "pass", "in a place"),
     wander("it circles blindly", "if since_bump < BACK_S:",
@@ -65,8 +65,8 @@ ROWS = [
 ]  # fmt: skip
 RIGHT = [
     right("lesson 7, NaN and all else that is not measured left out", "7", *SOLVED, put(STOP,
-        "scan.ranges)", "scan.ranges if scan.range_min <= one <= scan.range_max)"), put(WANDER,
-        "any(one < FREE for one in scan.ranges)",
+        "scan.ranges)", "scan.ranges if scan.range_min <= distance <= scan.range_max)"), put(WANDER,
+        "any(distance < FREE for distance in scan.ranges)",
         "min([one for one in scan.ranges if one == one] or [9.0]) < FREE")),
     right("lesson 7, a callback that is attached late", "7", *SOLVED,
         put(BUMPER, "import rospy\n", LATE)),
