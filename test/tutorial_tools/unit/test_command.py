@@ -28,6 +28,7 @@ SECTIONS["browser"] = [*SECTIONS["test"], "browser"]
     ("test exercises --every 5 --lf", "test", "run.py", "exercises --every 5 --lf"),
     ("test browser --trials 20", "browser", "run.py", "browser --trials 20"),
     ("bench joy2twist --hours 1", "test", "run.py", "bench joy2twist --hours 1"),
+    ("bench check --hours 1", "test", "run.py", "bench tutorial_check --hours 1"),
     ("test joy2twist -k x", "test", "run.py", "joy2twist -k x"),
     ("test test/cockpit/browser -x", "browser", "run.py", "browser test/cockpit/browser -x"),
     ("test test/joy2twist", "test", "run.py", "joy2twist"),

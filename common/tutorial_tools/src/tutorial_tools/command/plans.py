@@ -21,6 +21,7 @@ CLUSTER = "--cluster"  # option of check --all
 Plan = Dict[str, List[str]]  # sections of packages, builds, student and the command
 # Asks whether to install ROS 2, unless the argument says so; raises ValueError if not.
 Confirm = Callable[[bool], None]
+BENCHES = {"check": "tutorial_check", "two_hosts": "suite"}  # former names
 
 
 def with_kind(arguments: list[str]) -> list[str]:
@@ -115,6 +116,8 @@ def plan(word: str, arguments: list[str]) -> Plan:
         elif of_cluster or CLUSTER in options_of(arguments):
             made["sections"].append("cluster")
         return {**made, "command": [*own, *arguments]}
+    if word == "bench":
+        arguments = [BENCHES.get(argument, argument) for argument in arguments]
     if word in ("bench", "lint", "docs"):
         parsed = parser_of(word).parse_known_args(arguments)
         if word == "docs" and parsed[1]:
