@@ -140,11 +140,11 @@ def test_a_tab_without_the_floor_receives_little(world, shared_browser, tab):
             page.wait_for_text("#speed", "0.00 m/s")
             if tab == "doctor":
                 wait_for(lambda: page.text("#doctor-state") not in ("", "Checking …"), "verdict")
-            page.driver.execute_async_script(RECEIVED, 2000)  # what it needs at first
-            received = page.driver.execute_async_script(RECEIVED, 3000)
+            received = lambda: page.driver.execute_async_script(RECEIVED, 3000)  # noqa: E731
+            # After what the tab needs at first, which takes a while on a busy machine.
+            wait_for(lambda: 0 < received() < 3 * MOST_BYTES_S, "little traffic")
     finally:
         page.send("Page.removeScriptToEvaluateOnNewDocument", **script)
-    assert 0 < received < 3 * MOST_BYTES_S
 
 
 def test_a_recording_without_a_joystick_says_how_to_play_it(world, page):
