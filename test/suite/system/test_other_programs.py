@@ -29,7 +29,7 @@ LAUNCH = {
     "rbx1": ("rbx1_bringup", "fake_turtlebot.launch"),
     "TurtleBot": ("turtlebot_bringup", "minimal.launch", "world:=room"),
 }
-# What the page tells the user to do to a program first, in its words and as a command.
+# What the user must first do to a program: in the words of the page, and as a command.
 HOW = {
     "as it is": "true",
     "`2to3`": "2to3 -w {0}",
