@@ -60,10 +60,10 @@ class Safety:
         self._stopping = False  # zeros are or were repeated
         self._repeats: float = 0  # zeros still to send
         self._next_output = math.inf  # when a zero or a step of the acceleration is due
-        self._sender: object = None  # of the last good message
+        self._sender: object = None  # the sender of the last good message
         self._switched_at = -math.inf  # when the sender last changed
         self._may_warn = ThrottleEach(1.0 / WARNING_PERIOD_S)
-        self.arming = Arming(not p.arm_on_neutral)  # of this sender
+        self.arming = Arming(not p.arm_on_neutral)  # whether this sender may drive
         self._unarmed = State.NOT_ARMED  # the state until then
         self.latched = False  # the stop button was pressed
         self.state = State.WAITING

@@ -77,6 +77,7 @@ def test_a_preset_that_does_not_exist_is_named_beside_those_that_do(monkeypatch,
     ("name", "text", "why"),
     [
         ("config", "rate: 50", ""),
+        ("config", "# nothing yet", ""),
         ("config", "- 50", "must be a YAML file with a map, such as rate: 50"),
         ("mux_config", "a: [", "line 1 is not YAML: expected the node content"),
         ("urdf", "<robot/>", ""),

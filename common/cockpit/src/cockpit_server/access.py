@@ -24,7 +24,7 @@ class Access:
     driver_token: str | None = None
     viewer_token: str | None = None
     peers: tuple[str, ...] | None = None  # the only other machines whose requests are answered
-    origins: tuple[str, ...] = ()  # of servers that forward to this page
+    origins: tuple[str, ...] = ()  # servers that forward to this page
 
     def may_come(self, address: str) -> bool:
         """Return whether an IP address may send requests."""

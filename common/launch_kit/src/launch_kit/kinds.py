@@ -12,7 +12,7 @@ import yaml
 
 from node_kit.parameters.declaration import Allowed, declared
 
-Rule = Callable[..., object]  # of a text; raises ValueError for a value that is not allowed
+Rule = Callable[..., object]  # takes a text; raises ValueError if it is not allowed
 
 NAME = r"[A-Za-z]\w*"
 
@@ -62,14 +62,14 @@ def file(value: str) -> str:
 
 
 def yaml_file(value: str) -> None:
-    """Check for a file of YAML that holds a map, such as parameters."""
+    """Check for a file of YAML that holds a map, such as parameters, or nothing."""
     try:
         content = yaml.compose(file(value), yaml.SafeLoader)  # rosparam knows more tags
     except yaml.YAMLError as error:
         mark = getattr(error, "problem_mark", None)
         line = f"line {mark.line + 1} " if mark else ""
         raise ValueError(f"{line}is not YAML: {getattr(error, 'problem', error)}") from None
-    if not isinstance(content, yaml.MappingNode):
+    if content and not isinstance(content, yaml.MappingNode):  # roslaunch takes an empty file
         raise ValueError("must be a YAML file with a map, such as rate: 50")
 
 

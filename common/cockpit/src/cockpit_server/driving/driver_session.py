@@ -95,7 +95,7 @@ class DriverSession:
         self._delay = Delay()
         self._pad, self._pad_at = None, math.nan  # the gamepad's clock; when it last advanced [s]
         self._ticks = 0  # how often it advanced while nothing moved
-        self._newest: tuple[Axes, Buttons] | None = None  # of the newest input
+        self._newest: tuple[Axes, Buttons] | None = None  # None before the first input
 
     @property
     def state(self) -> tuple[int | None, str, bool, bool, str]:

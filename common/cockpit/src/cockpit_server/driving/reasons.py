@@ -32,7 +32,7 @@ class About(NamedTuple):
     report: Optional[Report] = None
     publishers: Tuple[str, ...] = ()  # other nodes that publish its joystick
     moves: bool = False  # by its odometry
-    has_subscriber: bool = True  # of its joystick
+    has_subscriber: bool = True  # a node subscribes to its joystick
     no_reset: str = "there is no robot to reset"  # why it cannot be reset, or ""
 
     @property

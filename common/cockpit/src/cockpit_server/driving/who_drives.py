@@ -50,7 +50,7 @@ class Driving(TabSource):
         self._modes: tuple[str, ...] = ()  # modes that the driving gamepad may have
         self._began_at = 0.0  # [s] when the session began
         self._beats = 0
-        self._changes = 0  # of the driver, and losses
+        self._changes = 0  # changes of the driver, and losses
         self._abouts: dict[str, About] = {}  # by robot
         self._rows: dict[str, dict[str, str]] = {}  # by robot: its row in the table
         self._driven: str | None = None  # at the last collect()

@@ -10,7 +10,7 @@ from cockpit_server.fields import form_fields
 from node_kit.parameters.declaration import Allowed
 
 MOST_VALUES, SHORT = 1000, 60  # parameters in a list, and characters of the value of each
-MOST_FIELDS = 60  # of a form
+MOST_FIELDS = 60  # fields in a form
 LONGEST_VALUE = 2000  # characters
 LONGEST_ANSWER, LONGEST_LINE = 4000, 200  # characters
 

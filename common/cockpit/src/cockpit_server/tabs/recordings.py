@@ -54,7 +54,7 @@ class Shelf:
 
     def __init__(self) -> None:
         self._kept: dict[Any, Recording] = {}  # by file; the last one was taken last
-        self.in_use: Sequence[Recording] = ()  # that pages have open; replaced, never changed
+        self.in_use: Sequence[Recording] = ()  # open on a page; replaced, never changed
 
     def take(self, file: Any, read: Callable[[], Recording]) -> Recording:
         """Return the kept Recording of a file, or else read it. Raises RefusedError."""

@@ -34,7 +34,7 @@ class Recorder(TabSource):
     messages: ClassVar = {"record": {"on": switch}}
 
     def __init__(self) -> None:
-        self._name = ""  # of the file, while something is recorded
+        self._name = ""  # the file that is being recorded, or ""
         self._why = ""  # why the last recording has ended, if no page ended it
         self._next_look_s = 0.0
         self._process: Popen[bytes] | None = None
