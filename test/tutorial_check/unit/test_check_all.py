@@ -44,7 +44,13 @@ class Group:
     def check_all(self, out=None, again=False, variant=None):
         """Return the exit code and the rows of the table."""
         about = {"jobs": 1, "hints": 2, "again": again, "underlay": "", "exercises": ["2"]}
-        about.update(variant=variant, variants=None, cluster=None, keep=self.folder.parent / "kept")
+        about.update(
+            variant=variant,
+            variants=None,
+            cluster=None,
+            language="",
+            keep=self.folder.parent / "kept",
+        )
         options = SimpleNamespace(all=str(self.folder), out=out, course=read_course(), **about)
         code = submissions.check_all(options)
         with (self.check / "table.csv").open(newline="", encoding="utf-8") as table:

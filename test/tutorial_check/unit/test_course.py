@@ -57,10 +57,10 @@ def test_a_course_and_its_checks_in_its_order(course):
 
 
 @pytest.mark.parametrize(("text", "why"), [
-    ("", "must be a map of title, document, sheet, exercises, variants, packages"),
+    ("", "must be a map of title, document, sheet, language, exercises, variants, packages"),
     ("title: [", "no YAML"),
     ("title: T\n", "exercises: "),
-    ("points: 3\n", "points is not known; known are title, document, sheet, exercises"),
+    ("points: 3\n", "points is not known; known are title, document, sheet, language, exercises"),
     ("title: 3\nexercises: {'1': a}\n", "title: 3 is no str"),
     ("packages: [p]\n", "packages: ['p'] is no dict"),
     ("exercises: {1: a}\n", 'exercise 1: write "1", in quotes'),

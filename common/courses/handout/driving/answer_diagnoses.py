@@ -14,7 +14,7 @@ from .joys import COUNT, ROUNDED
 from .probe_diagnoses import SILENCES
 
 MOST_STRAY_ZEROS = 2  # in a row of Joys
-IN_CALLBACK = "publish only in the callback, once for every Joy; end with rospy.spin()"
+IN_CALLBACK = "publish only in the callback, once for every Joy; end with {}"
 
 
 def callback_sleeps(node: Joy2TwistNode) -> Wrong | None:
@@ -41,7 +41,8 @@ def throttled(node: Joy2TwistNode) -> Note | None:
     if not names or not node.run.displays_numbers:
         return None
     seen = "it displays a Joy now and then; the handout's displays every one"
-    hint = "rospy.loginfo in place of rospy.loginfo_throttle"
+    info = node.source.idioms.info
+    hint = f"{info} in place of {info}{'_throttle' if node.source.is_python else '_THROTTLE'}"
     return Note(seen, node.at_call(names[0]), hint)
 
 
@@ -57,7 +58,7 @@ def rounded_too_far(node: Joy2TwistNode) -> Wrong | None:
 
 def some_values_left_out(node: Joy2TwistNode) -> Wrong | None:
     count = node.values_displayed()
-    hint = "all six: [%.2f, %.2f, %.2f, %.2f, %.2f, %.2f] % data.axes"
+    hint = f"all six: {node.source.idioms.show_axes}"
     seen = f"a line has {count} of the six values of a message"
     return Wrong("", seen, node.script, hint) if count else None
 
@@ -68,7 +69,8 @@ def logs_at_debug(node: Joy2TwistNode) -> Note | None:
 
 
 def nothing_displayed(node: Joy2TwistNode) -> Wrong:
-    hint = "display data.axes in the callback, with rospy.loginfo(...)"
+    idioms = node.source.idioms
+    hint = f"display {idioms.axes} in the callback, with {idioms.info}(...)"
     return Wrong("", "not one value of a message was found in its output", node.script, hint)
 
 
@@ -97,14 +99,14 @@ def zeros_between_answers(node: Joy2TwistNode) -> Wrong | None:
     if node.run.stream.stray_zeros <= MOST_STRAY_ZEROS and not (is_mixed and node.is_odd):
         return None
     seen = "zeros come between the answers: the robot jerks"
-    return Wrong("", seen, node.loop, IN_CALLBACK)
+    return Wrong("", seen, node.loop, IN_CALLBACK.format(node.source.idioms.spin))
 
 
 def twists_without_joys(node: Joy2TwistNode) -> Wrong | None:
     if not node.run.numbered.repeats:
         return None
     seen = "Twists come from a clock of its own: without a joystick the robot drives on"
-    return Wrong("", seen, node.loop, IN_CALLBACK)
+    return Wrong("", seen, node.loop, IN_CALLBACK.format(node.source.idioms.spin))
 
 
 def second_twist_is_zero(node: Joy2TwistNode) -> Wrong | None:
@@ -142,7 +144,9 @@ def another_rule(node: Joy2TwistNode) -> Wrong | None:
         return None
     line, takes_buttons = _setting_line(node.source.text, verdict.seen)
     where = node.at([line]) if line else node.at_call("publish")
-    hint = "the stick is data.axes, not data.buttons" if takes_buttons else verdict.hint
+    axes = node.source.idioms.axes
+    stick = f"the stick is {axes}, not {axes.replace('axes', 'buttons')}"
+    hint = stick if takes_buttons else verdict.hint
     return Wrong("", verdict.seen, where, hint, not (numbered.missing or numbered.extra))
 
 

@@ -65,7 +65,8 @@ def another_topic_subscribed(node: Joy2TwistNode) -> Wrong | None:
 
 
 def nothing_subscribed(node: Joy2TwistNode) -> Wrong:
-    hint = f"{node.subscriber}, after rospy.init_node and before rospy.spin()"
+    idioms = node.source.idioms
+    hint = f"{node.subscriber}, after {idioms.init} and before {idioms.spin}"
     return Wrong("", "it subscribes to nothing", node.at_call("Subscriber"), hint)
 
 
@@ -122,9 +123,10 @@ def another_topic_published(node: Joy2TwistNode) -> Wrong | None:
 
 def nothing_published(node: Joy2TwistNode) -> Wrong:
     hint, where = f"{node.publisher}, and publish(msg) in the callback", node.at_call("Publisher")
+    maker = node.source.idioms.publisher_name
     if node.source.first("Publisher"):
         return Wrong("", "it publishes nothing", where, hint)
-    seen = "it publishes nothing: there is no rospy.Publisher in it"
+    seen = f"it publishes nothing: there is no {maker} in it"
     return Wrong("", seen, where, f"{hint}; or was another file edited?")
 
 

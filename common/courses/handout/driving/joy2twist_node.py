@@ -33,7 +33,7 @@ class Joy2TwistNode:
 
     def __init__(self, submission: Submission, run: Joy2TwistRun) -> None:
         self.submission, self.run, self.script = submission, run, run.script
-        self.source = submission.scripts(PACKAGE)[run.script]
+        self.source = Script(submission, PACKAGE, run.script).facts
         # The task's values in messages: by name, or in hints as they are.
         self.names, self.answers = submission.task.names, submission.task.answers
         self.graph = graph = run.connections
@@ -48,7 +48,7 @@ class Joy2TwistNode:
 
     def at(self, lines: Sequence[int]) -> str:
         """Return FILE:LINE of the first of the lines, or the file."""
-        return f"{self.script}:{lines[0]}" if lines else self.script
+        return self.source.place(self.script, lines[0] if lines else 0)
 
     def at_call(self, name: str) -> str:
         return self.at(self.source.lines(name))
@@ -68,12 +68,12 @@ class Joy2TwistNode:
     @property
     def subscriber(self) -> str:
         """The line to write that subscribes to Joys."""
-        line = f"rospy.Subscriber('{self.answers.joy}', Joy, callback)"
+        line = self.source.idioms.subscriber(self.answers.joy, "Joy")
         return with_import(line, "Joy", self.source)
 
     @property
     def publisher(self) -> str:
-        line = f"rospy.Publisher('{self.answers.cmd_vel}', Twist, queue_size=10)"
+        line = self.source.idioms.publisher(self.answers.cmd_vel, "Twist")
         return with_import(line, "Twist", self.source)
 
     @functools.cached_property
@@ -116,7 +116,7 @@ class Joy2TwistNode:
     def crash(self) -> Wrong:
         """Return the Wrong for its end or traceback, even if an except hides it."""
         submission, run = self.submission, self.run
-        text = unmasked(submission.text(PACKAGE, self.script))
+        text = unmasked(submission.text(PACKAGE, self.script)) if self.source.is_python else None
         if text and not run.program.spins and (run.ending.early or not run.has_traceback):
             bare = submission.recording(drive, self.script, True, text)
             if bare.has_traceback:

@@ -10,10 +10,12 @@ from .record import known_package
 
 def main_script(submission: Submission) -> str:
     """Return the Joy-to-Twist program; it is not joy2twist.py if that is the first version."""
-    script, scripts = find_script(submission, PACKAGE, NAME), submission.scripts(PACKAGE)
+    script, scripts = find_script(submission, PACKAGE, NAME), submission.programs(PACKAGE)
     facts = scripts.get(script)
     if facts is None:
         return script  # not Python, which C13 reports
+    if not facts.is_python:
+        return script
     is_first = "Subscriber" in facts.calls and not {"Publisher", "publish"} & set(facts.calls)
     is_whole = any(name.startswith("sensor_msgs.msg") for name in facts.imports)
     if is_first and is_whole and "geometry_msgs.msg.Twist" not in facts.imports:

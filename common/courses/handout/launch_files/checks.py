@@ -11,7 +11,8 @@ from typing import Sequence
 from tutorial_check import (
     LaunchNode,
     Note,
-    PythonFacts,
+    Script,
+    SourceFacts,
     Submission,
     Wrong,
     attribute,
@@ -55,15 +56,20 @@ def check_viewer(file: HandoutLaunch) -> Note | None:
     return None
 
 
-def sends_twists(facts: PythonFacts) -> bool:
+def sends_twists(facts: SourceFacts) -> bool:
     calls = facts.calls.get("Publisher", [])
     return any("Twist" in word for call in calls for word in (*call.words, *call.names.values()))
 
 
 def several_drivers(file: HandoutLaunch) -> Wrong | None:
     """Find two of the student's programs that send velocities to the same topic."""
-    topic, scripts = file.submission.task.topic(CMD_VEL), file.submission.scripts(PACKAGE)
-    of_twists = {Path(path).name for path, facts in scripts.items() if sends_twists(facts)}
+    submission = file.submission
+    topic, programs = submission.task.topic(CMD_VEL), submission.programs(PACKAGE)
+    of_twists = {
+        Script(submission, PACKAGE, path).name
+        for path, facts in programs.items()
+        if sends_twists(facts)
+    }
     nodes = [node for node in file.own if topic_of(node, topic) == CMD_VEL]
     drivers = [node for node in nodes if node["type"] in of_twists]
     drivers = [node for node in drivers if node["namespace"] == drivers[0]["namespace"]]

@@ -10,7 +10,7 @@ from typing import Mapping
 from tutorial_check import (
     ClassFacts,
     Note,
-    PythonFacts,
+    SourceFacts,
     Submission,
     Wrong,
     check_file,
@@ -30,19 +30,19 @@ class ClassProgram:
     script: str
     path: str  # of the file with the class
     node: ClassFacts
-    scripts: Mapping[str, PythonFacts]  # by path
+    scripts: Mapping[str, SourceFacts]  # by path
 
     @property
-    def facts(self) -> PythonFacts:
+    def facts(self) -> SourceFacts:
         return self.scripts[self.path]
 
     def at(self, line: int) -> str:
-        return f"{self.path}:{line}"
+        return self.facts.place(self.path, line)
 
 
 def _class_of(submission: Submission) -> tuple[str, ClassFacts] | None:
     """Return (path, ClassFacts) of the class that uses ROS; if there are several, the likeliest."""
-    scripts, folder = submission.scripts(PACKAGE), submission.package(PACKAGE).folder
+    scripts, folder = submission.programs(PACKAGE), submission.package(PACKAGE).folder
     owned = [(path, owner) for path, facts in scripts.items() for owner in facts.classes]
     bases = {base.rpartition(".")[2] for _, owner in owned for base in owner.bases}
     whole = zip(owned, with_bases([owner for _, owner in owned]))
@@ -70,7 +70,7 @@ def _fits(words: str) -> bool:
 
 def program(submission: Submission) -> ClassProgram:
     """Return the program that is a class. Raises Wrong if there is none."""
-    scripts, likeliest = submission.scripts(PACKAGE), _class_of(submission)
+    scripts, likeliest = submission.programs(PACKAGE), _class_of(submission)
     if not likeliest:
         raise _no_class(submission)
     path, node = likeliest
@@ -83,7 +83,7 @@ def program(submission: Submission) -> ClassProgram:
 
 
 def _no_class(submission: Submission) -> Wrong:
-    scripts, names = submission.scripts(PACKAGE), submission.task.names
+    scripts, names = submission.programs(PACKAGE), submission.task.names
     for path in (path for path, facts in scripts.items() if facts.error and _fits(path)):
         check_file(submission, PACKAGE, path)
     named = [path for path in scripts if re.search(r"new|class", path, re.IGNORECASE)]

@@ -21,7 +21,6 @@ from ..task import BEGINNER
 from . import record
 from .diagnoses import (
     GOES_ON,
-    LOOP,
     RATE_DIAGNOSES,
     Listened,
     Talked,
@@ -29,7 +28,7 @@ from .diagnoses import (
     silent,
     twice_displayed,
 )
-from .record import TOPIC, Pair, Talk
+from .record import TOPIC, Pair, Second, Talk
 
 NO_SECOND = "a second talker publishes, or ends the first"
 
@@ -64,7 +63,7 @@ def talker(submission: Submission) -> Note | str:
     if not seen.received:
         raise silent(talked)
     if seen.talker_ended:
-        raise script.crash(seen.talker, GOES_ON, LOOP)
+        raise script.crash(seen.talker, GOES_ON, script.facts.idioms.in_loop)
     return must_pass(RATE_DIAGNOSES, talked) or f"{talked.rate:.1f} Hz"
 
 
@@ -113,18 +112,30 @@ def anonymous(submission: Submission) -> Note | str:
         raise Wrong("a second talker of the same name ends the first", "both continue", where)
     if not pair.both and not pair.first_ended:
         raise Wrong(NO_SECOND, "neither", script.where)
-    is_plain = given in ("True", "False")
-    flipped = flipped_anonymous(script.text, given == "False") if is_plain else None
-    if not flipped:
+    other = _flipped(submission, script, given)
+    if not other:
         return Note("anonymous cannot be changed by the checker here; try both yourself")
-    other = submission.recording(record.second, script.where, flipped)
     if not other.talks:
         raise script.crash(other.first, "the talker runs with anonymous the other way round")
     if other.first_ended == (given == "False"):
         then = "the second ends the first" if given == "True" else "both continue"
-        hint = "is anonymous given to rospy.init_node?"
+        hint = f"is {script.facts.idioms.init_anonymous}?"
         raise Wrong(f"with anonymous={given == 'False'} {then}", "this did not happen", where, hint)
     return "as submitted, and the other way round"
+
+
+def _flipped(submission: Submission, script: Script, given: str) -> Second | None:
+    """Return the recording of two talkers with the opposite value of anonymous, if it can be made.
+
+    A program in C++ is not changed, which would take another build: two of one __name:= are not
+    anonymous, and two of different ones are as good as that.
+    """
+    if not script.is_python:
+        names = ("one", "other") if given == "False" else ("talker", "talker")
+        return submission.recording(record.second, script.where, "", *names)
+    is_plain = given in ("True", "False")
+    flipped = flipped_anonymous(script.text, given == "False") if is_plain else None
+    return submission.recording(record.second, script.where, flipped) if flipped else None
 
 
 @check("C10", "Ctrl-C ends both", "3.1", needs=(talker, listener), look="Ctrl-C in their terminals")
@@ -135,4 +146,5 @@ def ctrl_c(submission: Submission) -> Note | str:
         note = script.check_end(taken_s, output)
         if note:
             return note
-    return ", ".join(f"{n} {s:.1f} s" for n, s in zip(("talker.py", "listener.py"), pair.taken_s))
+    names = (script.name for script in scripts(submission))
+    return ", ".join(f"{name} {s:.1f} s" for name, s in zip(names, pair.taken_s))

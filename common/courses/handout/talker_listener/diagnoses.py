@@ -13,7 +13,6 @@ from .record import KIND, LISTEN_S, STRINGS, TOPIC, Talk
 
 LISTENS = "every text sent on /chatter, displayed once"
 GOES_ON = "it runs until Ctrl-C"
-LOOP = "while not rospy.is_shutdown(): ..., rate.sleep() within it"
 RATE_TOLERANCE = 0.2  # share of the expected rate
 FEW = 3  # fewer messages give no rate
 TORRENT_HZ = 150
@@ -50,9 +49,9 @@ class Talked:
     @property
     def hint(self) -> str:
         """How to make it publish."""
-        line = "rospy.Publisher('chatter', String, queue_size=10)"
-        line = with_import(line, "String", self.script.facts)
-        return f"{line}; and {LOOP}" if self.end else line
+        facts = self.script.facts
+        line = with_import(facts.idioms.publisher("chatter", "String"), "String", facts)
+        return f"{line}; and {facts.idioms.in_loop}" if self.end else line
 
     @property
     def publisher(self) -> str:
@@ -60,8 +59,10 @@ class Talked:
         return self.script.at_line(call.line if call else 1)
 
     def crash(self) -> Wrong:
-        loops = ", and does it loop: while not rospy.is_shutdown()"
-        hint = f"does the last line call talker(){loops if self.script.facts.has_main else ''}?"
+        facts = self.script.facts
+        loop = f"does it loop: {facts.idioms.loop.rstrip(':')}"
+        hint = f"does the last line call talker(){f', and {loop}' if facts.has_main else ''}?"
+        hint = hint if facts.is_python else f"{loop}?"
         return self.script.end(self.seen.talker, self.expected, hint)
 
 
@@ -85,7 +86,8 @@ def no_sleep(talk: Talked) -> Wrong | None:
 def unwanted_rate(talk: Talked) -> Wrong | None:
     if not talk.wanted or abs(talk.rate / talk.wanted - 1) < RATE_TOLERANCE:
         return None
-    where, hint = talk.script.at_call("Rate"), f"rospy.Rate({talk.wanted})"
+    hint = talk.script.facts.idioms.rate.format(hz=talk.wanted)
+    where = talk.script.at_call("Rate")
     return Wrong(talk.expected, f"{talk.rate:.1f} times a second", where, hint)
 
 
@@ -147,7 +149,7 @@ class Listened:
     @property
     def hint(self) -> str:
         """How to make it subscribe."""
-        line = "rospy.Subscriber('chatter', String, callback)"
+        line = self.script.facts.idioms.subscriber("chatter", "String")
         return with_import(line, "String", self.script.facts)
 
     @property
@@ -172,7 +174,7 @@ def subscribed_elsewhere(listen: Listened) -> Wrong | None:
 def not_subscribed(listen: Listened) -> Wrong | None:
     if TOPIC in listen.seen.subscribers:
         return None
-    hint = f"{listen.hint}, before rospy.spin()"
+    hint = f"{listen.hint}, before {listen.script.facts.idioms.spin}"
     return Wrong(LISTENS, "it subscribes to nothing", listen.subscriber, hint)
 
 
@@ -198,7 +200,8 @@ def wants_other_type(listen: Listened) -> Wrong | None:
 def receives_nothing(listen: Listened) -> Wrong:
     """Return the Wrong for a listener that does not display all texts."""
     diagnoses = (crashed_deaf, subscribed_elsewhere, not_subscribed, no_callback, wants_other_type)
-    hint = "does callback(data) display data.data, with rospy.loginfo?"
+    idioms = listen.script.facts.idioms
+    hint = f"does callback(data) display {idioms.text}, with {idioms.info}?"
     seen = f"{sum(map(bool, listen.times))} of {len(STRINGS)} displayed"
     return first_of(diagnoses, listen) or Wrong(LISTENS, seen, listen.subscriber, hint)
 
@@ -210,7 +213,8 @@ def twice_displayed(listen: Listened) -> Note | None:
     displays = sorted(called.get("print", []) + called.get("loginfo", []))
     places = (listen.script.facts.lines("Subscriber"), displays)
     where = listen.script.at_line(next((lines[1] for lines in places if len(lines) > 1), 0))
-    hint = "one Subscriber, and one rospy.loginfo in its callback, are enough"
+    info = listen.script.facts.idioms.info
+    hint = f"one Subscriber, and one {info} in its callback, are enough"
     return Note(f"each text is displayed {min(listen.times)} times", where, hint)
 
 

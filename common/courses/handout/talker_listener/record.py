@@ -119,16 +119,17 @@ def _pair(
     return Pair(first_ended, both_talk, second.ran, tuple(taken_s))
 
 
-def second(workspace: Workspace, talker: str, text: str) -> Second:
-    """Start two talkers with this text."""
-    script = workspace.sibling(BEGINNER, talker, text)
+def second(workspace: Workspace, talker: str, text: str, *names: str) -> Second:
+    """Start two talkers with this text, or as they are with these names."""
+    script = workspace.sibling(BEGINNER, talker, text) if text else talker
+    given = [[f"__name:={name}"] for name in names] or [[], []]
     with workspace.ros_session() as ros:
         ros.peer.listen(TOPIC, "String")
-        first = ros.start(BEGINNER, script)
+        first = ros.start(BEGINNER, script, *given[0])
         talks = ros.wait_for_start(lambda: ros.peer.count(TOPIC) or first.ended)
         if first.ended or not talks:
             return Second(first.ran, talks=False)
-        other = ros.start(BEGINNER, script)
+        other = ros.start(BEGINNER, script, *given[1])
 
         def settled() -> bool:
             callers = {caller for _, caller, _ in ros.peer.received(TOPIC)}

@@ -37,11 +37,13 @@ from tutorial_check.recording.simulated_turtlebot import (
     has_moved,
 )
 from tutorial_check.recording.workspace import Workspace
+from tutorial_check.submission.idioms import Idioms
 from tutorial_check.submission.launch_xml import GAPS, attribute, line_of, place_of
 from tutorial_check.submission.manifests import is_stand_in
 from tutorial_check.submission.packages import Package, packages_beside, underlays
-from tutorial_check.submission.python_facts import ClassFacts, PythonFacts, shows, with_bases
+from tutorial_check.submission.python_facts import PythonFacts, shows
 from tutorial_check.submission.python_text import flipped_anonymous, unmasked, without_name
+from tutorial_check.submission.source_facts import ClassFacts, SourceFacts, with_bases
 from tutorial_check.submission.student_files import put_file
 from tutorial_check.submission.tracebacks import first_traceback, last_lines
 
@@ -51,14 +53,15 @@ if TYPE_CHECKING:  # its module loads ROS
 __all__ = [
     "BUMPER", "GAPS", "GRACE_S", "MASTER_GONE", "ODOM", "SETTLE_S", "START_S", "TRUTH",
     "CannotCheck", "ClassFacts", "Client", "CutShort", "File", "FrameTransform", "Heard",
-    "HeardText", "Launch", "LaunchFile", "LaunchNode", "Note", "Package", "PoseSample", "Program",
-    "PythonFacts", "Ran", "RosSession", "Script", "Seen", "ServiceAnswer", "SimulatedTurtleBot",
-    "Submission", "Task", "Topics", "Variant", "Workspace", "Wrong", "attribute", "build_error",
-    "build_output", "cause_of", "check", "check_file", "cmake_of", "crash", "find_launch",
-    "find_script", "first_of", "first_traceback", "flipped_anonymous", "has_moved", "is_lacking",
-    "is_stand_in", "last_lines", "launch_file", "line_of", "meant", "missing_in",
-    "must_be_launchable", "must_be_one_program", "must_be_unique", "must_build", "must_pass",
-    "not_found", "package_hint", "package_of", "packages_beside", "packages_of_ros", "place_of",
-    "program_of", "put_file", "read_xml", "recorded", "shows", "traceback_of", "underlays",
-    "unmasked", "unreadable", "with_bases", "with_import", "without_name", "wrong_of",
+    "HeardText", "Idioms", "Launch", "LaunchFile", "LaunchNode", "Note", "Package", "PoseSample",
+    "Program", "PythonFacts", "Ran", "RosSession", "Script", "Seen", "ServiceAnswer",
+    "SimulatedTurtleBot", "SourceFacts", "Submission", "Task", "Topics", "Variant", "Workspace",
+    "Wrong", "attribute", "build_error", "build_output", "cause_of", "check", "check_file",
+    "cmake_of", "crash", "find_launch", "find_script", "first_of", "first_traceback",
+    "flipped_anonymous", "has_moved", "is_lacking", "is_stand_in", "last_lines", "launch_file",
+    "line_of", "meant", "missing_in", "must_be_launchable", "must_be_one_program",
+    "must_be_unique", "must_build", "must_pass", "not_found", "package_hint", "package_of",
+    "packages_beside", "packages_of_ros", "place_of", "program_of", "put_file", "read_xml",
+    "recorded", "shows", "traceback_of", "underlays", "unmasked", "unreadable", "with_bases",
+    "with_import", "without_name", "wrong_of",
 ]  # fmt: skip

@@ -10,14 +10,14 @@ from typing import Collection, Iterable
 
 import yaml
 
-from tutorial_check.submission.python_facts import PythonFacts
+from tutorial_check.submission.idioms import HOMES
+from tutorial_check.submission.source_facts import SourceFacts
 
 FILE = Path(__file__).with_suffix(".txt")
 TABLES: dict[str, str] = yaml.safe_load(FILE.with_name("debian_packages.yaml").read_text())
 MODULES, DEV_PACKAGES = TABLES["MODULES"], TABLES["DEV_PACKAGES"]
 OTHER_MODULES, OTHER_PACKAGES = TABLES["OTHER_MODULES"], TABLES["OTHER_PACKAGES"]
 LACKING = {name for row in TABLES["LACKING"].splitlines() for name in row.partition(":")[0].split()}
-HOMES = dict(row.split(": ") for row in TABLES["HOMES"].splitlines())
 UNDEFINED = r"name '(\w+)' is not defined"
 NO_VECTOR = r"'(?:float|int)' object has no attribute '[xyz]'"  # where a vector is needed
 ROW = re.compile(r"((?:\S.*\n)+)((?: .*\n)+)")  # of causes.txt: patterns, and their explanation
@@ -77,13 +77,15 @@ def explain(error: str, text: str = "", file: str = "FILE", section: str = "pyth
     return advice(module, package_of_module(module)) or hint or other
 
 
-def with_import(line: str, message: str, facts: PythonFacts) -> str:
+def with_import(line: str, message: str, facts: SourceFacts) -> str:
     """Return a line to write, and the message's import if the program lacks it."""
-    lacks = message not in facts.names
-    return f"{line}, and at the top: from {HOMES[message]}.msg import {message}" if lacks else line
+    home, lacks = HOMES[message], message not in facts.names
+    if not facts.is_python:
+        lacks = f"{home}/{message}.h" not in facts.imports
+    return f"{line}, and at the top: {facts.idioms.imported(message)}" if lacks else line
 
 
-def traced(error: str, line: int, facts: PythonFacts) -> tuple[int, str]:
+def traced(error: str, line: int, facts: SourceFacts) -> tuple[int, str]:
     """Return (line to blame, fix) as far as the text shows them. line: of the error, or 0."""
     for name, (place, value) in facts.attributes.items():
         part = {"linear": "x", "angular": "z"}.get(name.rpartition(".")[2])

@@ -10,7 +10,8 @@ from tutorial_check.checking.results import Wrong
 from tutorial_check.checking.submission import Submission
 from tutorial_check.data.recorders import BUILT
 from tutorial_check.data.recordings import Ran
-from tutorial_check.submission.python_facts import ClassFacts, PythonFacts
+from tutorial_check.submission.python_facts import PythonFacts
+from tutorial_check.submission.source_facts import ClassFacts, SourceFacts
 from tutorial_check.submission.tracebacks import Traceback, first_traceback, last_lines
 
 COPY = re.compile(r"checked_\d+_")  # a program with one thing changed; see Builder.sibling
@@ -68,7 +69,7 @@ def crash(
     return Wrong(expected, seen, hint=hint)
 
 
-def silent_end(facts: PythonFacts) -> tuple[int, str]:
+def silent_end(facts: SourceFacts) -> tuple[int, str]:
     """Return (line or 0, hint) for a program that ends at once, as far as its text shows why."""
     if facts.keyboard:
         return facts.keyboard, explain("EOF when reading a line")

@@ -11,11 +11,15 @@ from tutorial_check.checking.results import Note, Wrong
 from tutorial_check.checking.submission import Submission
 from tutorial_check.checking.texts import Lines
 from tutorial_check.data.recordings import Ran
+from tutorial_check.submission.idioms import PYTHON, Idioms
 from tutorial_check.submission.python_facts import PythonFacts
+from tutorial_check.submission.source_facts import SourceFacts
 
 
 class File(Lines):
     """A file of a package."""
+
+    idioms: Idioms = PYTHON  # of the program's language
 
     def __init__(self, submission: Submission, package: str, path: str) -> None:
         """Read it. path: within the package. Raises Wrong if it is missing."""
@@ -31,22 +35,35 @@ class File(Lines):
     def must_run(self, ran: Ran, expected: str, hint: str = "", may_end: bool = False) -> None:
         """Raise Wrong if this program printed a traceback, or ended although it may not."""
         if "Traceback" in ran.output or (ran.ended and not may_end):
-            raise self.crash(ran, expected, hint or "rospy.spin() keeps it running")
+            raise self.crash(ran, expected, hint or f"{self.idioms.spin} keeps it running")
 
 
 class Script(File):
-    """A program of a package, with the facts that its Python text shows."""
+    """A program of a package, with the facts that its text shows."""
 
     def __init__(self, submission: Submission, package: str, path: str) -> None:
         """Read it. path: within the package. Raises Wrong if it is missing."""
         super().__init__(submission, package, path)
-        self.name, scripts = Path(path).name, submission.scripts(package)
+        self.name = Path(path).name
+        self.facts: SourceFacts = PythonFacts("")
+        compiled = submission.executable_of(package, path)
+        scripts = submission.scripts(package)
         self.is_python = path in scripts
-        self.facts = scripts[path] if self.is_python else PythonFacts("")
+        if compiled:
+            self.name, self.facts = compiled.name, submission.cpp_programs(package)[path]
+            self.text = "\n".join(self.facts.text.values())
+        elif self.is_python:
+            self.facts = scripts[path]
+        self.idioms = self.facts.idioms
+
+    def at(self, *words: str) -> str:
+        """Return FILE:LINE of the first of the words that the text has; else the file."""
+        place = super().at(*words)
+        return self.at_line(int(place.rpartition(":")[2])) if place != self.where else place
 
     def at_line(self, line: int = 0) -> str:
         """Return FILE:LINE; for line 0 only the file."""
-        return f"{self.where}:{line}" if line else self.where
+        return self.facts.place(self.where, line)
 
     def at_call(self, name: str) -> str:
         """Return FILE:LINE of the first call of a function, or else the file."""
@@ -71,8 +88,9 @@ class Script(File):
         if taken_s is None:
             endless = self.facts.loops if "is_shutdown" not in self.facts.calls else []
             expected, where = f"{self.name} ends within 3 s of Ctrl-C", self.at_line(*endless[:1])
-            hint = "rospy.spin(), or while not rospy.is_shutdown(): and no `except` that hides"
-            raise Wrong(expected, "it had to be killed", where, f"{hint} the end")
+            hint = f"{self.idioms.spin}, or {self.idioms.loop}"
+            hint += " and no `except` that hides the end" if self.is_python else ""
+            raise Wrong(expected, "it had to be killed", where, hint)
         trace = traceback_of(self.submission, self.package, output)
         if trace and "ROSInterrupt" in trace.error:
             seen = f"{self.name} ends with a traceback, ROSInterruptException"

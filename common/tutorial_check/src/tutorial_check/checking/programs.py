@@ -1,4 +1,4 @@
-"""The student's program that a check is about, and its recording."""
+"""The student's program that a check is about, in Python or C++, and its recording."""
 
 from __future__ import annotations
 
@@ -6,27 +6,36 @@ import difflib
 from pathlib import Path
 from typing import Callable, TypeVar
 
+from tutorial_check.checking.cpp_programs import find_compiled
 from tutorial_check.checking.package_files import Script
 from tutorial_check.checking.packages import package_of
 from tutorial_check.checking.results import Wrong
 from tutorial_check.checking.script_faults import check_file
 from tutorial_check.checking.submission import Submission
+from tutorial_check.course.definition import CPP, PYTHON
 
 Recording = TypeVar("Recording")
 
 
 def find_script(submission: Submission, package: str, name: str) -> str:
-    """Return the path of a program within its package. Raises Wrong."""
+    """Return the path of a program within its package; in C++, of its main source. Raises Wrong.
+
+    name: with .py, as it would be in Python.
+    """
     folder = submission.package(package).folder
+    if submission.language == CPP:
+        return find_compiled(submission, package, name)
     files = sorted(path for path in folder.rglob("*") if path.is_file())
     paths = must_be_one_program(folder, name)
     # A name without .py counts if no file has one with it.
     paths += [path for word in (name, name[:-3]) for path in files if path.name == word]
     if paths:
         return str(paths[0].relative_to(folder))
+    sources = submission.cpp_sources(package)
+    if sources and submission.language != PYTHON:
+        return find_compiled(submission, package, name)
     _must_have_its_name(submission, package, name, files)
-    compiled = [path for path in files if path.suffix in (".cpp", ".cc", ".cxx", ".c")]
-    for path in sorted(compiled, key=lambda path: path.stem != name[:-3]):
+    for path in sorted(sources, key=lambda path: path.stem != name[:-3]):
         seen, where = f"a program in C++, {path.name}", str(path.relative_to(folder))
         hint = f"the exercise asks for Python, rospy: write scripts/{name}; the C++ may stay"
         raise Wrong(f"a program {name}", seen, where, hint)

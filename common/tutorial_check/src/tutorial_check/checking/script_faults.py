@@ -6,12 +6,14 @@ import re
 import shutil
 
 from tutorial_check.checking.causes import explain
+from tutorial_check.checking.cpp_programs import must_be_built
 from tutorial_check.checking.package_files import Script
 from tutorial_check.checking.results import Wrong, first_of
 from tutorial_check.checking.submission import Submission
 from tutorial_check.data.recorders import INSTALLED
 from tutorial_check.submission import student_files
 from tutorial_check.submission.python_text import unreadable
+from tutorial_check.submission.submission_files import CPP_ENDINGS
 
 # env -S takes arguments.
 INTERPRETER = re.compile(rb"#!\s*(?:\S*/env\s+(?:-S\s*)?(?:\w+=\S*\s+)*)?(\S+)")
@@ -33,7 +35,10 @@ class ScriptFile(Script):
 
 
 def check_file(submission: Submission, package: str, script: str) -> None:
-    """Raise Wrong for a program that rosrun cannot start, or Python cannot read."""
+    """Raise Wrong for a program that rosrun cannot start, or its language cannot read."""
+    if script.endswith(CPP_ENDINGS):
+        must_be_built(submission, package, script)
+        return
     file = ScriptFile(submission, package, script)
     wrong = first_of(FAULTS, file)
     if wrong:

@@ -13,7 +13,8 @@ from tutorial_check.checking.manifest_errors import unreadable
 from tutorial_check.checking.results import Result, Wrong, wrong_of
 from tutorial_check.course.tasks import Task
 from tutorial_check.data.json_data import as_json, from_json
-from tutorial_check.data.recorders import RecorderName, Recording, name_of
+from tutorial_check.data.recorders import BUILT, RecorderName, Recording, name_of
+from tutorial_check.data.recordings import Executable
 from tutorial_check.errors import UNREADABLE, CannotCheck
 from tutorial_check.sandbox.environment import SYSTEM
 from tutorial_check.submission import handed_in
@@ -45,6 +46,10 @@ class Submission(SubmissionFiles):
         if isinstance(self._runs[key], Wrong):
             raise self._runs[key]
         return cast(Recording, self._runs[key])
+
+    @property
+    def executables(self) -> tuple[Executable, ...]:
+        return self.recording(BUILT).executables
 
     def _recorded(self, named: RecorderName[Any], arguments: tuple[object, ...]) -> object:
         question = Question(named.name, arguments)

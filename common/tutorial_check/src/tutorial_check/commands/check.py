@@ -48,6 +48,7 @@ def examine_and_print(
         order = Order(
             workspace, options.underlay, options.exercises, only_first, is_callers_own,
             course=options.course.folder, variant=variant_of(options.course, "", options.variant),
+            language=options.language,
         )  # fmt: skip
         outcomes = examine(order, terminal.result, side_by_side=is_callers_own)
     finally:

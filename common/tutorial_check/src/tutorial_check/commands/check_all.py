@@ -170,12 +170,14 @@ class ClassCheck:
             raise CannotCheck("a link is not followed: put the folder or the archive itself here")
         options = self._options
         variant = variant_of(options.course, student.name, options.variant, options.variants)
-        student.digest = digest_of(student.path, f"{self._checks} {variant}")
+        student.digest = digest_of(student.path, f"{self._checks} {variant} {options.language}")
         if not options.again and self._last_run.is_same(student):
             student.outcomes = student.before
             return "unchanged since the last check"
-        about = {"is_callers_own": False, "course": options.course.folder, "variant": variant}
-        order = Order(student.path, options.underlay, options.exercises, **about)
+        order = Order(
+            student.path, options.underlay, options.exercises, is_callers_own=False,
+            course=options.course.folder, variant=variant, language=options.language,
+        )  # fmt: skip
         outcomes = self._cluster.examine(order) if self._cluster else examine(order)
         student.outcomes = without_hints(outcomes) if options.hints == 0 else outcomes
         return ""

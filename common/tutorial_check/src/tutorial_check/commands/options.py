@@ -7,7 +7,7 @@ import os
 from typing import Any, Callable, Iterable, Sequence
 
 from node_kit.parameters.arguments import Parser
-from tutorial_check.course.definition import HANDOUT, read_course
+from tutorial_check.course.definition import HANDOUT, LANGUAGES, read_course
 from tutorial_check.errors import CannotCheck
 from tutorial_check.report.formats import FORMATS
 from tutorial_check.report.memory import AGAIN, ALWAYS, NEVER
@@ -162,6 +162,8 @@ def _add_shared(add: _Add) -> None:
     add("exercises", "exercises", nargs="*", metavar="EXERCISE", help="all, if none is given")
     what = "in place of the handout: wiki, or a folder with course.yaml and your own checks"
     add("course", "--course", type=path, default=str(HANDOUT), metavar="FOLDER", help=what)
+    what = "of the programs: python, cpp (C++), or any: Python where there is a program in it"
+    add("course", "--language", choices=LANGUAGES, default="", help=f"{what} (the course's)")
     what = "setup.bash of the underlay"
     given = os.environ.get(UNDERLAY)
     add("course", "--underlay", type=path, default=given, metavar="SETUP", help=what)

@@ -25,6 +25,7 @@ SHIPPED = SUITE / "common" / "courses"  # --course takes these by name, too
 HANDOUT = SHIPPED / "handout"
 # Wherever a course is, its modules are imported as courses.NAME.*, by the folder's name.
 COURSES = "courses"
+PYTHON, CPP, ANY = LANGUAGES = ("python", "cpp", "any")  # any: Python where there is one
 RENAMED = ": common/doc/COURSES.md says what a course of an earlier release has to change"
 
 # {a field's type: what YAML may give for it}; other types take anything.
@@ -70,6 +71,7 @@ class Course:
     title: str = ""
     document: str = "task"
     sheet: str = ""  # the template of a task sheet, if not tasks.SHEET
+    language: str = PYTHON  # of the programs, one of LANGUAGES
     exercises: dict[str, Exercise] = field(default_factory=dict, hash=False)
     variants: dict[str, Value] = field(default_factory=dict, hash=False)
     packages: dict[str, str] = field(default_factory=dict, hash=False)
@@ -139,6 +141,8 @@ def read_course(folder: str | Path = HANDOUT) -> Course:
         if not named:
             raise ValueError('exercises: {"1": TITLE, ...} is missing')
         course = Course(folder=file.parent, **about)
+        if course.language not in LANGUAGES:
+            raise ValueError(f"language: {course.language}: one of {', '.join(LANGUAGES)}")
         for number, what in named.items():
             if not isinstance(number, str):
                 raise ValueError(f'exercise {number}: write "{number}", in quotes')

@@ -27,12 +27,23 @@ class Ran:
 
 
 @dataclass(frozen=True)
+class Executable:
+    """A program in C++, as CMake has configured it."""
+
+    name: str  # of the file that rosrun starts
+    path: str  # of that file, within the workspace
+    sources: Tuple[str, ...]  # within src; its own first, then those of the libraries it needs
+    is_built: bool = False
+
+
+@dataclass(frozen=True)
 class Built:
     """A build of all packages; if that fails, of those that the exercises need."""
 
     code: Optional[int]  # catkin_make's exit code; None: it did not end
     output: str
     unbuilt: str = ""  # what it printed about packages that the exercises do not need
+    executables: Tuple[Executable, ...] = ()
 
 
 @dataclass(frozen=True)

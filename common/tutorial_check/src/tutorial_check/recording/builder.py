@@ -7,10 +7,11 @@ from functools import cached_property
 from pathlib import Path
 
 from tutorial_check.course.tasks import Task
-from tutorial_check.data.recordings import Built
+from tutorial_check.data.recordings import Built, Executable
 from tutorial_check.errors import CannotCheck
 from tutorial_check.processes.runner import Runner
 from tutorial_check.processes.started_program import Program
+from tutorial_check.recording import cmake_targets
 from tutorial_check.sandbox.environment import environment_of
 from tutorial_check.submission import student_files
 from tutorial_check.submission.manifests import is_stand_in
@@ -64,8 +65,15 @@ class Builder(SubmissionFiles):
         if only_needed:
             names = ";".join(package.name for package in self.needed)
             command += [f"-DCATKIN_WHITELIST_PACKAGES={names}"]
+        workspace = self.source.parent
+        cmake_targets.ask(workspace)
         program, ended = self._ended(*command)
-        return Built(program.process.returncode if ended else None, program.output)
+        made = cmake_targets.executables(self.folder, workspace)
+        return Built(program.process.returncode if ended else None, program.output, "", made)
+
+    @property
+    def executables(self) -> tuple[Executable, ...]:
+        return self.built.executables
 
     @cached_property
     def environment(self) -> dict[str, str]:
@@ -92,6 +100,9 @@ class Builder(SubmissionFiles):
 
     def command(self, package: str, script: str) -> list[str]:
         """Return the command with which rosrun starts a script: catkin's own copy, if any."""
+        executable = self.executable_of(package, script)
+        if executable:
+            return [str(self.source.parent / executable.path)]
         own_name = self.task.name_of(package)
         installed = self.folder / "ws" / "devel" / "lib" / own_name / Path(script).name
         self.environment  # noqa: B018  builds, if need be

@@ -16,7 +16,7 @@ from tutorial_check.errors import CannotCheck
 from tutorial_check.recording.worker_process import Worker
 from tutorial_check.sandbox import bubblewrap, privileges
 from tutorial_check.sandbox.environment import environment_of
-from tutorial_check.submission import handed_in
+from tutorial_check.submission import cpp_tree, handed_in
 from tutorial_check.submission.order import Order
 
 # Set in a ./tutorial shell: roscore.xml, for a faster roslaunch; what catkin needs with CMake 4.
@@ -60,7 +60,8 @@ def prepared(bare: Order, folder: Path) -> Order:
     # A home folder is not shown, even if it has a workspace.
     home = Path(os.path.expanduser("~")).resolve()
     readable = [path for path in readable if path.resolve() not in (home, *home.parents)]
-    bare = sourced(bare)
+    bare, parser = sourced(bare), cpp_tree.folder()
+    readable += [parser] if parser else []
     return replace(
         bare, folder=folder, layout=layout,
         readable=(*readable, *_needed(bare.underlay)),

@@ -16,6 +16,7 @@ import time
 from tutorial_check.data.json_data import as_json, from_json
 from tutorial_check.errors import CannotCheck, Ended
 from tutorial_check.sandbox import bubblewrap, privileges
+from tutorial_check.submission import cpp_tree
 from tutorial_check.submission.order import Order, Question, Reply
 
 # All exercises take 90 s on two idle CPUs. Ten times that is enough: programs that get less than a
@@ -38,6 +39,8 @@ class Worker:
         # ROS reads these as it loads.
         own = str(order.folder / "ours")
         environment.update(HOME=own, ROS_HOME=own, ROS_LOG_DIR=own, ROS_IP="127.0.0.1")
+        libraries = environment.get("PYTHONPATH", ""), str(cpp_tree.folder() or "")
+        environment["PYTHONPATH"] = ":".join(filter(None, libraries))
         environment.update(PATH="/usr/bin:/bin:/usr/sbin:/sbin", PYTHONDONTWRITEBYTECODE="1")
         self._order, self._buffer = order, b""
         self._end_s = time.monotonic() + LONGEST_S

@@ -25,6 +25,7 @@ class Order:
     is_callers_own: bool = True  # its links may lead into the home folder
     course: Path = HANDOUT
     variant: Variant = field(default_factory=dict)  # of the student's task
+    language: str = ""  # of the programs; "": the course's
     folder: Path = Path()  # for this order only, with the copy of the workspace
     layout: Layout = field(default_factory=Layout)  # messages name its paths
     environment: Dict[str, str] = field(default_factory=dict)  # of the underlay

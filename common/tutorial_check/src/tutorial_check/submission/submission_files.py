@@ -9,14 +9,17 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any, Callable, Iterator, Mapping, TypeVar, cast
 
-from tutorial_check.course.definition import SUITE, Course, read_course
+from tutorial_check.course.definition import CPP, PYTHON, SUITE, Course, read_course
 from tutorial_check.course.tasks import Task
+from tutorial_check.data.recordings import Executable
 from tutorial_check.submission import student_files
+from tutorial_check.submission.cpp_facts import CppFacts
 from tutorial_check.submission.manifests import first_broken
 from tutorial_check.submission.order import Order
 from tutorial_check.submission.packages import SOLUTIONS, Package, packages_below
 from tutorial_check.submission.places import Places
 from tutorial_check.submission.python_facts import PythonFacts
+from tutorial_check.submission.source_facts import SourceFacts
 
 # Lines of CMakeLists.txt that require a build before anything can run.
 NEEDS_BUILD = re.compile(
@@ -24,6 +27,8 @@ NEEDS_BUILD = re.compile(
     r"|add_executable|catkin_install_python)\s*\(",
     re.MULTILINE | re.IGNORECASE,
 )
+CPP_ENDINGS = (".cpp", ".cc", ".cxx", ".c++", ".C", ".CPP")
+HEADER_ENDINGS = (".h", ".hpp", ".hh", ".hxx")
 Value = TypeVar("Value")
 
 
@@ -80,6 +85,65 @@ class SubmissionFiles:
     def package(self, name: str) -> Package:
         """Return that package. Raises LookupError."""
         return {package.name: package for package in self.packages[::-1]}[self.task.name_of(name)]
+
+    @property
+    def language(self) -> str:
+        """The language of the programs: one of LANGUAGES."""
+        return self.order.language or self.course.language
+
+    @property
+    def executables(self) -> tuple[Executable, ...]:
+        """The programs in C++ of the workspace, which this builds."""
+        raise NotImplementedError
+
+    def programs(self, name: str) -> dict[str, SourceFacts]:
+        """Return {path within the package: facts} of the programs of a package.
+
+        The path of a program in C++ is that of its main source. If any language will do, those in
+        C++ count only in a package without a node in Python.
+        """
+        scripts = self.scripts(name) if self.language != CPP else {}
+        has_node = any("init_node" in facts.calls or facts.error for facts in scripts.values())
+        compiled = {} if self.language == PYTHON or has_node else self.cpp_programs(name)
+        return {**scripts, **compiled}
+
+    def cpp_sources(self, name: str) -> list[Path]:
+        """Return the C++ files of a package, without headers."""
+        files = sorted(self.package(name).folder.rglob("*"))
+        return [path for path in files if path.suffix in CPP_ENDINGS and path.is_file()]
+
+    def cpp_programs(self, name: str) -> dict[str, CppFacts]:
+        """Return {main source within the package: CppFacts} of its programs in C++."""
+        return self.memo(("c++", name), lambda: dict(self._cpp_programs(name)))
+
+    def _cpp_programs(self, name: str) -> Iterator[tuple[str, CppFacts]]:
+        folder = self.package(name).folder
+        for executable in self.executables if self.cpp_sources(name) else ():
+            paths = [self.source / source for source in executable.sources]
+            own = [path for path in paths if folder in path.parents and path.is_file()]
+            if not own:
+                continue
+            named = [path for path in own if path.stem == executable.name]
+            main = (named or own)[0]
+            files = dict.fromkeys([main, *own, *self._headers(own, folder)])
+            yield (
+                str(main.relative_to(folder)),
+                CppFacts({str(path.relative_to(folder)): self.read(path) for path in files}),
+            )
+
+    def _headers(self, sources: list[Path], folder: Path) -> list[Path]:
+        """Return the headers of the package that sources include."""
+        names = {name for path in sources for name in CppFacts({"": self.read(path)}).imports}
+        files = (path for path in sorted(folder.rglob("*")) if path.suffix in HEADER_ENDINGS)
+        return [path for path in files if any(str(path).endswith(f"/{name}") for name in names)]
+
+    def executable_of(self, name: str, path: str) -> Executable | None:
+        """Return the executable whose main source has a path; None for a script."""
+        if not path.endswith(CPP_ENDINGS) or path not in self.cpp_programs(name):
+            return None
+        inside = os.path.relpath(self.package(name).folder / path, self.source)
+        made = (executable for executable in self.executables if inside in executable.sources)
+        return min(made, key=lambda made: made.name != Path(path).stem, default=None)
 
     def scripts(self, name: str) -> dict[str, PythonFacts]:
         """Return {path within the package: PythonFacts} of the Python programs of a package."""

@@ -111,6 +111,8 @@ def plan(word: str, arguments: list[str]) -> Plan:
         of_cluster = word in ("scheduler", "worker")
         module = f"tutorial_check.commands.{word}" if of_cluster else "tutorial_check"
         own = [PROGRAMS[word]] if word in PROGRAMS else ["/usr/bin/python3", "-m", module]
+        if word in ("check", "worker"):  # a parser of C++
+            made["builds"].append(f"maybe={PYPI}")
         if HELP & options_of(arguments):
             made["builds"] = []
         elif of_cluster or CLUSTER in options_of(arguments):

@@ -20,8 +20,9 @@ def environment_of(workspace: Path, word: str, student: str) -> dict[str, str]:
     given = _given()
     lower, etc = workspace / "lower" / "devel", str(REPOSITORY / "common/node_kit/etc/ros")
     own = {"TUTORIAL_UNDERLAY": f"{lower}/setup.bash"}
+    from_pypi = [str(path) for path in workspace.glob("python/lib/python3*/site-packages")]
     if word in ("check", "worker", "scheduler"):
-        libraries = f"{lower}/lib/python3/dist-packages"
+        libraries = ":".join([f"{lower}/lib/python3/dist-packages", *from_pypi])
         return {**given, **own, "PYTHONPATH": libraries, "ROS_ETC_DIR": etc}
     setup, beside = workspace / "devel" / "setup.bash", ""
     if student:  # the underlay's, if the student has built nothing over it
@@ -36,7 +37,6 @@ def environment_of(workspace: Path, word: str, student: str) -> dict[str, str]:
     named = made.get("ROS_IP") or made.get("ROS_HOSTNAME")
     if not named and re.split("[:/]", master)[0] in LOCAL:
         made["ROS_IP"] = "127.0.0.1"
-    from_pypi = map(str, workspace.glob("python/lib/python3*/site-packages"))
     path = f"{workspace}/bin:/usr/bin"  # ROS needs the system's Python, whichever is first
     own.update(
         PATH=f"{path}:{made['PATH']}",

@@ -1,0 +1,97 @@
+"""The syntax tree of a C++ file, by tree-sitter, which reads on after a mistake.
+
+It comes from PyPI with the set-up; where it is absent, a program in C++ has no facts, and a
+diagnosis names the file without a line.
+"""
+
+from __future__ import annotations
+
+import functools
+import importlib.util
+from pathlib import Path
+from typing import Any, Iterator
+
+Node = Any  # tree_sitter.Node: .type, .children, .text, .child_by_field_name(), .start_point
+
+
+@functools.lru_cache(maxsize=None)
+def _parser() -> Any:
+    """Return the parser, or None."""
+    try:
+        import tree_sitter  # noqa: PLC0415  not everywhere
+        import tree_sitter_cpp  # noqa: PLC0415
+    except ImportError:
+        return None
+    language: Any = tree_sitter.Language
+    try:
+        return tree_sitter.Parser(language(tree_sitter_cpp.language()))
+    except TypeError:  # as of the release for Python 3.8
+        parser: Any = tree_sitter.Parser()
+        parser.set_language(language(tree_sitter_cpp.language(), "cpp"))
+        return parser
+
+
+def folder() -> Path | None:
+    """Return the folder from which Python imports tree-sitter, or None."""
+    spec = importlib.util.find_spec("tree_sitter")
+    return Path(spec.origin).parents[1] if spec and spec.origin else None
+
+
+def parsed(text: str) -> Node | None:
+    """Return the root of a file's tree, or None without tree-sitter."""
+    parser = _parser()
+    return parser.parse(text.encode()).root_node if parser else None
+
+
+def walk(node: Node | None) -> Iterator[Node]:
+    """Yield a node and all below it, in the order of the text."""
+    waiting = [node] if node is not None else []
+    while waiting:
+        current = waiting.pop()
+        yield current
+        waiting += reversed(current.children)
+
+
+def below(node: Node, *kinds: str) -> list[Node]:
+    return [inner for inner in walk(node) if inner.type in kinds]
+
+
+def field(node: Node, name: str) -> Node | None:
+    return node.child_by_field_name(name)
+
+
+def text_of(node: Node | None) -> str:
+    """Return the text of an expression, of a string without its quotes."""
+    if node is None:
+        return ""
+    text: str = node.text.decode(errors="replace")
+    return text.strip('"') if node.type == "string_literal" else " ".join(text.split())
+
+
+def line_of(node: Node) -> int:
+    return int(node.start_point[0]) + 1
+
+
+def last_name(node: Node | None) -> str:
+    """Return the last part of a name: `init` of ros::init, `publish` of node.pub_.publish."""
+    while node is not None:
+        inner = field(node, "field") or field(node, "name")
+        if inner is None or node.type in ("call_expression", "lambda_expression"):
+            break
+        node = inner
+    return text_of(node)
+
+
+def arguments_of(node: Node) -> list[Node]:
+    """Return the arguments of a call, or of a declaration such as `ros::Rate rate(10)`."""
+    given = field(node, "arguments") or field(node, "value")
+    inner = given.children if given is not None else []
+    return [child for child in inner if child.is_named and child.type != "comment"]
+
+
+def template_of(node: Node) -> str:
+    """Return the last name in the <...> of a call, such as String; or ""."""
+    function = field(node, "function")
+    given = below(function, "template_argument_list") if function is not None else []
+    kinds = below(given[-1], "type_identifier") if given else []
+    return text_of(kinds[-1]) if kinds else ""
