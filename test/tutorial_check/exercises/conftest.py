@@ -8,7 +8,7 @@ from pathlib import Path
 import kobuki_msgs
 import pytest
 import stored
-from edits import literal  # noqa: F401
+from edits import literal, literal_cpp  # noqa: F401
 
 from tutorial_check.examining.examination import examine
 from tutorial_check.submission.order import Order

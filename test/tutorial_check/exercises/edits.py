@@ -16,7 +16,17 @@ HERE = Path(__file__).resolve().parent
 @pytest.fixture
 def literal(tmp_path):
     """The src folder of a workspace with a literal solution of the handout."""
-    src = shutil.copytree(HERE / "literal", tmp_path / "ws" / "src")
+    return _workspace(HERE / "literal", tmp_path)
+
+
+@pytest.fixture
+def literal_cpp(tmp_path):
+    """The same in C++."""
+    return _workspace(HERE / "literal_cpp", tmp_path)
+
+
+def _workspace(solution, folder):
+    src = shutil.copytree(solution, folder / "ws" / "src")
     shutil.copytree(HERE.parents[2] / J / "bag", src / J / "bag")
     return src
 
