@@ -50,7 +50,9 @@ def connected(publishers=("/node",), kind="geometry_msgs/Twist", topic=CMD_VEL):
 
 def node(text, connections=None, stray_zeros=0, verdict=None, **numbered):
     """A node whose program has this text, with these recorded facts."""
-    about_files = {"scripts": lambda _: {SCRIPT: PythonFacts(text)}, "text": lambda *_: text}
+    facts = PythonFacts(text)
+    about_files = {"facts_of": lambda *_: facts, "scripts": lambda _: {SCRIPT: facts}}
+    about_files["text"] = lambda *_: text
     run = Joy2TwistRun(
         SCRIPT,
         connections=connections or connected(),

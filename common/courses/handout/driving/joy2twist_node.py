@@ -33,7 +33,9 @@ class Joy2TwistNode:
 
     def __init__(self, submission: Submission, run: Joy2TwistRun) -> None:
         self.submission, self.run, self.script = submission, run, run.script
-        self.source = Script(submission, PACKAGE, run.script).facts
+        facts = submission.facts_of(PACKAGE, run.script)
+        assert facts, run.script
+        self.source = facts
         # The task's values in messages: by name, or in hints as they are.
         self.names, self.answers = submission.task.names, submission.task.answers
         self.graph = graph = run.connections

@@ -11,7 +11,7 @@ from .record import known_package
 def main_script(submission: Submission) -> str:
     """Return the Joy-to-Twist program; it is not joy2twist.py if that is the first version."""
     script, scripts = find_script(submission, PACKAGE, NAME), submission.programs(PACKAGE)
-    facts = scripts.get(script)
+    facts = submission.facts_of(PACKAGE, script)
     if facts is None:
         return script  # not Python, which C13 reports
     if not facts.is_python:

@@ -59,7 +59,7 @@ class _Conversation:
 
     def __init__(self, workspace: Workspace, ros: RosSession, script: str) -> None:
         self._workspace, self._ros, self._task = workspace, ros, workspace.task
-        facts = workspace.programs(PACKAGE).get(script)
+        facts = workspace.facts_of(PACKAGE, script)
         sleeps = tuple(facts.called_back.get("sleep", [])) if facts else ()
         # A queue of one drops messages, so the newest value is not late.
         drops = facts and facts.keeps_newest and not sleeps

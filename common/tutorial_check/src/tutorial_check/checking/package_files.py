@@ -45,15 +45,14 @@ class Script(File):
         """Read it. path: within the package. Raises Wrong if it is missing."""
         super().__init__(submission, package, path)
         self.name = Path(path).name
-        self.facts: SourceFacts = PythonFacts("")
-        compiled = submission.executable_of(package, path)
-        scripts = submission.scripts(package)
-        self.is_python = path in scripts
+        facts, compiled = (
+            submission.facts_of(package, path),
+            submission.executable_of(package, path),
+        )
+        self.facts: SourceFacts = facts or PythonFacts("")
+        self.is_python = facts is not None and facts.is_python
         if compiled:
-            self.name, self.facts = compiled.name, submission.cpp_programs(package)[path]
-            self.text = "\n".join(self.facts.text.values())
-        elif self.is_python:
-            self.facts = scripts[path]
+            self.name, self.text = compiled.name, "\n".join(self.facts.text.values())
         self.idioms = self.facts.idioms
 
     def at(self, *words: str) -> str:

@@ -107,6 +107,12 @@ class SubmissionFiles:
         compiled = {} if self.language == PYTHON or has_node else self.cpp_programs(name)
         return {**scripts, **compiled}
 
+    def facts_of(self, name: str, path: str) -> SourceFacts | None:
+        """Return the facts of a program of a package, or None. path: as in programs()."""
+        if path.endswith(CPP_ENDINGS):
+            return self.cpp_programs(name).get(path)
+        return self.scripts(name).get(path)
+
     def cpp_sources(self, name: str) -> list[Path]:
         """Return the C++ files of a package, without headers."""
         files = sorted(self.package(name).folder.rglob("*"))
