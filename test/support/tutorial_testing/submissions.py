@@ -33,4 +33,4 @@ def make_submission(tmp_path, order):
 @pytest.fixture
 def order(tmp_path):
     layout = Layout(tmp_path, tmp_path / "src", True)
-    return Order(tmp_path, "", ("2",), course=tmp_path, folder=tmp_path, layout=layout)
+    return Order(tmp_path, "", ("2",), folder=tmp_path, layout=layout)
