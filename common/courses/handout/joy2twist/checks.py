@@ -56,10 +56,11 @@ def ctrl_c(submission: Submission) -> Note | str:
 def under_load(submission: Submission) -> Note | None:
     """Start it while 200 Joys arrive each second; at worst a Note."""
     script = main_script(submission)
-    made = map(submission.scripts(PACKAGE)[script].first, ("Subscriber", "Publisher"))
+    facts = Script(submission, PACKAGE, script).facts
+    made = map(facts.first, ("Subscriber", "Publisher"))
     first, second = (call.line if call else 0 for call in made)
     if not 0 < first < second and not submission.recording(loaded, script).failed:
         return None
     seen = "the subscriber comes before the publisher: for a Joy that comes at once there is no pub"
-    where, hint = f"{script}:{first or 1}", "first the Publisher, then the Subscriber"
+    where, hint = facts.place(script, first or 1), "first the Publisher, then the Subscriber"
     return Note(f"{seen} (the handout has it so)", where, hint)

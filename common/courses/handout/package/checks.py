@@ -115,6 +115,14 @@ def _wanted(submission: Submission, name: str) -> list[str]:
     return submission.course.packages[name].split()
 
 
+def _needed(submission: Submission, name: str) -> list[str]:
+    """Return those dependencies; programs in C++ alone need roscpp in place of rospy."""
+    wanted = _wanted(submission, name)
+    if not submission.is_in_cpp(name):
+        return wanted
+    return list(dict.fromkeys("roscpp" if word == "rospy" else word for word in wanted))
+
+
 def _package(submission: Submission, name: str) -> Package:
     """Return the package that the checks know by a name. Raises Wrong."""
     expected = f"one package {submission.task.in_messages(name)} in src"
@@ -204,7 +212,8 @@ def _missing(wanted: Sequence[str], package: Package, unknown: Sequence[str]) ->
 
 def _dependencies(submission: Submission, name: str) -> Package:
     """Return a package with all its dependencies. Raises Wrong."""
-    package, wanted = _package(submission, name), _wanted(submission, name)
+    package = _package(submission, name)
+    wanted = _needed(submission, name)
     must_pass([odd_name], package)
     others = sorted(package.depends - set(wanted))
     # The name of an existing package is not misspelt.

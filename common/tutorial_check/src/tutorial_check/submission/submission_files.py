@@ -103,8 +103,7 @@ class SubmissionFiles:
         C++ count only in a package without a node in Python.
         """
         scripts = self.scripts(name) if self.language != CPP else {}
-        has_node = any("init_node" in facts.calls or facts.error for facts in scripts.values())
-        compiled = {} if self.language == PYTHON or has_node else self.cpp_programs(name)
+        compiled = self.cpp_programs(name) if self.is_in_cpp(name) else {}
         return {**scripts, **compiled}
 
     def facts_of(self, name: str, path: str) -> SourceFacts | None:
@@ -112,6 +111,13 @@ class SubmissionFiles:
         if path.endswith(CPP_ENDINGS):
             return self.cpp_programs(name).get(path)
         return self.scripts(name).get(path)
+
+    def is_in_cpp(self, name: str) -> bool:
+        """Return whether the programs of a package that count are in C++."""
+        if self.language == PYTHON or not self.cpp_sources(name):
+            return False
+        scripts = self.scripts(name).values() if self.language != CPP else ()
+        return not any("init_node" in facts.calls or facts.error for facts in scripts)
 
     def cpp_sources(self, name: str) -> list[Path]:
         """Return the C++ files of a package, without headers."""
