@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import shlex
 from dataclasses import replace
 from pathlib import Path
@@ -20,6 +21,8 @@ from tutorial_check.sandbox.environment import SYSTEM
 from tutorial_check.submission import handed_in
 from tutorial_check.submission.order import Ask, Order, Question, Reply
 from tutorial_check.submission.submission_files import SubmissionFiles
+
+SCRIPT = re.compile(r"\b(\w+)\.py\b")
 
 
 class Submission(SubmissionFiles):
@@ -50,6 +53,15 @@ class Submission(SubmissionFiles):
     @property
     def executables(self) -> tuple[Executable, ...]:
         return self.recording(BUILT).executables
+
+    def with_names(self, text: str) -> str:
+        """Return a title or command that has talker.py with talker, if that is in C++."""
+        names = list(filter(self.has, self.course.packages))
+        if not any(map(self.is_in_cpp, names)):
+            return text
+        in_python = [name for name in names if not self.is_in_cpp(name)]
+        scripts = {Path(path).name for name in in_python for path in self.scripts(name)}
+        return SCRIPT.sub(lambda name: name[0] if name[0] in scripts else name[1], text)
 
     def _recorded(self, named: RecorderName[Any], arguments: tuple[object, ...]) -> object:
         question = Question(named.name, arguments)

@@ -73,8 +73,12 @@ def judge(order: Order, course: Course, ask: Ask, report: Report = silent) -> li
     """Run the checks of an order on a worker's recordings. Raises CannotCheck."""
     checks = checks_of(course)
     task = task_of(course)(order.variant)  # its class is defined beside the checks
-    checks = [replace(c, title=task.fill(c.title), look=task.fill(c.look)) for c in checks]
     submission = Submission(order, task, ask)
+
+    def filled(text: str) -> str:
+        return submission.with_names(task.fill(text))
+
+    checks = [replace(c, title=filled(c.title), look=filled(c.look)) for c in checks]
     runner = CheckRunner(checks, submission)
     outcomes = []
     for name in order.exercises:
