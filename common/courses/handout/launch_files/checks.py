@@ -22,7 +22,7 @@ from tutorial_check import (
 
 from ..driving.bag_checks import check_recording
 from ..launch_runs.handout_launch import BAG, JOY_HINT, STICK, HandoutLaunch, check_launch, copy_bag
-from ..launch_runs.plans import OWN_HINT, ROBOT_HINT, fault_of, plan_of, topic_of
+from ..launch_runs.plans import ROBOT_HINT, fault_of, plan_of, topic_of
 from ..launch_runs.record import LaunchRun, Plan
 from ..task import CMD_VEL, JOY, PACKAGE
 from .record import BAG_S, bag_run, stick_run
@@ -155,7 +155,7 @@ def _check_items(file: HandoutLaunch) -> Note | None:
         seen = f'name="{odd[0]}": the name of a node has no space'
         note = Note(seen, file.at(*attribute("name", odd[0])), hint)
     file.must_start("the simulated robot", file.of("simulator"), ROBOT_HINT)
-    file.must_start("joy2twist", file.own, OWN_HINT.format(file.student_package))
+    file.must_start("joy2twist", file.own, file.own_node)
     must_pass([several_drivers], file)
     return note
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import difflib
 import re
 import shlex
@@ -11,6 +12,7 @@ from tutorial_check import (
     GAPS,
     LaunchFile,
     LaunchNode,
+    Script,
     Submission,
     Wrong,
     find_launch,
@@ -45,6 +47,15 @@ UNKNOWN = re.compile(
 )  # (tag, attribute), as roslaunch prints them
 
 
+def program_name(submission: Submission) -> str:
+    """Return the name by which a launch file starts the student's joy2twist."""
+    if not submission.is_in_cpp(PACKAGE):
+        return NAME
+    with contextlib.suppress(Wrong):
+        return Script(submission, PACKAGE, find_script(submission, PACKAGE, NAME)).name
+    return Path(NAME).stem
+
+
 class HandoutLaunch(LaunchFile):
     """One of the handout's launch files, and its nodes by role."""
 
@@ -58,6 +69,12 @@ class HandoutLaunch(LaunchFile):
         self.name, self.student_package = name, submission.task.name_of(PACKAGE)
         # The student's programs.
         self.own = [node for node in self.nodes if node["package"] == self.student_package]
+
+    @property
+    def own_node(self) -> str:
+        """The element that starts the student's joy2twist."""
+        name = program_name(self.submission)
+        return f'<node pkg="{self.student_package}" type="{name}" name="myjoystick2twist"/>'
 
     def of(self, *roles: str) -> list[LaunchNode]:
         """Return the nodes with any of these ROLES."""
@@ -183,6 +200,8 @@ def not_located(about: tuple[HandoutLaunch, LaunchNode]) -> Wrong | None:
 def _no_own_program(file: HandoutLaunch, node: LaunchNode) -> Wrong:
     """Return the Wrong for a node whose program is not in the student's package."""
     submission, kind, place = file.submission, node["type"], file.at_node(node)
+    if submission.is_in_cpp(PACKAGE):
+        return _no_compiled_program(file, node)
     files = [path for path in submission.package(PACKAGE).folder.rglob("*") if path.is_file()]
     for path in (path for path in files if path.name == kind):
         hint = f"chmod +x {submission.whole(path, PACKAGE)}"
@@ -193,6 +212,19 @@ def _no_own_program(file: HandoutLaunch, node: LaunchNode) -> Wrong:
     hint = JOY_HINT if kind == "joy_node" else hint or "type is the name of the file, with .py"
     seen = f"Cannot locate node of type [{kind}]"
     return Wrong(f"a program {kind} in {submission.task.names.package}", seen, place, hint)
+
+
+def _no_compiled_program(file: HandoutLaunch, node: LaunchNode) -> Wrong:
+    submission, kind = file.submission, node["type"]
+    if Path(kind).stem == Path(NAME).stem:
+        find_script(submission, PACKAGE, NAME)  # raises Wrong if no target is like it
+    paths = submission.cpp_programs(PACKAGE)
+    names = [Script(submission, PACKAGE, path).name for path in paths]
+    hint = meant(Path(kind).stem, names, 0.7, 'type="{}"')
+    hint = JOY_HINT if kind == "joy_node" else hint or "type is the name in add_executable"
+    expected = f"a program {kind} in {submission.task.names.package}"
+    seen = f"Cannot locate node of type [{kind}]"
+    return Wrong(expected, seen, file.at_node(node), hint)
 
 
 def lost_file(file: HandoutLaunch) -> Wrong | None:

@@ -11,8 +11,6 @@ from .handout_launch import HandoutLaunch
 from .record import LaunchRun, Plan
 
 ROBOT_HINT = '<include file="$(find rbx1_bringup)/launch/fake_turtlebot.launch"/>'
-# {}: the student's package.
-OWN_HINT = '<node pkg="{}" type="joy2twist.py" name="myjoystick2twist"/>'
 ERRORS = re.compile(r"^(?!.*(?:rviz|INFO)).*(?:ERROR|died|Invalid|cannot|Unable)", re.MULTILINE)
 COLOUR = re.compile(r"\x1b\[[0-9;]*m|\x1b\][^\x07]*\x07")
 

@@ -8,8 +8,15 @@ from typing import Sequence
 
 from tutorial_check import Submission, Wrong, check, last_lines, must_pass
 
-from ..launch_runs.handout_launch import JOY_HINT, REAL, TURTLEBOT, HandoutLaunch, check_launch
-from ..launch_runs.plans import OWN_HINT, fault_of, plan_of, topic_of, traced
+from ..launch_runs.handout_launch import (
+    JOY_HINT,
+    REAL,
+    TURTLEBOT,
+    HandoutLaunch,
+    check_launch,
+    program_name,
+)
+from ..launch_runs.plans import fault_of, plan_of, topic_of, traced
 from ..launch_runs.record import Plan
 from ..task import CMD_VEL, JOY
 from .record import TELEOP, Remap, real_run, remap_run
@@ -40,7 +47,7 @@ class Remapping:
 
     def wrong(self, why: str, words: str = "<remap", hint: str = "") -> Wrong:
         """Return the Wrong for velocities on the program's own topic. words: in its line."""
-        where = self.file.at(words, "joy2twist.py")
+        where = self.file.at(words, self.file.own[0]["type"])
         return Wrong(EXPECTED, f"Twists on {self.own}: {why}", where, hint or self.remap, sure=True)
 
 
@@ -76,7 +83,7 @@ def swapped(case: Remapping) -> Wrong | None:
 
 def published_elsewhere(case: Remapping) -> Wrong | None:
     for topic in case.seen.others:
-        where = case.file.at("<remap", "joy2twist.py")
+        where = case.file.at("<remap", case.file.own[0]["type"])
         sure = case.seen.bad or topic in [to for _, to in case.remaps]
         return Wrong(EXPECTED, f"it publishes on {topic}", where, case.remap, sure)
     return None
@@ -101,7 +108,10 @@ def remapped_by_itself(case: Remapping) -> Wrong | None:
     is_named = any(node["remaps"] or ":=" in node["args"] for node in case.file.own)
     if is_named or re.search(r"<(ros)?param\b", case.file.text):
         return None
-    program, hint = case.file.own[0]["type"], f'type="joy2twist.py", and in it {case.remap}'
+    program, hint = (
+        case.file.own[0]["type"],
+        f'type="{program_name(case.file.submission)}", and in it {case.remap}',
+    )
     expected = "the unchanged program, whose topic the launch file remaps"
     seen, where = f"{program} publishes on {TELEOP} by itself", case.file.at(program)
     return Wrong(expected, seen, where, hint)
@@ -117,7 +127,7 @@ NOT_REMAPPED = (
        look="rostopic echo /cmd_vel_mux/input/teleop")  # fmt: skip
 def remapped(submission: Submission) -> None:
     file, own = check_launch(submission, TURTLEBOT), submission.task.topic(CMD_VEL)
-    file.must_start("joy2twist", file.own, OWN_HINT.format(file.student_package))
+    file.must_start("joy2twist", file.own, file.own_node)
     joys = topic_of(file.own[0], submission.task.topic(JOY))
     plan = replace(plan_of(file, TELEOP), joys=joys)
     seen = submission.recording(remap_run, plan, own)
@@ -140,7 +150,7 @@ def real_robot(submission: Submission) -> None:
     file.must_start("joy_node", file.of("joystick"), JOY_HINT)
     if len(file.own) > 1:
         seen, hint = f"{len(file.own)}: both would drive", f"{TURTLEBOT} starts it already"
-        raise Wrong("one joy2twist", seen, file.at("joy2twist.py"), hint)
+        raise Wrong("one joy2twist", seen, file.at(file.own[0]["type"]), hint)
     has_base = any(node["type"] == "cmd_vel_mux.py" for node in file.nodes)
     plan = plan_of(file, TELEOP)
     run = submission.recording(real_run, plan, has_base)
