@@ -14,6 +14,16 @@ SYSTEM = (
     *(f"/etc/{name}" for name in (*ETC.split(), "python3", "ros")),
 )
 OWN = ("home", "tmp", "ws")  # folders of a worker that the student's programs may write
+STDBUF = "lib*/coreutils/libstdbuf.so"  # the part of coreutils' stdbuf that programs load
+
+
+def line_buffered() -> dict[str, str]:
+    """Return what makes C and C++ programs write each line at once, as into a terminal.
+
+    Into a pipe they would write when they exit, and nothing if they are killed.
+    """
+    libraries = [str(path) for path in sorted(Path("/usr").glob(STDBUF))[:1]]
+    return {"LD_PRELOAD": libraries[0], "_STDBUF_O": "L"} if libraries else {}
 
 
 def environment_of(words: Iterable[str]) -> dict[str, str]:
@@ -35,6 +45,7 @@ def variables(folder: Path, environment: Mapping[str, str]) -> dict[str, str]:
         "ROS_HOME": f"{folder}/home/.ros",
         "ROS_LOG_DIR": f"{folder}/home/.ros/log",
         "DISPLAY": ":99",  # need not exist: a program that only waits replaces RViz
+        **line_buffered(),
         "PYTHONUNBUFFERED": "1",
         "PYTHONDONTWRITEBYTECODE": "1",
     }
