@@ -14,7 +14,7 @@ from tutorial_check.checking.results import Outcome, Result
 from tutorial_check.checking.submission import Submission
 from tutorial_check.course.definition import Course, read_course
 from tutorial_check.course.tasks import task_of
-from tutorial_check.errors import CannotCheck, Ended
+from tutorial_check.errors import CannotCheck, CheckerError, Ended
 from tutorial_check.examining.ask_once import AskOnce, Replies
 from tutorial_check.recording.launcher import sourced, started
 from tutorial_check.recording.worker_process import no_more
@@ -40,6 +40,8 @@ def examine(bare: Order, report: Report = silent, side_by_side: bool = False) ->
             ask: Ask = worker.ask
             several = len(bare.exercises) > 1 and len(os.sched_getaffinity(0)) > 1
             if side_by_side and several and order.in_namespaces:
+                if _needs_build(order, course, ask):  # once, not in both workers
+                    worker.build()
                 ask = stack.enter_context(_with_another(bare, course, ask))
             outcomes = judge(order, course, ask, report)
         remark = "" if order.is_callers_own else bubblewrap.instead()
@@ -47,6 +49,14 @@ def examine(bare: Order, report: Report = silent, side_by_side: bool = False) ->
         return [replace(outcome, place=place, remark=remark) for outcome in outcomes]
     except Ended as error:  # before a first result
         raise CannotCheck(str(error)) from None
+
+
+def _needs_build(order: Order, course: Course, ask: Ask) -> bool:
+    """Return whether programs need a build, as far as the files can be read."""
+    checks_of(course)  # loads the course
+    with contextlib.suppress(CheckerError):
+        return Submission(order, task_of(course)(order.variant), ask).needs_build()
+    return False
 
 
 @contextlib.contextmanager

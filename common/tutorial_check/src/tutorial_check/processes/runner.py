@@ -7,6 +7,7 @@ its output, and endless output costs only the reading.
 from __future__ import annotations
 
 import contextlib
+import functools
 import os
 import selectors
 import signal
@@ -41,6 +42,7 @@ class Runner:
         self._alone, self._ruleset = alone, ruleset
         self._limits = privileges.limits_of_programs()
         self._open: list[Program] = []
+        self.has_started = False  # a student's program
         # Not ended: our processes, and helpers, which lead sessions of their own.
         self.trusted = {os.getsid(0), os.getpid()}
         self.clock = CpuClock(self.trusted)
@@ -53,8 +55,14 @@ class Runner:
         environment: Mapping[str, str] | None = None,
         trusted: bool = False,
         stdin: int = DEVNULL,
+        limits: Mapping[int, int] | None = None,
     ) -> Program:
-        """Start a program. stdin: a descriptor. Raises OSError if the program does not exist."""
+        """Start a program. stdin: a descriptor. limits: lower ones than other programs have.
+
+        Raises OSError if the program does not exist.
+        """
+        restrict = functools.partial(self._restrict, {**self._limits, **(limits or {})})
+        self.has_started |= not trusted
         process = subprocess.Popen(
             command,
             bufsize=0,
@@ -64,7 +72,7 @@ class Runner:
             cwd=self.environment["HOME"],
             env={**self.environment, **(environment or {})},
             start_new_session=True,  # with a process group for Ctrl-C, as in a terminal
-            preexec_fn=None if trusted else self._restrict,  # noqa: PLW1509  one thread
+            preexec_fn=None if trusted else restrict,  # noqa: PLW1509  one thread
         )
         if trusted:
             self.trusted.add(process.pid)
@@ -74,11 +82,11 @@ class Runner:
         self._selector.register(program.pipe, selectors.EVENT_READ, program)
         return program
 
-    def _restrict(self) -> None:
+    def _restrict(self, limits: Mapping[int, int]) -> None:
         """Set limits and rights, in the child, before the student's program runs."""
         for number in (signal.SIGINT, signal.SIGHUP, signal.SIGTERM):
             signal.signal(number, signal.SIG_DFL)
-        privileges.limit(self._limits)
+        privileges.limit(limits)
         privileges.give_up_rights()
         if self._ruleset is not None:
             landlock.confine(self._ruleset)
@@ -146,6 +154,15 @@ class Runner:
         """End every process that is left, whatever started it."""
         for program in self._open:
             program.stop(signal.SIGKILL)
+        self.end_strays()
+        for program in self._open:
+            program.process.wait()
+            self._read(program, is_last=True)
+        self._open.clear()
+        self._reap()
+
+    def end_strays(self) -> None:
+        """End what programs have started and left behind, and programs that still run."""
         for _ in range(100):
             stopped: set[int] = set()
             # A fork bomb reaches its limit of processes.
@@ -155,11 +172,6 @@ class Runner:
             if not stopped:
                 break
             _signal(stopped, signal.SIGKILL)
-        for program in self._open:
-            program.process.wait()
-            self._read(program, is_last=True)
-        self._open.clear()
-        self._reap()
 
     def _reap(self) -> None:
         """Reap orphans that have exited: until then they count towards the user's limit."""

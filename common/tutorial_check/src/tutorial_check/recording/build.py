@@ -12,7 +12,7 @@ def built(workspace: Builder) -> Built:
 
 def own_built(workspace: Builder) -> Built:
     """Build only the exercises' packages, because another package may have stopped the build."""
-    return workspace.build(only_needed=True)
+    return workspace.part
 
 
 def installed(workspace: Builder, package: str, script: str) -> Installed:

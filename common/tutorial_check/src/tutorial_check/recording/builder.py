@@ -2,23 +2,30 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 from tutorial_check.course.tasks import Task
 from tutorial_check.data.recordings import Built, Executable
 from tutorial_check.errors import CannotCheck
 from tutorial_check.processes.runner import Runner
 from tutorial_check.processes.started_program import Program
-from tutorial_check.recording import cmake_targets
+from tutorial_check.recording import build_tree, cmake_targets
 from tutorial_check.sandbox.environment import environment_of
+from tutorial_check.sandbox.privileges import OF_BUILD
 from tutorial_check.submission import student_files
 from tutorial_check.submission.manifests import is_stand_in
 from tutorial_check.submission.order import Order
 from tutorial_check.submission.submission_files import SubmissionFiles
 
-SLOW_S = 120  # [s] on a very busy machine, for what usually takes a second
+SLOW_S = 120  # [s] on a very busy machine, for what usually takes some seconds
+# A wrong index of a vector, also of a message's, ends the program.
+FLAGS = {"CXXFLAGS": "-D_GLIBCXX_ASSERTIONS"}
+# What another attempt may not meet again.
+PASSES = re.compile(r"Killed|No space left|[Cc]annot allocate|out of memory|memory exhausted")
 
 
 class Builder(SubmissionFiles):
@@ -28,6 +35,12 @@ class Builder(SubmissionFiles):
         super().__init__(order, task)
         self.runner, self.underlay_environment = runner, runner.environment
         self._siblings = 0
+        self._kept: build_tree.Kept | None = None
+        has_store = order.new_build is not None
+        self._sources = build_tree.digests_of(self.source) if has_store else {}
+        if order.last_build is not None:
+            self._kept = build_tree.restored(order.last_build, self.folder, self._sources)
+        self._is_same = self._kept is not None and self._kept.sources == self._sources
 
     def sibling(self, package: str, script: str, text: str) -> str:
         """Write a changed copy beside a script, so that its imports work; return its path."""
@@ -37,9 +50,9 @@ class Builder(SubmissionFiles):
         student_files.put_file(self.folder, changed, text, 0o755)
         return str(Path(script).with_name(changed.name))
 
-    def _ended(self, *command: str) -> tuple[Program, bool]:
-        """Run a program; return it, and whether it ended by itself."""
-        program = self.runner.start(command)
+    def _ended(self, *command: str, **about: Any) -> tuple[Program, bool]:
+        """Run a program; return it, and whether it ended by itself. about: see Runner.start."""
+        program = self.runner.start(command, **about)
         ended = self.runner.wait(program.has_ended, SLOW_S)
         self.runner.end(program)
         return program, ended
@@ -47,33 +60,56 @@ class Builder(SubmissionFiles):
     @cached_property
     def built(self) -> Built:
         """Build all; if that fails, what the exercises need: others may need what Debian lacks."""
-        whole = self.build()
-        if whole.code == 0 or len(self.needed) == len(self.packages):
-            return whole
-        part = self.build(only_needed=True)
-        if part.code != 0:
-            return whole
-        for package in self.packages:  # the suite's stand-in replaces it
-            if is_stand_in(package.name):
-                student_files.put_file(self.folder, package.folder / "CATKIN_IGNORE", "")
-        return replace(part, unbuilt=whole.output or " ")
+        may_keep = self.order.new_build is not None and not self._is_same
+        may_keep = may_keep and not self.runner.has_started  # a program may have changed src
+        whole = result = self.whole
+        has_part = whole.code != 0 and len(self.needed) < len(self.packages)
+        if has_part and self.part.code == 0:
+            result = replace(self.part, unbuilt=whole.output or " ")
+        if may_keep:
+            self._keep()
+        if result.unbuilt:
+            for package in self.packages:  # the suite's stand-in replaces it
+                if is_stand_in(package.name):
+                    student_files.put_file(self.folder, package.folder / "CATKIN_IGNORE", "")
+        return result
 
-    def build(self, only_needed: bool = False) -> Built:
-        """Run catkin_make. only_needed: for the packages that the exercises need."""
+    @cached_property
+    def whole(self) -> Built:
+        """The build of all packages."""
+        if self._kept and self._is_same:
+            return self._kept.whole
+        return self._catkin_make("--force-cmake") if self._kept else self._catkin_make()
+
+    @cached_property
+    def part(self) -> Built:
+        """The build of the packages that the exercises need."""
+        if self._kept and self._is_same and self._kept.part:
+            return self._kept.part
+        names = ";".join(package.name for package in self.needed)
+        return self._catkin_make(f"-DCATKIN_WHITELIST_PACKAGES={names}")
+
+    def _catkin_make(self, *options: str) -> Built:
         command = ["catkin_make", "-C", str(self.source.parent)]
-        command += ["-DPYTHON_EXECUTABLE=/usr/bin/python3"]
-        if only_needed:
-            names = ";".join(package.name for package in self.needed)
-            command += [f"-DCATKIN_WHITELIST_PACKAGES={names}"]
+        command += ["-DPYTHON_EXECUTABLE=/usr/bin/python3", *options]
         workspace = self.source.parent
         cmake_targets.ask(workspace)
-        program, ended = self._ended(*command)
+        program, ended = self._ended(*command, environment=FLAGS, limits=OF_BUILD)
         made = cmake_targets.executables(self.folder, workspace)
         return Built(program.process.returncode if ended else None, program.output, "", made)
 
     @property
     def executables(self) -> tuple[Executable, ...]:
         return self.built.executables
+
+    def _keep(self) -> None:
+        """Keep what was built, unless another attempt could end otherwise."""
+        part = self.__dict__.get("part")
+        made = [self.whole, *filter(None, [part])]
+        if all(build.code is not None and not PASSES.search(build.output) for build in made):
+            self.runner.end_strays()  # of a CMakeLists.txt
+            kept = build_tree.Kept(str(self.folder), self._sources, self.whole, part, ())
+            build_tree.write(self.order.new_build, kept, self.source.parent)
 
     @cached_property
     def environment(self) -> dict[str, str]:

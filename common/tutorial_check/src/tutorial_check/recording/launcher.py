@@ -13,6 +13,7 @@ from typing import Any, Iterator
 
 from tutorial_check.course.definition import SUITE, copy_sources
 from tutorial_check.errors import CannotCheck
+from tutorial_check.recording.build_store import BuildStore
 from tutorial_check.recording.worker_process import Worker
 from tutorial_check.sandbox import bubblewrap, privileges
 from tutorial_check.sandbox.environment import environment_of
@@ -41,7 +42,7 @@ def started(bare: Order) -> Iterator[tuple[Order, Worker]]:
         if user is not None:
             privileges.open_to(user, folder)
         wrapper = [*privileges.unlimited(), *wrapper, *privileges.as_user(user)]
-        with Worker(order, wrapper) as worker:
+        with BuildStore(order) as store, Worker(order, wrapper, store) as worker:
             worker.begin()
             yield order, worker
     finally:

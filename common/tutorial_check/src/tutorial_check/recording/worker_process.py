@@ -12,9 +12,12 @@ import subprocess
 import tempfile
 import threading
 import time
+from dataclasses import replace
 
 from tutorial_check.data.json_data import as_json, from_json
+from tutorial_check.data.recorders import BUILT
 from tutorial_check.errors import CannotCheck, Ended
+from tutorial_check.recording.build_store import BuildStore
 from tutorial_check.sandbox import bubblewrap, privileges
 from tutorial_check.submission import cpp_tree
 from tutorial_check.submission.order import Order, Question, Reply
@@ -31,8 +34,9 @@ no_more = threading.Event()
 class Worker:
     """A worker's process."""
 
-    def __init__(self, order: Order, wrapper: list[str]) -> None:
+    def __init__(self, order: Order, wrapper: list[str], store: BuildStore | None = None) -> None:
         """Start it. wrapper: the words before its command, which isolate it."""
+        self._store, descriptors = store, store.descriptors if store else {}
         if not order.in_namespaces:
             privileges.keep_to_itself()  # and its end of the socket
         environment = {**order.environment, "LANG": os.environ.get("LANG", "C.UTF-8")}
@@ -42,12 +46,13 @@ class Worker:
         libraries = environment.get("PYTHONPATH", ""), str(cpp_tree.folder() or "")
         environment["PYTHONPATH"] = ":".join(filter(None, libraries))
         environment.update(PATH="/usr/bin:/bin:/usr/sbin:/sbin", PYTHONDONTWRITEBYTECODE="1")
-        self._order, self._buffer = order, b""
+        self._order, self._buffer = replace(order, **descriptors), b""
         self._end_s = time.monotonic() + LONGEST_S
         self._log = tempfile.TemporaryFile("w+")  # noqa: SIM115  closed by __exit__
         # No pipe: it has a path in /proc, to which a program could plant a link.
         self._line, theirs = socket.socketpair()
         self._line.settimeout(END_S)  # for a worker that does not read
+        namespaces = bubblewrap.granted().descriptors if order.in_namespaces else ()
         self._process = subprocess.Popen(
             # -s: without the home folder's packages from pip, which may not be visible
             [*wrapper, "/usr/bin/python3", "-s", "-m", "tutorial_check.recording.worker"],
@@ -56,7 +61,7 @@ class Worker:
             stderr=self._log,
             env=environment,
             start_new_session=True,
-            pass_fds=bubblewrap.granted().descriptors if order.in_namespaces else (),
+            pass_fds=(*namespaces, *descriptors.values()),
             cwd="/",
         )
         theirs.close()
@@ -93,6 +98,13 @@ class Worker:
         reply = self.ask(self._order)
         if reply.cannot:
             raise CannotCheck(str(reply.cannot))
+
+    def build(self) -> None:
+        """Let it build, so that a worker that starts later finds the build."""
+        with contextlib.suppress(Ended):  # the next question says so, too
+            self.ask(Question(BUILT.name))
+            if self._store:
+                self._store.keep()
 
     def ask(self, message: Order | Question) -> Reply:
         """Return the reply to an order or a question. Raises Ended."""

@@ -10,6 +10,7 @@ import shlex
 import subprocess
 import tempfile
 from pathlib import Path
+from typing import Mapping
 
 PR_SET_PDEATHSIG, PR_SET_DUMPABLE, PR_SET_CHILD_SUBREAPER, PR_SET_NO_NEW_PRIVS = 1, 4, 36, 38
 MOST_PIDS = 1 << 22  # of Linux
@@ -24,6 +25,8 @@ LIMITS = {
     resource.RLIMIT_CORE: 0,
     resource.RLIMIT_NOFILE: 1024,
 }
+# Of each process of a build, in addition: a compiler of ROS programs needs less than 1 GB.
+OF_BUILD = {resource.RLIMIT_AS: 2 << 30}
 # For the process that reads the submission. All nine exercises take 3 s and 80 MB.
 MOST_CPU_S, MOST_MB = 20, 450
 OF_READER = {resource.RLIMIT_CPU: MOST_CPU_S, resource.RLIMIT_DATA: MOST_MB << 20}
@@ -87,7 +90,7 @@ def unused_user(number: int, uid_map: Path = Path("/proc/self/uid_map")) -> int 
     return first + count // 2 + number % (count // 4) if count >= FEW_IDS else None
 
 
-def limit(limits: dict[int, int]) -> None:
+def limit(limits: Mapping[int, int]) -> None:
     """Set these limits for this process; keep lower ones."""
     for what, wanted in limits.items():
         with contextlib.suppress(ValueError, OSError):
