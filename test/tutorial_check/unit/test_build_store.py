@@ -14,28 +14,29 @@ pytestmark = claim("Builds are kept in the cache, in a bounded size, for each wo
 
 
 @pytest.fixture
-def cache(tmp_path):
-    return tmp_path / "cache"
+def cache(tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    return build_store.cache()
 
 
 def test_what_a_worker_writes_the_next_one_reads(order, cache):
-    with BuildStore(order, cache) as store:
+    with BuildStore(order) as store:
         assert list(store.descriptors) == ["new_build"]
         os.write(store.descriptors["new_build"], b"first" + WHOLE)
         store.keep()
-        with BuildStore(order, cache) as beside:
+        with BuildStore(order) as beside:
             assert os.read(beside.descriptors["last_build"], 99) == b"first" + WHOLE
-    with BuildStore(order, cache) as store:
+    with BuildStore(order) as store:
         assert os.read(store.descriptors["last_build"], 99) == b"first" + WHOLE
         os.write(store.descriptors["new_build"], b"cut off")
-    with BuildStore(order, cache) as store:
+    with BuildStore(order) as store:
         assert os.read(store.descriptors["last_build"], 99) == b"first" + WHOLE
     assert os.listdir(cache) == [name_of_build(order)]
 
 
-def test_a_worker_without_a_cache_has_no_build(order, tmp_path):
-    (tmp_path / "file").touch()
-    with BuildStore(order, tmp_path / "file") as store:
+def test_a_worker_without_a_cache_has_no_build(order, cache):
+    cache.parent.touch()
+    with BuildStore(order) as store:
         assert not store.descriptors
 
 

@@ -83,11 +83,23 @@ def test_a_changed_file_alone_is_newer_than_the_build(worker, tmp_path, name):
 
 
 def test_a_continued_build_has_no_program_of_the_last_one(worker, tmp_path):
-    (worker / "ws/build/tool").touch(0o755)
+    for name in ("build/tool", "devel/lib/libp.so", "build/talker.o"):
+        (worker / "ws" / name).write_bytes(b"\x7fELF")
     file = kept(worker, tmp_path / "kept")
     folder = next_worker(worker, lambda source: write(source / "talker.cpp"))
-    assert restored(file, folder) and (folder / "ws/devel/setup.sh").exists()
-    assert not (folder / "ws/devel/lib").exists() and not (folder / "ws/build/tool").exists()
+    assert restored(file, folder)
+    assert {*os.listdir(folder / "ws/build")} == {"Makefile", "talker.o"}
+    assert {*os.listdir(folder / "ws/devel/lib")} == {"p"}
+
+
+@pytest.mark.parametrize(("name", "code", "begins"), [
+    ("talker.cpp", 0, False), ("p.h", 0, False), ("talker.cpp", 1, True), ("talker.py", 0, True),
+])  # fmt: skip
+def test_cmake_runs_again_if_make_would_not_start_it(worker, tmp_path, name, code, begins):
+    file = kept(worker, tmp_path / "kept", Built(code, ""))
+    folder = next_worker(worker, lambda source: write(source / name))
+    last, now = restored(file, folder), build_tree.digests_of(folder / "ws/src")
+    assert build_tree.needs_cmake(last, now) == begins
 
 
 CHANGES = {

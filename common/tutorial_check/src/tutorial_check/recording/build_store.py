@@ -17,16 +17,21 @@ from pathlib import Path
 from tutorial_check.recording.build_tree import MOST_BYTES, WHOLE
 from tutorial_check.submission.order import Order
 
-CACHE = Path(os.environ.get("XDG_CACHE_HOME") or "~/.cache", "ros1_tutorial", "builds")
 MOST_KEPT_BYTES = 500 << 20  # of all builds
 SYSTEM = ("/var/lib/dpkg/status", "/usr/bin/c++", "/usr/bin/cmake")  # change with compiler, ROS
+
+
+def cache() -> Path:
+    """Return the folder of the builds."""
+    caches = Path(os.environ.get("XDG_CACHE_HOME") or "~/.cache")
+    return caches.expanduser() / "ros1_tutorial" / "builds"
 
 
 class BuildStore:
     """The last build of a workspace, and a place for the next. Without a cache there is none."""
 
-    def __init__(self, order: Order, cache: Path = CACHE) -> None:
-        self._file = cache.expanduser() / name_of_build(order)
+    def __init__(self, order: Order) -> None:
+        self._file = cache() / name_of_build(order)
         self._ends = contextlib.ExitStack()
         self._unkept = ""
         self.descriptors: dict[str, int] = {}  # {field of Order: descriptor}

@@ -28,6 +28,7 @@ MOST_BYTES = 64 << 20  # a talker and a listener have 2 MB
 WHOLE = b"\nwhole\n"  # ends a build that was written completely
 CODE = {".c", ".cc", ".cpp", ".cxx", ".h", ".hh", ".hpp", ".hxx"}
 SCRIPTS = {".bag", ".launch", ".md", ".py", ".rviz"}  # no build reads them, except setup.py
+LINKED = (b"\x7fELF", b"!<arch>")  # begin programs and libraries
 LONG_AGO_S = 1_000_000_000  # older than what any build makes
 
 
@@ -75,6 +76,14 @@ def may_continue(before: Dict[str, str], now: Dict[str, str]) -> bool:
         if not is_script and not (is_there and path.suffix in CODE):
             return False
     return True
+
+
+def needs_cmake(kept: Kept, now: Dict[str, str]) -> bool:
+    """Return whether a build that continues begins with CMake, which make does not start by itself
+    after it has failed, or if it read another file.
+    """
+    suffixes = {Path(path).suffix for path in changed(kept.sources, now)}
+    return kept.whole.code != 0 or not suffixes <= CODE
 
 
 def write(descriptor: int, kept: Kept, workspace: Path) -> None:
@@ -142,8 +151,8 @@ def _write_files(kept: Kept, content: bytes, workspace: Path, is_same: bool) -> 
     for inside, mode, time_ns, size in kept.files:
         path, part = workspace / inside, content[start : start + size]
         start += size
-        if is_same or not (mode & 0o111 or inside.startswith("devel/lib/")):
-            path.parent.mkdir(parents=True, exist_ok=True)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        if is_same or path.suffix == ".o" or not part.startswith(LINKED):
             path.write_bytes(part)
             path.chmod(mode)
             os.utime(path, ns=(time_ns, time_ns))

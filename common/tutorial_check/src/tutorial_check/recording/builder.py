@@ -79,7 +79,8 @@ class Builder(SubmissionFiles):
         """The build of all packages."""
         if self._kept and self._is_same:
             return self._kept.whole
-        return self._catkin_make("--force-cmake") if self._kept else self._catkin_make()
+        is_forced = self._kept and build_tree.needs_cmake(self._kept, self._sources)
+        return self._catkin_make(*(["--force-cmake"] if is_forced else []))
 
     @cached_property
     def part(self) -> Built:
