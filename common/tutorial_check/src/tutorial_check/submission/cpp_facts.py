@@ -8,8 +8,10 @@ from typing import ClassVar, Iterator, Mapping
 
 from tutorial_check.submission import cpp_tree as tree
 from tutorial_check.submission.cpp_classes import classes_of
+from tutorial_check.submission.cpp_oddities import oddities_of
 from tutorial_check.submission.cpp_tree import Node
 from tutorial_check.submission.idioms import CPP, Idioms
+from tutorial_check.submission.oddities import Oddities
 from tutorial_check.submission.source_facts import Call, SourceFacts
 
 NAMES = {  # {of roscpp: of rospy}
@@ -71,6 +73,19 @@ class CppFacts(SourceFacts):
             if line > start:
                 return f"{file}:{line - start}"
         return path
+
+    @cached_property
+    def oddities(self) -> Oddities:
+        return oddities_of(self._trees)
+
+    @property
+    def attributes(self) -> dict[str, tuple[int, str]]:
+        texts = []
+        for start, node in self._nodes("assignment_expression"):
+            left, right = (tree.text_of(tree.field(node, side)) for side in ("left", "right"))
+            if "." in left or "->" in left:
+                texts.append((start + tree.line_of(node), left.replace("->", "."), right))
+        return {name: (line, value) for line, name, value in sorted(texts, reverse=True)}
 
     def _nodes(self, *kinds: str) -> Iterator[tuple[int, Node]]:
         """Yield (number of its file's first line, less one; node) of these kinds."""

@@ -56,6 +56,14 @@ def below(node: Node, *kinds: str) -> list[Node]:
     return [inner for inner in walk(node) if inner.type in kinds]
 
 
+def above(node: Node, *kinds: str) -> Node | None:
+    """Return the innermost node of these kinds around a node, or None."""
+    outer = node.parent
+    while outer is not None and outer.type not in kinds:
+        outer = outer.parent
+    return outer
+
+
 def field(node: Node, name: str) -> Node | None:
     return node.child_by_field_name(name)
 

@@ -8,8 +8,9 @@ import warnings
 from functools import cached_property
 from typing import Any, Iterable, Iterator, Sequence
 
+from tutorial_check.submission.oddities import Place
 from tutorial_check.submission.python_text import is_broad, last_name, python_lines, text_of
-from tutorial_check.submission.source_facts import Call, ClassFacts, Place, SourceFacts
+from tutorial_check.submission.source_facts import Call, ClassFacts, SourceFacts
 from tutorial_check.submission.student_files import MOST_BYTES, TOO_LARGE
 
 KEYBOARD = ("input", "raw_input", "tcgetattr", "setraw", "setcbreak", "initscr", "getch", "getchar")

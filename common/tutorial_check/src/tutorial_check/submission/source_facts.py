@@ -5,11 +5,10 @@ from __future__ import annotations
 import ast
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import ClassVar, Sequence, Tuple, Union
+from typing import ClassVar, Sequence
 
 from tutorial_check.submission.idioms import PYTHON, Idioms
-
-Place = Union[Tuple[int, str], Tuple[()]]  # (line, text), or empty
+from tutorial_check.submission.oddities import Oddities, Place
 
 
 @dataclass
@@ -64,6 +63,10 @@ class SourceFacts:
     def globals(self) -> list[int]:
         """The lines of global statements."""
         return []
+
+    @cached_property
+    def oddities(self) -> Oddities:
+        return Oddities()
 
     @property
     def bare_names(self) -> list[tuple[int, str]]:

@@ -1,0 +1,39 @@
+"""What a C++ compiler accepts, and a node does not survive."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple, Tuple, Union
+
+Place = Union[Tuple[int, str], Tuple[()]]  # (line, text), or empty
+
+
+class LostSubscriber(NamedTuple):
+    """A Subscriber that ends before a message comes."""
+
+    line: int
+    name: str  # "": it is not kept at all
+    ends_with: str  # the function that it is local to, or "a block"
+    hides: bool  # a member or global variable of that name
+
+
+class OddIndex(NamedTuple):
+    """A constant index, such as that of msg->axes[6]."""
+
+    line: int
+    array: str
+    number: int
+
+
+@dataclass(frozen=True)
+class Oddities:
+    """The oddities of a program; in Python there are none."""
+
+    lost_subscriber: LostSubscriber | None = None
+    hidden_publisher: Place = ()  # a local variable with the name of a member or global one
+    function_declared: Place = ()  # `Node node();` declares a function, and makes no Node
+    private: tuple[tuple[str, int], ...] = ()  # (Publisher or Subscriber, line of its "~")
+    whole_division: Place = ()  # of two whole numbers, with a rest
+    whole_axis: Place = ()  # an axis that becomes a whole number
+    indices: tuple[OddIndex, ...] = ()  # of axes and buttons
+    unset_pointer: Place = ()  # the first use of a pointer that is never set
