@@ -6,7 +6,7 @@ import statistics
 from dataclasses import dataclass, field
 from typing import Dict, Optional, Tuple
 
-from tutorial_check import Ran, Topics
+from tutorial_check import Ran, Topics, has_error
 
 from ..task import HANDOUT, Joy, JoystickTask
 from . import joys
@@ -144,4 +144,5 @@ class Joy2TwistRun:
 
     @property
     def has_traceback(self) -> bool:
-        return "Traceback (most recent call last)" in self.ending.output
+        """Whether it printed the error of a program that fails, in any language."""
+        return has_error(self.ending.output)

@@ -6,7 +6,7 @@ import statistics
 from dataclasses import dataclass
 from functools import cached_property
 
-from tutorial_check import Note, Script, Wrong, first_of, with_import
+from tutorial_check import Note, Script, Wrong, first_of, has_failed, with_import
 
 from ..task import other_topic
 from .record import KIND, LISTEN_S, STRINGS, TOPIC, Talk
@@ -104,7 +104,7 @@ def other_rate(talk: Talked) -> Note | None:
 
 def crashed_silently(talk: Talked) -> Wrong | None:
     ran = talk.seen.talker
-    return talk.crash() if "Traceback" in ran.output or ran.spins else None
+    return talk.crash() if has_failed(ran) or ran.spins else None
 
 
 def other_type(talk: Talked) -> Wrong | None:
@@ -159,8 +159,7 @@ class Listened:
 
 def crashed_deaf(listen: Listened) -> Wrong | None:
     ran = listen.seen.listener
-    has_failed = "Traceback" in ran.output or ran.spins
-    return listen.script.crash(ran, LISTENS) if has_failed else None
+    return listen.script.crash(ran, LISTENS) if has_failed(ran) or ran.spins else None
 
 
 def subscribed_elsewhere(listen: Listened) -> Wrong | None:

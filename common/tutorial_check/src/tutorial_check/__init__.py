@@ -37,6 +37,7 @@ from tutorial_check.recording.simulated_turtlebot import (
     has_moved,
 )
 from tutorial_check.recording.workspace import Workspace
+from tutorial_check.submission.aborts import has_error, has_failed
 from tutorial_check.submission.idioms import Idioms
 from tutorial_check.submission.launch_xml import GAPS, attribute, line_of, place_of
 from tutorial_check.submission.manifests import is_stand_in
@@ -58,7 +59,7 @@ __all__ = [
     "SimulatedTurtleBot", "SourceFacts", "Submission", "Task", "Topics", "Variant", "Workspace",
     "Wrong", "attribute", "build_error", "build_output", "cause_of", "check", "check_file",
     "cmake_of", "crash", "find_launch", "find_script", "first_of", "first_traceback",
-    "flipped_anonymous", "has_moved", "is_lacking", "is_stand_in", "last_lines", "launch_file",
+    "flipped_anonymous", "has_error", "has_failed", "has_moved", "is_lacking", "is_stand_in", "last_lines", "launch_file",
     "line_of", "meant", "missing_in", "must_be_launchable", "must_be_one_program",
     "must_be_unique", "must_build", "must_pass", "not_found", "package_hint", "package_of",
     "packages_beside", "packages_of_ros", "place_of", "program_of", "put_file", "read_xml",

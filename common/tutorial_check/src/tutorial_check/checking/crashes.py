@@ -6,10 +6,12 @@ import re
 from pathlib import Path
 
 from tutorial_check.checking.causes import explain, hider, traced
+from tutorial_check.checking.cpp_crashes import compiled_crash, compiled_program
 from tutorial_check.checking.results import Wrong
 from tutorial_check.checking.submission import Submission
 from tutorial_check.data.recorders import BUILT
 from tutorial_check.data.recordings import Ran
+from tutorial_check.submission.idioms import CPP, PYTHON
 from tutorial_check.submission.python_facts import PythonFacts
 from tutorial_check.submission.source_facts import ClassFacts, SourceFacts
 from tutorial_check.submission.tracebacks import Traceback, first_traceback, last_lines
@@ -52,6 +54,10 @@ def crash(
     submission: Submission, package: str, program: Ran, expected: str, hint: str = ""
 ) -> Wrong:
     """Return the Wrong for a program that ended or failed, with the cause from its output."""
+    compiled = compiled_crash(submission, package, program, expected)
+    if compiled:
+        compiled.hint = compiled.hint or hint
+        return compiled
     trace = traceback_of(submission, package, program.output)
     if trace and not (program.was_stopped and trace.error.startswith("KeyboardInterrupt")):
         seen = trace.error + (f"   in: {trace.text}" if trace.text else "")
@@ -61,7 +67,8 @@ def crash(
         return Wrong(expected, f"the program was ended by signal {-program.code}", "", hint)
     if program.spins:
         seen = f"{program.name} uses the CPU without making progress"
-        hint = "an endless loop? There must be none in the callback, or before rospy.init_node"
+        idioms = CPP if compiled_program(submission, package, program.name) else PYTHON
+        hint = f"an endless loop? There must be none in the callback, or before {idioms.init}"
         return Wrong(expected, seen, hint=hint, sure=True)
     seen = "it runs" if program.code is None else f"it ended, exit code {program.code}"
     said = last_lines(program.output)

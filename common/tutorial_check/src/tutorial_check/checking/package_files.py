@@ -11,6 +11,7 @@ from tutorial_check.checking.results import Note, Wrong
 from tutorial_check.checking.submission import Submission
 from tutorial_check.checking.texts import Lines
 from tutorial_check.data.recordings import Ran
+from tutorial_check.submission.aborts import abort_of, has_failed
 from tutorial_check.submission.idioms import PYTHON, Idioms
 from tutorial_check.submission.python_facts import PythonFacts
 from tutorial_check.submission.source_facts import SourceFacts
@@ -33,8 +34,8 @@ class File(Lines):
         return crash(self.submission, self.package, ran, expected, hint)
 
     def must_run(self, ran: Ran, expected: str, hint: str = "", may_end: bool = False) -> None:
-        """Raise Wrong if this program printed a traceback, or ended although it may not."""
-        if "Traceback" in ran.output or (ran.ended and not may_end):
+        """Raise Wrong if this program has failed, or ended although it may not."""
+        if has_failed(ran) or (ran.ended and not may_end):
             raise self.crash(ran, expected, hint or f"{self.idioms.spin} keeps it running")
 
 
@@ -94,6 +95,9 @@ class Script(File):
         if trace and "ROSInterrupt" in trace.error:
             seen = f"{self.name} ends with a traceback, ROSInterruptException"
             return Note(seen, trace.where, "except rospy.ROSInterruptException: pass")
+        error = "" if self.is_python else abort_of(output)
+        if error:
+            return Note(f"{self.name} ends with an error: {error}", self.where)
         if trace:
             hint = "try: ... except rospy.ROSInterruptException: pass"
             raise Wrong(f"{self.name} ends without a traceback", trace.error, trace.where, hint)

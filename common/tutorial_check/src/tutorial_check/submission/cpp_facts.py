@@ -24,7 +24,10 @@ NAMES = {  # {of roscpp: of rospy}
 }  # fmt: skip
 LOG = re.compile(r"ROS_(DEBUG|INFO|WARN|ERROR|FATAL)(?:_STREAM|_NAMED|_COND|_ONCE)*(_THROTTLE)?")
 LEVELS = {"DEBUG": "logdebug", "INFO": "loginfo", "WARN": "logwarn", "ERROR": "logerr"}
-MADE_BY_TYPE = {"Rate": "Rate", "WallRate": "Rate", "AsyncSpinner": "AsyncSpinner"}
+MADE_BY_TYPE = {
+    "Rate": "Rate", "WallRate": "Rate", "AsyncSpinner": "AsyncSpinner", "Duration": "Duration",
+    "WallDuration": "Duration", "NodeHandle": "NodeHandle",
+}  # fmt: skip
 # What a message's type in a callback may end with.
 POINTER = re.compile(r"(?:Const)?Ptr$|^(?:Const)?Ptr$|_$")
 LOOPS = ("while_statement", "do_statement", "for_statement")
@@ -86,6 +89,11 @@ class CppFacts(SourceFacts):
             if "." in left or "->" in left:
                 texts.append((start + tree.line_of(node), left.replace("->", "."), right))
         return {name: (line, value) for line, name, value in sorted(texts, reverse=True)}
+
+    def line_of_text(self, text: str) -> int:
+        """Return the line of the first string literal with a text, or 0."""
+        literals = tree.nodes(self._trees, "string_literal")
+        return next((line for line, node in literals if tree.text_of(node) == text), 0)
 
     def _nodes(self, *kinds: str) -> Iterator[tuple[int, Node]]:
         """Yield (number of its file's first line, less one; node) of these kinds."""

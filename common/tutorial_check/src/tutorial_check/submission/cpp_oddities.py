@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import re
-from typing import Iterator, Sequence, Tuple
+from typing import Iterator, Sequence
 
 from tutorial_check.submission import cpp_tree as tree
-from tutorial_check.submission.cpp_tree import Node
+from tutorial_check.submission.cpp_order import (
+    bare_ok,
+    early_handle,
+    late_subscriber,
+    text_as_object,
+)
+from tutorial_check.submission.cpp_tree import Node, Tree
 from tutorial_check.submission.oddities import LostSubscriber, OddIndex, Oddities, Place
-
-Tree = Tuple[int, Node]  # (number of its file's first line, less one; root)
 
 KEEPING = ("spin", "spinOnce", "waitForShutdown", "callOne", "callAvailable")
 WHOLE = re.compile(r"(unsigned |signed )?(int|long|short|char)\b|u?int\d+_t")
@@ -30,20 +34,11 @@ def oddities_of(trees: Sequence[Tree]) -> Oddities:
         whole_axis=next(_whole_axes(trees), ()),
         indices=tuple(_indices(trees)),
         unset_pointer=next(_unset_pointers(trees), ()),
+        early_handle=early_handle(trees),
+        text_as_object=text_as_object(trees),
+        bare_ok=bare_ok(trees),
+        late_subscriber=late_subscriber(trees),
     )
-
-
-def _nodes(trees: Sequence[Tree], *kinds: str) -> Iterator[tuple[int, Node]]:
-    """Yield (line, node) of these kinds."""
-    for start, root in trees:
-        for node in tree.below(root, *kinds):
-            yield start + tree.line_of(node), node
-
-
-def _calls(trees: Sequence[Tree], *names: str) -> Iterator[tuple[int, Node]]:
-    for line, call in _nodes(trees, "call_expression"):
-        if tree.last_name(tree.field(call, "function")) in names:
-            yield line, call
 
 
 def _type_of(node: Node) -> str:
@@ -86,7 +81,7 @@ def _function_name(function: Node) -> str:
 
 
 def _lost_subscribers(trees: Sequence[Tree], outer: set[str]) -> Iterator[LostSubscriber]:
-    for line, call in _calls(trees, "subscribe"):
+    for line, call in tree.calls(trees, "subscribe"):
         first = next((word.type for word in tree.arguments_of(call)), "")
         # message_filters takes a NodeHandle first.
         if call.parent.type == "expression_statement" and first == "string_literal":
@@ -115,7 +110,7 @@ def _is_kept(declaration: Node, name: str) -> bool:
 
 
 def _hidden_publishers(trees: Sequence[Tree], outer: set[str]) -> Iterator[Place]:
-    for line, call in _calls(trees, "advertise"):
+    for line, call in tree.calls(trees, "advertise"):
         name = _name_of(call.parent)
         if _local(call) is not None and name in outer:
             yield line, name
@@ -123,8 +118,8 @@ def _hidden_publishers(trees: Sequence[Tree], outer: set[str]) -> Iterator[Place
 
 def _function_declarations(trees: Sequence[Tree]) -> Iterator[Place]:
     kinds = ("class_specifier", "struct_specifier")
-    classes = {tree.text_of(tree.field(node, "name")) for _, node in _nodes(trees, *kinds)}
-    for line, node in _nodes(trees, "declaration"):
+    classes = {tree.text_of(tree.field(node, "name")) for _, node in tree.nodes(trees, *kinds)}
+    for line, node in tree.nodes(trees, "declaration"):
         declarator = tree.field(node, "declarator")
         if declarator is None or declarator.type != "function_declarator":
             continue
@@ -137,14 +132,14 @@ def _function_declarations(trees: Sequence[Tree]) -> Iterator[Place]:
 def _private(trees: Sequence[Tree]) -> Iterator[tuple[str, int]]:
     """Yield (what a private NodeHandle makes, line of its "~")."""
     handles = {}
-    for line, node in _nodes(trees, "string_literal"):
+    for line, node in tree.nodes(trees, "string_literal"):
         if tree.text_of(node).startswith("~"):
             made = tree.above(node, "init_declarator", "field_initializer", "call_expression")
             if made is not None and made.type == "field_initializer":
                 handles[tree.text_of(made.children[0])] = line
             elif made is not None:
                 handles[_name_of(made)] = line
-    for _, call in _calls(trees, *MAKERS):
+    for _, call in tree.calls(trees, *MAKERS):
         function, given = tree.field(call, "function"), tree.arguments_of(call)
         handle = tree.field(function, "argument")
         is_relative = given and not tree.text_of(given[0]).startswith("/")
@@ -153,7 +148,7 @@ def _private(trees: Sequence[Tree]) -> Iterator[tuple[str, int]]:
 
 
 def _whole_divisions(trees: Sequence[Tree]) -> Iterator[Place]:
-    for line, node in _nodes(trees, "binary_expression"):
+    for line, node in tree.nodes(trees, "binary_expression"):
         sides = [tree.text_of(tree.field(node, side)).strip("()") for side in ("left", "right")]
         is_division = tree.text_of(tree.field(node, "operator")) == "/"
         numbers = [int(side) for side in sides if side.isdecimal() and len(side) < 10]
@@ -163,16 +158,16 @@ def _whole_divisions(trees: Sequence[Tree]) -> Iterator[Place]:
 
 def _whole_axes(trees: Sequence[Tree]) -> Iterator[Place]:
     whole = set()
-    for _, node in _nodes(trees, "declaration", "field_declaration"):
+    for _, node in tree.nodes(trees, "declaration", "field_declaration"):
         if WHOLE.match(tree.text_of(tree.field(node, "type"))):
             whole |= {_name_of(inner) for inner in node.children_by_field_name("declarator")}
-    for line, node in _nodes(trees, "init_declarator", "assignment_expression"):
+    for line, node in tree.nodes(trees, "init_declarator", "assignment_expression"):
         is_new = node.type == "init_declarator"
         value = tree.field(node, "value" if is_new else "right")
         name = _name_of(node) if is_new else tree.last_name(tree.field(node, "left"))
         if value is not None and name in whole and _has_axis(value):
             yield line, name
-    for line, node in _nodes(trees, "cast_expression", "call_expression"):
+    for line, node in tree.nodes(trees, "cast_expression", "call_expression"):
         kind = tree.field(node, "type" if node.type == "cast_expression" else "function")
         is_whole = WHOLE.match(tree.text_of(kind).replace("static_cast<", ""))
         if is_whole and _has_axis(node):
@@ -185,10 +180,10 @@ def _has_axis(node: Node) -> bool:
 
 
 def _indices(trees: Sequence[Tree]) -> Iterator[OddIndex]:
-    for line, node in _nodes(trees, "subscript_expression"):
+    for line, node in tree.nodes(trees, "subscript_expression"):
         given = tree.field(node, "indices") or tree.field(node, "index")
         yield from _index(line, tree.field(node, "argument"), tree.text_of(given).strip("[] "))
-    for line, call in _calls(trees, "at"):
+    for line, call in tree.calls(trees, "at"):
         text = tree.text_of(tree.field(call, "arguments")).strip("() ")
         yield from _index(line, tree.field(tree.field(call, "function"), "argument"), text)
 
@@ -203,9 +198,9 @@ def _unset_pointers(trees: Sequence[Tree]) -> Iterator[Place]:
     """Yield (line of the first use, name) of pointers without a value."""
     left = {
         tree.last_name(tree.field(node, "left"))
-        for _, node in _nodes(trees, "assignment_expression")
+        for _, node in tree.nodes(trees, "assignment_expression")
     }
-    for node in (n for _, n in _nodes(trees, "declaration", "field_declaration")):
+    for node in (n for _, n in tree.nodes(trees, "declaration", "field_declaration")):
         is_smart = POINTER.search(tree.text_of(tree.field(node, "type")))
         for declarator in node.children_by_field_name("declarator"):
             is_pointer = declarator.type == "pointer_declarator" or (
@@ -216,6 +211,6 @@ def _unset_pointers(trees: Sequence[Tree]) -> Iterator[Place]:
 
 
 def _uses(trees: Sequence[Tree], name: str) -> Iterator[Place]:
-    for line, node in _nodes(trees, "field_expression", "pointer_expression"):
+    for line, node in tree.nodes(trees, "field_expression", "pointer_expression"):
         if tree.text_of(tree.field(node, "argument")) == name:
             yield line, name

@@ -9,9 +9,10 @@ from __future__ import annotations
 import functools
 import importlib.util
 from pathlib import Path
-from typing import Any, Iterator
+from typing import Any, Iterator, Sequence, Tuple
 
 Node = Any  # tree_sitter.Node: .type, .children, .text, .child_by_field_name(), .start_point
+Tree = Tuple[int, Node]  # (number of its file's first line, less one; root)
 
 
 @functools.lru_cache(maxsize=None)
@@ -62,6 +63,20 @@ def above(node: Node, *kinds: str) -> Node | None:
     while outer is not None and outer.type not in kinds:
         outer = outer.parent
     return outer
+
+
+def nodes(trees: Sequence[Tree], *kinds: str) -> Iterator[tuple[int, Node]]:
+    """Yield (line, node) of the nodes of these kinds in several files."""
+    for start, root in trees:
+        for node in below(root, *kinds):
+            yield start + line_of(node), node
+
+
+def calls(trees: Sequence[Tree], *names: str) -> Iterator[tuple[int, Node]]:
+    """Yield (line, node) of the calls of functions whose last name is one of these."""
+    for line, call in nodes(trees, "call_expression"):
+        if last_name(field(call, "function")) in names:
+            yield line, call
 
 
 def field(node: Node, name: str) -> Node | None:

@@ -1,0 +1,58 @@
+"""Why a program in C++ has failed: its line and the fix, by what it printed and its text."""
+
+from __future__ import annotations
+
+import re
+from typing import Callable
+
+from tutorial_check.checking.causes import explained
+from tutorial_check.checking.results import Wrong
+from tutorial_check.checking.submission import Submission
+from tutorial_check.data.recordings import Ran
+from tutorial_check.submission.aborts import abort_of, has_failed, signal_of
+from tutorial_check.submission.cpp_facts import CppFacts
+from tutorial_check.submission.cpp_order import ABOVE
+
+NAME = re.compile(r"[Nn]ame \[(?P<name>.*?)\](?:\.  Valid|:)")
+# {pattern for an error: the line to blame, or 0}; the first that matches counts.
+LINES: dict[str, Callable[[CppFacts], int]] = {
+    "name must not be empty": lambda facts: _first(facts, "init_node"),
+    r"publish\(\) on an invalid": lambda facts: _first(facts, "publish"),
+    "out of dual 32-bit": lambda facts: _first(facts, "Rate", "Duration"),
+}
+
+
+def compiled_program(submission: Submission, package: str, name: str) -> str:
+    """Return the path of the program in C++ whose executable has a name; or ""."""
+    for path in submission.cpp_programs(package) if submission.is_in_cpp(package) else ():
+        executable = submission.executable_of(package, path)
+        if executable and executable.name == name:
+            return path
+    return ""
+
+
+def compiled_crash(submission: Submission, package: str, ran: Ran, expected: str) -> Wrong | None:
+    """Return the Wrong for a program in C++ that has failed; None if it has not, or is none."""
+    path = compiled_program(submission, package, ran.name) if has_failed(ran) else ""
+    if not path:
+        return None
+    facts, signal = submission.cpp_programs(package)[path], signal_of(ran)
+    error = abort_of(ran.output)
+    seen = error or f"the program was ended by {signal}"
+    line, hint = blamed(error or signal, facts)
+    return Wrong(expected, seen, facts.place(path, line), hint, sure=bool(error))
+
+
+def blamed(error: str, facts: CppFacts) -> tuple[int, str]:
+    """Return (line or 0, fix) for an error of a program."""
+    line = next((find(facts) for pattern, find in LINES.items() if re.search(pattern, error)), 0)
+    name = NAME.search(error)
+    if name:
+        line = facts.line_of_text(name["name"])
+    if "ros::init() before" in error:
+        return facts.oddities.early_handle or (_first(facts, "NodeHandle"), ABOVE)
+    return line, "".join(explained("c++", error))
+
+
+def _first(facts: CppFacts, *names: str) -> int:
+    return next(iter(facts.lines(*names)), 0)

@@ -1,0 +1,67 @@
+"""Whether a program has failed, and the error that C++ and its libraries print at such an end."""
+
+from __future__ import annotations
+
+import re
+import signal
+
+from tutorial_check.data.recordings import Ran
+
+# What ends a program that does something forbidden: {number: words}.
+SIGNALS = {
+    signal.SIGILL: "an instruction that does not exist",
+    signal.SIGTRAP: "a breakpoint",
+    signal.SIGABRT: "abort()",
+    signal.SIGBUS: "no such memory",
+    signal.SIGFPE: "a whole number divided by 0",
+    signal.SIGSEGV: "a segmentation fault",
+}
+TRACEBACK = "Traceback (most recent call last)"
+EXCEPTION = re.compile(
+    r"^terminate called (?:after throwing an instance of '(?P<kind>.+)'"
+    r"(?:\s+what\(\): *(?P<what>.*))?|without an active exception)",
+    re.MULTILINE,
+)
+ASSERTION = re.compile(
+    r"^.*?(?P<file>[^:\s]+):(?P<line>\d+): .*(?P<what>Assertion .* failed)\.", re.M
+)
+OF_GLIBC = re.compile(
+    r"^(?:(?:free|malloc|realloc|munmap_chunk)\(\)|double free|corrupted|\*\*\* stack).*",
+    re.MULTILINE,
+)
+FATAL = re.compile(r"\[FATAL\] \[[^\]]*\]: *(?P<what>[^\n\x1b]*)")
+NO_CAUSE = ("ASSERTION FAILED", "BREAKPOINT HIT", "")  # roscpp's words around the cause
+
+
+def abort_of(output: str) -> str:
+    """Return the error with which a program in C++ has ended, as it was printed; or ""."""
+    exception = EXCEPTION.search(output)
+    if exception:
+        words = (_plain(exception["kind"] or ""), exception["what"] or "")
+        return ": ".join(filter(None, words)) or exception[0]
+    fatal = FATAL.findall(output)
+    if any(line in fatal for line in NO_CAUSE[:2]):
+        return next((line for line in reversed(fatal) if line not in NO_CAUSE), NO_CAUSE[0])
+    assertion, other = ASSERTION.search(output), OF_GLIBC.search(output)
+    return assertion["what"] if assertion else other[0] if other else ""
+
+
+def _plain(kind: str) -> str:
+    """Return an exception's class without those of Boost around it."""
+    return kind.rstrip("> ").rpartition("<")[2]
+
+
+def has_error(output: str) -> bool:
+    """Return whether an output has the error of a program that failed, in any language."""
+    return TRACEBACK in output or bool(abort_of(output))
+
+
+def has_failed(program: Ran) -> bool:
+    """Return whether a program printed such an error, or did what ends it at once."""
+    return has_error(program.output) or signal_of(program) != ""
+
+
+def signal_of(program: Ran) -> str:
+    """Return the name and the meaning of the signal that has ended a failed program, or ""."""
+    number = -(program.code or 0)
+    return f"{signal.Signals(number).name}, {SIGNALS[number]}" if number in SIGNALS else ""
