@@ -1,0 +1,61 @@
+"""What a program in C++ does too early, too late or never, from its syntax trees."""
+
+from __future__ import annotations
+
+from typing import Iterator, Sequence
+
+from tutorial_check.submission import cpp_tree as tree
+from tutorial_check.submission.cpp_tree import Node, Tree
+from tutorial_check.submission.oddities import Place
+
+DISPLAYS = ("printf", "ROS_DEBUG", "ROS_INFO", "ROS_WARN", "ROS_ERROR", "ROS_FATAL")
+INNER = ("compound_statement", "field_declaration_list")
+OUTSIDE = "make it in main, below ros::init: a global variable is made before main"
+ABOVE = 'ros::init(argc, argv, "NAME") belongs above it, as the first line of main'
+
+
+def early_handle(trees: Sequence[Tree]) -> Place:
+    """Return (line, fix) of the NodeHandle that is made before ros::init, if that is called."""
+    handles = list(_handles(trees))
+    inits = [line for line, _ in tree.calls(trees, "init")]
+    outside = [line for line, node in handles if not tree.above(node, *INNER)]
+    early = [line for line, _ in handles if inits and line < inits[0]]
+    if outside and inits:
+        return outside[0], OUTSIDE
+    return (early[0], ABOVE) if early else ()
+
+
+def _handles(trees: Sequence[Tree]) -> Iterator[tuple[int, Node]]:
+    """Yield (line, node) of each NodeHandle that a declaration makes."""
+    for line, node in tree.nodes(trees, "declaration", "field_declaration"):
+        is_handle = tree.last_name(tree.field(node, "type")) == "NodeHandle"
+        if is_handle and tree.field(node, "declarator").type != "pointer_declarator":
+            yield line, node
+
+
+def text_as_object(trees: Sequence[Tree]) -> Place:
+    """Return (line, text) of a std::string that is displayed by %s without c_str()."""
+    for line, call in tree.calls(trees, *DISPLAYS):
+        form, *words = [*tree.arguments_of(call), call]
+        for word in words if "%s" in tree.text_of(form) else ():
+            if word.type == "field_expression" and tree.last_name(word) == "data":
+                return line, tree.text_of(word)
+    return ()
+
+
+def bare_ok(trees: Sequence[Tree]) -> int:
+    """Return the line of a ros::ok without (), or 0."""
+    for line, node in tree.nodes(trees, "qualified_identifier"):
+        if tree.text_of(node) == "ros::ok" and node.parent.type != "call_expression":
+            return line
+    return 0
+
+
+def late_subscriber(trees: Sequence[Tree]) -> int:
+    """Return the line of the first subscribe if it comes after a spin of its function, or 0."""
+    for line, call in tree.calls(trees, "subscribe"):
+        function = tree.above(call, "function_definition")
+        spins = tree.calls([(line - tree.line_of(call), function)], "spin") if function else ()
+        before = [spin for spin, _ in spins if spin < line]
+        return line if before else 0
+    return 0
