@@ -1,0 +1,110 @@
+"""The student's line that an error of the compiler is about."""
+
+from __future__ import annotations
+
+import os
+import re
+from dataclasses import dataclass
+from itertools import islice, takewhile
+from pathlib import Path
+from typing import Iterator
+
+from tutorial_check.checking.submission import Submission
+from tutorial_check.errors import CannotCheck
+
+# Bounded, because an unbounded search takes quadratic time.
+ERROR = re.compile(
+    r"^(/[^\s:]{1,500}):(\d{1,9}):(?:(\d{1,9}):)? (?:fatal )?error: ([^\n]{1,2000})", re.M
+)
+# Lines before an error: the files that include its file, and what instantiates its template.
+CONTEXT = re.compile(r"In file included from |\s+from |/\S+ (?:In|At) |/\S+\s+(?:required|recurs)")
+BEFORE = 60_000  # characters in which they are
+PLACE = re.compile(r"(?<!\S)(/[^\s:]{1,500}):(\d{1,9})[:,](?:\d{1,9}: +(required))?")
+MOST_PLACES = 500
+LACKS_SEMICOLON = re.compile(r"expected (?:.,. or )?(?:.;. |initializer )before")
+OPENED = re.compile(r"^(/[^\s:]{1,500}):(\d{1,9}):\d{1,9}: note: to match this", re.M)
+TAB = 8  # columns, for g++
+
+
+@dataclass(frozen=True)
+class Place:
+    """A line of a file in the copy of the workspace."""
+
+    path: str
+    line: int
+
+    def shown(self, submission: Submission) -> str:
+        """Return FILE:LINE, the file within src."""
+        return f"{_inside(submission, self.path)}:{self.line}"
+
+    def text(self, submission: Submission) -> str:
+        """Return the line; "" if it cannot be read."""
+        return "".join(text_of(submission, self.path).split("\n")[self.line - 1 : self.line])
+
+
+def own_place(submission: Submission, output: str, error: re.Match[str]) -> Place | None:
+    """Return the student's line that an error, a match of ERROR, is about."""
+    place = Place(error[1], int(error[2]))
+    if submission.is_own(place.path):
+        return _corrected(submission, output, error, place)
+    # The compiler often reports an error in a template at the system's header.
+    before = output[max(0, error.start() - BEFORE) : error.start()].splitlines()
+    context = "\n".join([*takewhile(CONTEXT.match, before[::-1])][::-1])
+    places = _own(submission, PLACE.finditer(context))
+    required = [place for place in places if place[3]]
+    places = required[-1:] or places or _own(submission, PLACE.finditer(output))
+    if not places:
+        return None
+    place = Place(places[0][1], int(places[0][2]))
+    return place if required else _callback(submission, error, place)
+
+
+def _own(submission: Submission, places: Iterator[re.Match[str]]) -> list[re.Match[str]]:
+    return [place for place in islice(places, MOST_PLACES) if submission.is_own(place[1])]
+
+
+def _corrected(submission: Submission, output: str, error: re.Match[str], place: Place) -> Place:
+    """Return where the mistake is, if the compiler notices it only later."""
+    message = error[4]
+    if LACKS_SEMICOLON.search(message):
+        return _line_before(submission, place, int(error[3] or 0))
+    other = None
+    if "at end of input" in message:
+        other = OPENED.search(output, error.end())
+    elif "unterminated argument list" in message:
+        other = ERROR.search(output, error.end())
+    is_own = other and submission.is_own(other[1])
+    return Place(other[1], int(other[2])) if other and is_own else place
+
+
+def _callback(submission: Submission, error: re.Match[str], place: Place) -> Place:
+    """Return the line of a callback whose parameter is not const; the compiler names only files."""
+    if "ros::ParameterAdapter<" not in error[4]:
+        return place
+    lines = text_of(submission, place.path).split("\n")
+    numbers = (n for n, line in enumerate(lines, 1) if re.search(r"\bsubscribe\s*[<(]", line))
+    return Place(place.path, next(numbers, place.line))
+
+
+def _line_before(submission: Submission, place: Place, column: int) -> Place:
+    """Return the line with the last code before a column; comments and blank lines have none."""
+    lines = text_of(submission, place.path).split("\n")[: place.line]
+    indents = {len(text) - len(text.lstrip()) for text in (lines[-1], lines[-1].expandtabs(TAB))}
+    if column - 1 not in indents:
+        return place
+    numbers = range(len(lines) - 1, 0, -1)
+    codes = (n for n in numbers if lines[n - 1].strip() and lines[n - 1].lstrip()[0] not in "/*#")
+    return Place(place.path, next(codes, place.line))
+
+
+def _inside(submission: Submission, path: str | Path) -> str:
+    """Return the path of a student's file within src."""
+    return os.path.relpath(os.path.realpath(path), os.path.realpath(submission.source))
+
+
+def text_of(submission: Submission, path: str | Path) -> str:
+    """Return the text of a student's file; "" if it cannot be read."""
+    try:
+        return submission.read(submission.source / _inside(submission, path))
+    except CannotCheck:
+        return ""
