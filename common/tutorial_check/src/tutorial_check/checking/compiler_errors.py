@@ -14,9 +14,8 @@ OUTSIDE = "#include of a file outside of the package"
 FOLLOWING = 5000  # characters, with the notes of an error
 # A compiler that a limit of the system ends.
 ENDED = re.compile(
-    r"(?:\w[^\n:]{0,40}: )?(?:(?:fatal )?error: )?(?:out of memory allocating"
-    r"|(?:virtual )?memory exhausted|\w[\w ]{0,40} signal terminated program"
-    r"|internal compiler error: |unrecognized command-line option)[^\n]{0,200}"
+    r"out of memory allocating|memory exhausted| signal terminated program "
+    r"|internal compiler error: |unrecognized command-line option"
 )
 NEWER = re.compile(r"note: [^\n]{1,200} only available from (C\+\+\d\d) onwards")
 # What the headers of ROS and Boost report if another C++ is asked for than they are written in.
@@ -44,7 +43,9 @@ def of_compiler(submission: Submission, output: str) -> Wrong | None:
     """Return the Wrong for the first error of the compiler, if there is one."""
     error, ended = ERROR.search(output), ENDED.search(output)
     if ended and not (error and error.start() < ended.start()):
-        return _ended(submission, ended[0], failed_target(submission, output, ended.end()))
+        start, end = output[: ended.end()], output[ended.end() :]
+        line = start.rpartition("\n")[2] + end.partition("\n")[0]
+        return _ended(submission, line, failed_target(submission, output, ended.end()))
     if not error:
         return None
     place = own_place(submission, output, error)
@@ -58,10 +59,12 @@ def of_compiler(submission: Submission, output: str) -> Wrong | None:
     if standard and (newer or STANDARD.search(message)):
         return _wrong(message, standard, build_hint("compiler", "asks for another C++"))
     texts = (message, place.text(submission) if place else "", newer[0] if newer else "")
-    hint = hint_of_header(submission, message, target)
-    return _wrong(
-        message, where, hint or build_hint("compiler", "\n".join(texts).translate(QUOTES))
-    )
+    hint = hint_of_header(submission, message, target) or _hint("\n".join(texts))
+    return _wrong(message, where, hint)
+
+
+def _hint(text: str) -> str:
+    return build_hint("compiler", text.translate(QUOTES))
 
 
 def _wrong(message: str, where: str, hint: str) -> Wrong:
@@ -77,13 +80,13 @@ def _ended(submission: Submission, message: str, target: Target) -> Wrong:
     """Return the Wrong for a compiler that could not finish."""
     where = target.line_with(*message.translate(QUOTES).split("'")[1:2])
     if where or not target.source or not target.package:
-        return _wrong(message, where, build_hint("compiler", message.translate(QUOTES)))
+        return _wrong(message, where, _hint(message))
     source = target.package.folder / target.source
     where = f"{target.package.inside}/{target.source}"
     for number, line in enumerate(text_of(submission, source).split("\n"), 1):
         if line.lstrip().startswith("#") and re.search(r"[\"<]/|\.\./\.\./\.\.", line):
             return _outside(f"{where}:{number}")
-    return _wrong(message, where, build_hint("compiler", message.translate(QUOTES)))
+    return _wrong(message, where, _hint(message))
 
 
 def plain(message: str) -> str:

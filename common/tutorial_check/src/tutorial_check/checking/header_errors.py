@@ -33,7 +33,8 @@ MADE = "(?:Request|Response|Config|(?:Action)?(?:Goal|Result|Feedback)?)"
 def is_outside(submission: Submission, path: str) -> bool:
     """Return whether a file belongs to neither the system, ROS, nor the workspace."""
     real = Path(os.path.realpath(path))
-    inside = (Path("/usr"), Path("/opt"), SUITE, submission.folder, *_prefixes(submission))
+    known = (Path("/usr"), Path("/opt"), SUITE, *submission.order.readable)
+    inside = (*known, submission.folder, *_prefixes(submission))
     return not any(Path(os.path.realpath(folder)) in real.parents for folder in inside)
 
 
@@ -78,12 +79,14 @@ def _own(submission: Submission, name: str, target: Target) -> str:
         if path.as_posix().endswith(f"/{name}"):
             folder = path.as_posix()[: -len(name) - 1]
             inside = os.path.relpath(folder, package.folder)
+            if inside == f"include/{package.name}":
+                return build_hint("header", f"own {package.name}/{name} is meant")
             if package != target.package and inside == "include":
                 return build_hint("header", f"{package.name} is no component")
             return build_hint("header", f"{name} is in folder {inside}")
-    names = {_included_as(path, package): path for path, package in headers.items()}
-    same = (word for word, path in names.items() if path.name == Path(name).name)
-    near = next(same, "") or meant(name, names, 0.75, "{}")
+    names = {_included_as(path, package): path.name for path, package in headers.items()}
+    bases = {base: word for word, base in names.items()}
+    near = meant(name, names, 0.75, "{}") or bases.get(meant(Path(name).name, bases, 0.75, "{}"))
     return build_hint("header", f"own {near} is meant") if near else ""
 
 
@@ -108,10 +111,11 @@ def _similar(submission: Submission, name: str, _target: Target) -> str:
     """Return the header that is meant by a name that no header has."""
     known = list(_known(submission))
     folded = {header.casefold(): header for header in known}
-    bases = {Path(header).name.casefold(): header for header in known}
-    base = Path(name.replace("\\", "/")).name.casefold()
-    near = folded.get(name.casefold().replace("\\", "/")) or bases.get(base)
-    near = near or bases.get(f"{Path(base).stem}.h") or meant(name, known, 0.75, "{}")
+    near = folded.get(name.casefold()) or folded.get(f"{name}.h".casefold())
+    if "/" not in name:
+        bases = {Path(header).name.casefold(): header for header in known}
+        near = near or bases.get(name.casefold())
+    near = near or meant(name, known, 0.75, "{}")
     return build_hint("header", f"{near} is meant") if near else ""
 
 
