@@ -62,8 +62,8 @@ def test_two_targets_of_a_name_are_reported_with_both_places(session):
 
 @claim("An error of CMake about a program in C++ names its line and the usual cause")
 @pytest.mark.parametrize(("message", "line", "words"), [
-    (" at mine/CMakeLists.txt:2 (add_executable):\n  Cannot find source file:\n\n    src/taker.cpp\n\n"
-     "  Tried extensions .c .C", 2, "is src/talker.cpp meant?"),
+    (" at mine/CMakeLists.txt:2 (add_executable):\n  Cannot find source file:\n\n    src/taker.cpp"
+     "\n\n  Tried extensions .c .C", 2, "is src/talker.cpp meant?"),
     (" at mine/CMakeLists.txt:2 (add_executable):\n  Cannot find source file:\n\n    chat.cpp\n\n"
      "  Tried extensions .c .C", 2, "is src/chat.cc meant?"),
     (" at mine/CMakeLists.txt:2 (add_executable):\n  Cannot find source file:\n\n    src/other.cpp",
@@ -74,8 +74,8 @@ def test_two_targets_of_a_name_are_reported_with_both_places(session):
      "linker language for target: talker\n-- Generating done", 2, "catkin_install_python"),
     (' at mine/CMakeLists.txt:3:\n  Parse error.  Function missing ending ")".  End of file '
      "reached.", 3, "a ( is opened there and never closed"),
-    (' at mine/CMakeLists.txt:3 (target_link_libraries):\n  Cannot specify link libraries for target '
-     '"talk" which is not built by\n  this project.', 3, "add_executable(talk ...)"),
+    (" at mine/CMakeLists.txt:3 (target_link_libraries):\n  Cannot specify link libraries for "
+     'target "talk" which is not built by\n  this project.', 3, "add_executable(talk ...)"),
     (" at mine/CMakeLists.txt:9 (target_link_libraries):\n  The keyword signature for "
      "target_link_libraries has already been used with", 9, "or in none"),
     (' at mine/CMakeLists.txt:2 (add_executable):\n  The target name "test" is reserved when CTest '

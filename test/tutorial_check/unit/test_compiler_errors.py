@@ -69,8 +69,8 @@ def test_what_is_newer_than_the_standard_is_blamed_on_its_own_line(compiled):
 
 @claim("A compiler that a limit ends, and what a program includes of the system, is one line")
 @pytest.mark.parametrize(("program", "output", "where", "words"), [
-    ('\n#include "/dev/zero"\n', "\ncc1plus: out of memory allocating 2147483664 bytes after a total "
-     "of 6094848 bytes", "mine/src/talker.cpp:2", "a program includes headers of packages"),
+    ('\n#include "/dev/zero"\n', "\ncc1plus: out of memory allocating 2147483664 bytes after a "
+     "total of 6094848 bytes", "mine/src/talker.cpp:2", "a program includes headers of packages"),
     ("#include <x>\n", "\nvirtual memory exhausted: Cannot allocate memory", "mine/src/talker.cpp",
      "more memory or time than a build has"),
     ("", "c++: fatal error: Killed signal terminated program cc1plus\ncompilation terminated.",
@@ -104,8 +104,8 @@ def test_tabs_count_as_the_columns_of_the_compiler(compiled):
 @pytest.mark.parametrize(("message", "words"), [
     ("no match for \u2018f\u2019 [with T = std::vector<int>]", "no match for \u2018f\u2019"),
     ("\u2018std::__cxx11::basic_string<char>\u2019", "\u2018std::string\u2019"),
-    ("\u2018boost::function<void(const boost::shared_ptr<const std_msgs::String_<std::allocator<void> "
-     "> >&)>\u2019", "\u2018boost::function<void(const std_msgs::String::ConstPtr&)>\u2019"),
+    ("\u2018boost::function<void(const boost::shared_ptr<const std_msgs::String_<std::allocator"
+     "<void> > >&)>\u2019", "\u2018boost::function<void(const std_msgs::String::ConstPtr&)>\u2019"),
     ("\u2018a<b<c<d> >, e<f> >\u2019", "\u2018a<b, e >\u2019"),
     ("no match for \u2018operator<<\u2019 (\u2018std::ostream\u2019 and \u2018T\u2019)",
      "no match for \u2018operator<<\u2019 (\u2018std::ostream\u2019 and \u2018T\u2019)"),

@@ -26,7 +26,8 @@ METHOD = (
 
 @claim("An error of the linker names the target, its line and the usual cause")
 @pytest.mark.parametrize(("error", "cmake", "line", "words"), [
-    (INIT, CMAKE, "CMakeLists.txt:3", "write target_link_libraries(mine_talker ${catkin_LIBRARIES})"),
+    (INIT, CMAKE, "CMakeLists.txt:3",
+     "write target_link_libraries(mine_talker ${catkin_LIBRARIES})"),
     (INIT, CMAKE + LINKED.replace("catkin", "CATKIN"), "CMakeLists.txt:4",
      "the libraries of ROS are in ${catkin_LIBRARIES}"),
     (INIT, CMAKE.replace("roscpp", "std_msgs") + LINKED, "CMakeLists.txt:3",
@@ -35,7 +36,8 @@ METHOD = (
      "src/greet.cpp has it: add_executable(mine_talker ...) needs that file, too"),
     ("undefined reference to `other()'", CMAKE + LINKED, "CMakeLists.txt:3",
      "the .cpp file that has it belongs into add_executable"),
-    (METHOD, CMAKE + LINKED, "src/talker.cpp:2", "Teleop::callback is declared, and nothing defines"),
+    (METHOD, CMAKE + LINKED, "src/talker.cpp:2",
+     "Teleop::callback is declared, and nothing defines"),
     ("multiple definition of `main'; CMakeFiles/mine_talker.dir/src/talker.cpp.o:talker.cpp:"
      "(.text+0xb): first defined here", CMAKE + LINKED, "CMakeLists.txt:3",
      "each program has its own add_executable"),
