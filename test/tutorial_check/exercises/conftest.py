@@ -9,6 +9,7 @@ import kobuki_msgs
 import pytest
 import stored
 from edits import literal, literal_cpp  # noqa: F401
+from right_check import check  # noqa: F401
 
 from tutorial_check.examining.examination import examine
 from tutorial_check.submission.order import Order

@@ -31,16 +31,21 @@ def _workspace(solution, folder):
     return src
 
 
-def put(path, old, new, count=-1):
-    """Replace a text in a file; & in new stands for old."""
+def put(path, old, new, count=-1, same="&"):
+    """Replace a text in a file. same: what in new stands for old."""
 
     def edit(src):
         file = src / path
         text = file.read_bytes().decode()
         assert old in text, f"{old!r} is not in {path}"
-        file.write_bytes(text.replace(old, new.replace("&", old), count).encode())
+        file.write_bytes(text.replace(old, new.replace(same, old), count).encode())
 
     return edit
+
+
+def put_cpp(path, old, new, count=-1):
+    """Replace a text in a file of C++; @ in new stands for old."""
+    return put(path, old, new, count, same="@")
 
 
 def made(path):

@@ -8,3 +8,7 @@ X, Z = "twist.linear.x = joy->axes[1];", "twist.angular.z = joy->axes[0];"
 PUBLISH = "cmd_vel.publish(twist);"
 SUB = 'ros::Subscriber stick = node.subscribe("/joy", 10, drive);'
 PUB = 'cmd_vel = node.advertise<geometry_msgs::Twist>("/cmd_vel", 10);'
+SHOW = (
+    '  ROS_INFO("axes [%.2f, %.2f, %.2f, %.2f, %.2f, %.2f]", joy->axes[0], joy->axes[1], '
+    "joy->axes[2],\n           joy->axes[3], joy->axes[4], joy->axes[5]);\n"
+)

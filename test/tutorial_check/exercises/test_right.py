@@ -23,22 +23,6 @@ CHECKS = checks_of(read_course())
 NOETIC = "/opt/ros/noetic/setup.bash"  # on systems whose ROS is not Debian's
 
 
-@pytest.fixture
-def check(examined):
-    """check(workspace, exercises): {id: result}; it fails if a result is wrong."""
-
-    def judge(workspace, exercises):
-        outcomes = examined(workspace, exercises)
-        assert [outcome.id for outcome in outcomes] == exercises
-        results = [result for outcome in outcomes for result in outcome.results]
-        assert not [
-            lines_of(result) for result in results if result.status in ("wrong", "unreached")
-        ]
-        return {result.id: result for result in results}
-
-    return judge
-
-
 @claim(
     "The suite's own solutions, and a literal solution of the handout, are right; what the "
     "handout's listings do is a note"

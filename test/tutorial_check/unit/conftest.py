@@ -4,7 +4,8 @@ import os
 
 import pytest
 import stored
-from edits import literal  # noqa: F401
+from edits import literal, literal_cpp  # noqa: F401
+from right_check import check  # noqa: F401
 
 from tutorial_testing.submissions import make_submission, order  # noqa: F401
 

@@ -3,7 +3,6 @@
 import stored
 from test_mistakes import test_a_mistake_is_found  # noqa: F401
 from test_right import (  # noqa: F401
-    check,
     test_a_literal_solution_is_right_and_noted,
     test_a_right_solution_is_noted,
     test_a_variant_is_right,
