@@ -65,6 +65,13 @@ def test_what_was_found_before_the_worker_ended(examine):
     assert [outcome.passed for outcome in outcomes] == [True, False, False]
 
 
+@claim("A compiler's errors are read whatever the language of the system")
+def test_programs_of_a_worker_print_english(examine, monkeypatch):
+    monkeypatch.setenv("LANG", "de_DE.UTF-8")
+    outcomes = examine([READY, SEEN], 'echo "$LANG $LC_MESSAGES" >&2')
+    assert outcomes[1].trouble.endswith(": de_DE.UTF-8 C.UTF-8")
+
+
 @pytest.mark.parametrize(("answer", "why"), [
     ("nonsense", "is no recording: 'nonsense'"), ("7", "is no recording"),
     ("[" * 9000, "is no recording"), ("0" * 20_000, "is longer than 10,000 bytes"),

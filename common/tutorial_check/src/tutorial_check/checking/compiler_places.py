@@ -16,8 +16,11 @@ from tutorial_check.errors import CannotCheck
 ERROR = re.compile(
     r"^(/[^\s:]{1,500}):(\d{1,9}):(?:(\d{1,9}):)? (?:fatal )?error: ([^\n]{1,2000})", re.M
 )
-# Lines before an error: the files that include its file, and what instantiates its template.
-CONTEXT = re.compile(r"In file included from |\s+from |/\S+ (?:In|At) |/\S+\s+(?:required|recurs)")
+# Lines before an error: the files that include its file, and what instantiates its template; g++ 14
+# quotes each line.
+CONTEXT = re.compile(
+    r"In file included from |\s+from |/\S+ (?:In|At) |/\S+\s+(?:required|recurs)| *\d* \|"
+)
 BEFORE = 60_000  # characters in which they are
 PLACE = re.compile(r"(?<!\S)(/[^\s:]{1,500}):(\d{1,9})[:,](?:\d{1,9}: +(required))?")
 MOST_PLACES = 500

@@ -46,6 +46,7 @@ class Worker:
         libraries = environment.get("PYTHONPATH", ""), str(cpp_tree.folder() or "")
         environment["PYTHONPATH"] = ":".join(filter(None, libraries))
         environment.update(PATH="/usr/bin:/bin:/usr/sbin:/sbin", PYTHONDONTWRITEBYTECODE="1")
+        environment["LC_MESSAGES"] = "C.UTF-8"  # the checker reads English
         self._order, self._buffer = replace(order, **descriptors), b""
         self._end_s = time.monotonic() + LONGEST_S
         self._log = tempfile.TemporaryFile("w+")  # noqa: SIM115  closed by __exit__
