@@ -22,8 +22,9 @@ NEW = FOLDER / "new"
 
 def section_of(test):
     """Return the file with a row's recordings: its exercise's or its test's."""
-    exercise = re.search(r"test_a_mistake_is_found\[([\d.]+) ", test)
-    return FOLDER / f"{exercise[1] if exercise else test.partition('[')[0][5:]}.jsonl.xz"
+    exercise = re.search(r"test_a_mistake_(?:in_(cpp)_)?is_found\[([\d.]+) ", test)
+    name = "_".join(filter(None, exercise.groups())) if exercise else test.partition("[")[0][5:]
+    return FOLDER / f"{name}.jsonl.xz"
 
 
 @functools.lru_cache(maxsize=None)

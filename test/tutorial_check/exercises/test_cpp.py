@@ -1,0 +1,30 @@
+"""Programs in C++: every mistake is found by the right check, with its cause, in words of C++."""
+
+import importlib
+from pathlib import Path
+
+import pytest
+from edits import apply
+from test_mistakes import is_reported, wrong_of
+
+from tutorial_check.report.text import lines_of
+from tutorial_testing.claims import claim
+
+MODULES = sorted(Path(__file__).parent.glob("mistakes_cpp_*.py"))
+MISTAKES = [row for path in MODULES for row in importlib.import_module(path.stem).ROWS]
+OF_PYTHON = ("rospy", ".py", "Traceback")
+
+
+@claim(
+    "Each mistake of a program in C++ is found at the right check, with its cause and its line; "
+    "no report of it speaks of Python"
+)
+@pytest.mark.parametrize("row", MISTAKES, ids=str)
+def test_a_mistake_in_cpp_is_found(row, literal_cpp, examined):
+    apply(row.edits, literal_cpp)
+    wrong = wrong_of(examined(literal_cpp.parent, [row.exercise], only_first=True))
+    assert wrong, f"missed: should be {row.check}"
+    report = "\n".join(lines_of(wrong[0]))
+    is_found = wrong[0].id == row.check and is_reported(wrong[0], row.words)
+    assert is_found, f"should be {row.check}, {row.words}:\n{report}"
+    assert not [word for word in OF_PYTHON if word in report], report
