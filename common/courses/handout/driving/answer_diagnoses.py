@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import statistics
 
-from tutorial_check import Note, Wrong, first_of
+from tutorial_check import Note, SourceFacts, Wrong, first_of
 
 from ..task import AXES
 from .connection_diagnoses import crashed, ended_early, hidden_crash
@@ -142,22 +142,52 @@ def another_rule(node: Joy2TwistNode) -> Wrong | None:
     verdict, numbered = node.rule_verdict, node.run.numbered
     if not isinstance(verdict, Wrong):
         return None
-    line, takes_buttons = _setting_line(node.source.text, verdict.seen)
+    sure = not (numbered.missing or numbered.extra)
+    whole = whole_numbers(node.source, verdict.seen)
+    if whole:
+        return Wrong("", verdict.seen, node.at([whole[0]]), whole[1], sure)
+    line, takes_buttons = _setting_line(node.source, verdict.seen)
     where = node.at([line]) if line else node.at_call("publish")
     axes = node.source.idioms.axes
     stick = f"the stick is {axes}, not {axes.replace('axes', 'buttons')}"
     hint = stick if takes_buttons else verdict.hint
-    return Wrong("", verdict.seen, where, hint, not (numbered.missing or numbered.extra))
+    return Wrong("", verdict.seen, where, hint, sure)
 
 
-def _setting_line(text: dict[int, str], seen: str) -> tuple[int, bool]:
+def whole_numbers(source: SourceFacts, seen: str) -> tuple[int, str] | None:
+    """Return (line, hint) for an int of C++ that explains what was seen, or None."""
+    division, axis = source.oddities.whole_division, source.oddities.whole_axis
+    if division and re.search(r"(every Twist|always) ", seen):
+        line, text = division
+        dividend, _, divisor = text.partition(" / ")
+        hint = f"{text} is {int(dividend) // int(divisor)} in C++: {dividend}.0 / {divisor}"
+        return line, hint
+    if axis and "whole numbers only" in seen:
+        line, name = axis
+        return line, f"{name}: a whole number; float or double keeps the decimals"
+    return None
+
+
+def _setting_line(source: SourceFacts, seen: str) -> tuple[int, bool]:
     """Return (line that sets the named field, or 0; whether it takes a button)."""
     field = re.search(r"(linear|angular)\.[xyz]", seen)
+    if not source.is_python:
+        return _assigned(source.attributes, field[0] if field else "")
     name = re.escape(field[0]) if field else r"(?:linear\.x|angular\.z)"
-    for number, line in text.items():
+    for number, line in source.text.items():
         takes_buttons = re.search(name + r"\s*=.*\bbuttons\b(?!.*\baxes\b)", line)
         if takes_buttons or (field and re.search(name + r"\s*[-+*/]?=", line)):
             return number, bool(takes_buttons)
+    return 0, False
+
+
+def _assigned(attributes: dict[str, tuple[int, str]], field: str) -> tuple[int, bool]:
+    """Return the same from {"twist.linear.x": (line, value)}. field: "" for any."""
+    names = (field,) if field else ("linear.x", "angular.z")
+    for name, (line, value) in attributes.items():
+        takes_buttons = "buttons" in value and "axes" not in value
+        if name.endswith(names) and (field or takes_buttons):
+            return line, takes_buttons
     return 0, False
 
 

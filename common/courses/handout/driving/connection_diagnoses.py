@@ -2,7 +2,16 @@
 
 from __future__ import annotations
 
-from tutorial_check import MASTER_GONE, CutShort, Note, Wrong, wrong_of
+from tutorial_check import (
+    MASTER_GONE,
+    CutShort,
+    Note,
+    Wrong,
+    never_calls_back,
+    unsubscribed,
+    with_import,
+    wrong_of,
+)
 
 from .joy2twist_node import Joy2TwistNode
 
@@ -33,7 +42,9 @@ def another_type_subscribed(node: Joy2TwistNode) -> Wrong | None:
     call = node.source.first("Subscriber")
     wanted = call.words[1] if call and len(call.words) > 1 else "another type"
     where = node.at_call("Subscriber")
-    return Wrong("", f"it wants {wanted} on {node.names.joy}", where, node.subscriber)
+    hint = node.source.idioms.typed_subscriber(node.answers.joy, "Joy")
+    hint = with_import(hint, "Joy", node.source)
+    return Wrong("", f"it wants {wanted} on {node.names.joy}", where, hint)
 
 
 def no_callback(node: Joy2TwistNode) -> Wrong | None:
@@ -44,7 +55,15 @@ def no_callback(node: Joy2TwistNode) -> Wrong | None:
     return Wrong("", "its Subscriber has no callback", where, node.subscriber, sure=True)
 
 
-CONNECTED = (master_gone, another_type_subscribed, no_callback)
+def callback_never_called(node: Joy2TwistNode) -> Wrong | None:
+    seen = node.run.numbered
+    if not node.graph.connected or node.run.ending.early or seen.samples or seen.displayed:
+        return None
+    cause = never_calls_back(node.source)
+    return Wrong("", cause.seen, node.at([cause.line]), cause.hint, sure=True) if cause else None
+
+
+CONNECTED = (master_gone, another_type_subscribed, no_callback, callback_never_called)
 
 
 def publishes_joys_alone(node: Joy2TwistNode) -> Wrong | None:
@@ -61,7 +80,16 @@ def another_topic_subscribed(node: Joy2TwistNode) -> Wrong | None:
     is_upper = node.joys_elsewhere.lower() == node.answers.joy
     lower = f"the topic is called {node.answers.joy}, in lower case"
     hint = lower if is_upper else node.subscriber
-    return Wrong("", f"it subscribes to {node.joys_elsewhere}", node.at_call("Subscriber"), hint)
+    where, seen = node.at_call("Subscriber"), f"it subscribes to {node.joys_elsewhere}"
+    return node.private("Subscriber", seen) or Wrong("", seen, where, hint)
+
+
+def subscription_has_ended(node: Joy2TwistNode) -> Wrong | None:
+    cause = unsubscribed(node.source)
+    if not cause:
+        return None
+    seen = f"it subscribes to nothing: {cause.seen}"
+    return Wrong("", seen, node.at([cause.line]), cause.hint, sure=True)
 
 
 def nothing_subscribed(node: Joy2TwistNode) -> Wrong:
@@ -72,7 +100,7 @@ def nothing_subscribed(node: Joy2TwistNode) -> Wrong:
 
 NOT_CONNECTED = (
     uses_the_cpu, crashed, hidden_crash, ended_early, publishes_joys_alone,
-    another_topic_subscribed, nothing_subscribed,
+    another_topic_subscribed, subscription_has_ended, nothing_subscribed,
 )  # fmt: skip
 
 
@@ -118,7 +146,8 @@ def another_topic_published(node: Joy2TwistNode) -> Wrong | None:
     topic, where = node.twists_elsewhere, node.at_call("Publisher")
     hint = f"the topic is called {node.answers.cmd_vel}; that of the TurtleBot stands in"
     hint = f"{hint} the launch file alone, in a <remap>" if "mux" in topic else node.publisher
-    return Wrong("", f"it publishes on {topic}", where, hint) if topic else None
+    seen = f"it publishes on {topic}"
+    return node.private("Publisher", seen) or Wrong("", seen, where, hint) if topic else None
 
 
 def nothing_published(node: Joy2TwistNode) -> Wrong:

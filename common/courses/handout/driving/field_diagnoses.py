@@ -25,7 +25,7 @@ def not_a_number(samples: list[JoySample]) -> Wrong | None:
 def all_zero(evidence: Evidence) -> Wrong | None:
     if evidence.moving:
         return None
-    hint = "are linear.x and angular.z of the message that is published set from data.axes?"
+    hint = "are linear.x and angular.z of the message that is published set from the axes?"
     return Wrong("", "every Twist is zero", hint=hint)
 
 

@@ -55,6 +55,12 @@ class Joy2TwistNode:
     def at_call(self, name: str) -> str:
         return self.at(self.source.lines(name))
 
+    def private(self, kind: str, seen: str) -> Wrong | None:
+        """Return the Wrong for a Publisher or Subscriber of a private NodeHandle, or None."""
+        line = dict(self.source.oddities.private).get(kind, 0)
+        hint = 'NodeHandle("~") puts the node\'s name before a topic: ros::NodeHandle n; for topics'
+        return Wrong("", seen, self.at([line]), hint) if line else None
+
     @property
     def loop(self) -> str:
         """Where it publishes at a fixed rate."""

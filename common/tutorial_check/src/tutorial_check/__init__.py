@@ -9,6 +9,7 @@ from tutorial_check.checking.build_errors import build_error, missing_in, not_fo
 from tutorial_check.checking.builds import build_output, cmake_of, must_build
 from tutorial_check.checking.causes import is_lacking, meant, packages_of_ros, with_import
 from tutorial_check.checking.checks import check
+from tutorial_check.checking.cpp_causes import never_calls_back, unsubscribed
 from tutorial_check.checking.crashes import cause_of, crash, traceback_of
 from tutorial_check.checking.launch_errors import package_hint
 from tutorial_check.checking.launch_file import LaunchFile, find_launch, launch_file
@@ -61,8 +62,9 @@ __all__ = [
     "cmake_of", "crash", "find_launch", "find_script", "first_of", "first_traceback",
     "flipped_anonymous", "has_error", "has_failed", "has_moved", "is_lacking", "is_stand_in",
     "last_lines", "launch_file", "line_of", "meant", "missing_in", "must_be_launchable",
-    "must_be_one_program", "must_be_unique", "must_build", "must_pass", "not_found", "package_hint",
-    "package_of", "packages_beside", "packages_of_ros", "place_of", "program_of", "put_file",
-    "read_xml", "recorded", "shows", "traceback_of", "underlays", "unmasked", "unreadable",
-    "with_bases", "with_import", "without_name", "wrong_of",
+    "must_be_one_program", "must_be_unique", "must_build", "must_pass", "never_calls_back",
+    "not_found", "package_hint", "package_of", "packages_beside", "packages_of_ros", "place_of",
+    "program_of", "put_file", "read_xml", "recorded", "shows", "traceback_of", "underlays",
+    "unmasked", "unreadable", "unsubscribed", "with_bases", "with_import", "without_name",
+    "wrong_of",
 ]  # fmt: skip

@@ -30,6 +30,7 @@ class Idioms:
     zero: str  # a Twist of zeros
     publisher_name: str  # what makes a Publisher
     a_subscriber: str  # with {topic}, {type}, {home}
+    a_typed_subscriber: str  # names the type, likewise
     a_publisher: str
     an_import: str
     rate: str  # with {hz}
@@ -37,6 +38,10 @@ class Idioms:
     def subscriber(self, topic: str, kind: str) -> str:
         """Return the line that subscribes to a topic with messages of a kind, such as Joy."""
         return self.a_subscriber.format(topic=topic, type=kind, home=HOMES[kind])
+
+    def typed_subscriber(self, topic: str, kind: str) -> str:
+        """Return the line that says which type of messages a Subscriber takes."""
+        return self.a_typed_subscriber.format(topic=topic, type=kind, home=HOMES[kind])
 
     def publisher(self, topic: str, kind: str) -> str:
         """Return the line that makes a Publisher."""
@@ -64,6 +69,7 @@ PYTHON = Idioms(
     zero="Twist()",
     publisher_name="rospy.Publisher",
     a_subscriber="rospy.Subscriber('{topic}', {type}, callback)",
+    a_typed_subscriber="rospy.Subscriber('{topic}', {type}, callback)",
     a_publisher="rospy.Publisher('{topic}', {type}, queue_size=10)",
     an_import="from {home}.msg import {type}",
     rate="rospy.Rate({hz})",
@@ -85,6 +91,7 @@ CPP = Idioms(
     zero="geometry_msgs::Twist()",
     publisher_name="advertise",
     a_subscriber='ros::Subscriber sub = n.subscribe("{topic}", 10, callback);',
+    a_typed_subscriber="the callback's message decides: const {home}::{type}::ConstPtr& msg",
     a_publisher='ros::Publisher pub = n.advertise<{home}::{type}>("{topic}", 10);',
     an_import="#include <{home}/{type}.h>",
     rate="ros::Rate rate({hz});",

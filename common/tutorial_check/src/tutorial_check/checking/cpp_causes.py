@@ -1,0 +1,95 @@
+"""Why a program in C++ that compiles does not do what it says."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from tutorial_check.submission.source_facts import SourceFacts
+
+SIZES = {"axes": 6, "buttons": 12}  # of a Joy of the handout's gamepad
+CALLS_BACK = ("spin", "spinOnce", "AsyncSpinner", "callAvailable", "callOne")
+OUT_OF_RANGE = ("this->size()", "out_of_range")
+
+
+class Cause(NamedTuple):
+    """What is wrong in a line, and what to write in its place."""
+
+    line: int
+    seen: str
+    hint: str
+
+
+def unsubscribed(facts: SourceFacts) -> Cause | None:
+    """Return why a program that calls subscribe() has no subscription, or None."""
+    lost, declared = facts.oddities.lost_subscriber, facts.oddities.function_declared
+    if lost and not lost.name:
+        hint = "ros::Subscriber sub = ..., for as long as the node runs"
+        return Cause(lost.line, "the Subscriber that subscribe() returns is not kept", hint)
+    if lost:
+        seen = f"{lost.name} ends with {lost.ends_with}, and the subscription with it"
+        hint = "make it a member of the class, or a global variable"
+        if lost.hides:
+            hint = f"write `{lost.name} = ...` without a type: the member of that name is meant"
+        return Cause(lost.line, seen, hint)
+    if declared:
+        line, text = declared
+        hint = f"without (): {text.replace('()', '')}"
+        return Cause(line, f"`{text}` declares a function, and makes no object", hint)
+    for node in (node for node in facts.classes if node.is_node and not node.instantiated):
+        hint = f"in main, before {facts.idioms.spin}: {node.name} node;"
+        return Cause(node.line, f"no {node.name} is ever made", hint)
+    return _spun_before(facts)
+
+
+def _spun_before(facts: SourceFacts) -> Cause | None:
+    spin, subscriber = facts.first("spin"), facts.first("Subscriber")
+    if not spin or not subscriber or subscriber.line < spin.line:
+        return None
+    seen = f"{facts.idioms.spin} comes before it, and returns only when the node ends"
+    return Cause(subscriber.line, seen, f"put it above line {spin.line}")
+
+
+def never_calls_back(facts: SourceFacts) -> Cause | None:
+    """Return why no callback of a program that runs is ever called, or None."""
+    if facts.is_python or not facts.calls or any(name in facts.calls for name in CALLS_BACK):
+        return None
+    seen = "the callback is never called: the loop has no ros::spinOnce()"
+    return Cause(next(iter(facts.loops), 0), seen, facts.idioms.in_loop)
+
+
+def cause_of_abort(error: str, facts: SourceFacts) -> tuple[int, str]:
+    """Return (line or 0, hint) for the error or signal with which a program has ended."""
+    if "invalid Publisher" in error:
+        return _invalid_publisher(facts)
+    if "Trying to publish message of type" in error:
+        line = next(iter(facts.lines("Publisher")), 0)
+        return line, "advertise<TYPE> names the type of what is published"
+    if any(words in error for words in OUT_OF_RANGE):
+        return _beyond(facts)
+    if facts.oddities.unset_pointer and ("px != 0" in error or "SIGSEGV" in error):
+        line, name = facts.oddities.unset_pointer
+        return line, f"{name} is a pointer that points to nothing: an object needs no pointer"
+    return 0, ""
+
+
+def _invalid_publisher(facts: SourceFacts) -> tuple[int, str]:
+    maker, hidden = facts.first("Publisher"), facts.oddities.hidden_publisher
+    if hidden:
+        line, name = hidden
+        hint = f"`ros::Publisher {name}` is a second {name}, of this function alone, and the other"
+        return line, f"{hint} stays empty: {name} = ... without a type"
+    line = next(iter(facts.lines("publish")), 0)
+    if not maker:
+        return line, "no advertise makes this Publisher"
+    return (
+        line,
+        f"at this time advertise has not made it: line {maker.line} belongs above subscribe",
+    )
+
+
+def _beyond(facts: SourceFacts) -> tuple[int, str]:
+    for line, array, number in facts.oddities.indices:
+        size = SIZES[array]
+        if number >= size:
+            return line, f"{array}[{number}] does not exist: a Joy has {size}, 0 to {size - 1}"
+    return 0, "an index is beyond the end of its array: compare it with .size()"
