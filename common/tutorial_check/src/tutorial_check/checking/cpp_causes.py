@@ -38,15 +38,9 @@ def unsubscribed(facts: SourceFacts) -> Cause | None:
     for node in (node for node in facts.classes if node.is_node and not node.instantiated):
         hint = f"in main, before {facts.idioms.spin}: {node.name} node;"
         return Cause(node.line, f"no {node.name} is ever made", hint)
-    return _spun_before(facts)
-
-
-def _spun_before(facts: SourceFacts) -> Cause | None:
-    spin, subscriber = facts.first("spin"), facts.first("Subscriber")
-    if not spin or not subscriber or subscriber.line < spin.line:
-        return None
-    seen = f"{facts.idioms.spin} comes before it, and returns only when the node ends"
-    return Cause(subscriber.line, seen, f"put it above line {spin.line}")
+    late, spin = facts.oddities.late_subscriber, facts.idioms.spin
+    seen = f"{spin} comes before it, and returns only when the node ends"
+    return Cause(late, seen, f"put it above {spin}") if late else None
 
 
 def never_calls_back(facts: SourceFacts) -> Cause | None:
@@ -92,4 +86,4 @@ def _beyond(facts: SourceFacts) -> tuple[int, str]:
         size = SIZES[array]
         if number >= size:
             return line, f"{array}[{number}] does not exist: a Joy has {size}, 0 to {size - 1}"
-    return 0, "an index is beyond the end of its array: compare it with .size()"
+    return 0, ""

@@ -6,6 +6,7 @@ import re
 from typing import Callable
 
 from tutorial_check.checking.causes import explained
+from tutorial_check.checking.cpp_causes import cause_of_abort
 from tutorial_check.checking.results import Wrong
 from tutorial_check.checking.submission import Submission
 from tutorial_check.data.recordings import Ran
@@ -17,7 +18,6 @@ NAME = re.compile(r"[Nn]ame \[(?P<name>.*?)\](?:\.  Valid|:)")
 # {pattern for an error: the line to blame, or 0}; the first that matches counts.
 LINES: dict[str, Callable[[CppFacts], int]] = {
     "name must not be empty": lambda facts: _first(facts, "init_node"),
-    r"publish\(\) on an invalid": lambda facts: _first(facts, "publish"),
     "out of dual 32-bit": lambda facts: _first(facts, "Rate", "Duration"),
 }
 
@@ -45,6 +45,9 @@ def compiled_crash(submission: Submission, package: str, ran: Ran, expected: str
 
 def blamed(error: str, facts: CppFacts) -> tuple[int, str]:
     """Return (line or 0, fix) for an error of a program."""
+    line, hint = cause_of_abort(error, facts)
+    if line:
+        return line, hint
     line = next((find(facts) for pattern, find in LINES.items() if re.search(pattern, error)), 0)
     name = NAME.search(error)
     if name:
