@@ -25,12 +25,14 @@ from tutorial_check import (
 from ..driving import behaviour
 from ..driving.main_script import check_manifest
 from ..task import PACKAGE
-from .class_text import DIAGNOSES, ClassProgram, program
-from .record import LAUNCH, End, Endings, alone, endings
+from .class_text import CPP_DIAGNOSES, PYTHON_DIAGNOSES, ClassProgram, program
+from .lack_of_zero import lack_of_zero
+from .record import KILL, LAUNCH, End, Endings, alone, endings
 
 NAMES_IT = re.compile(r"not defined|NameError")  # without the import
 ARGUMENTS_HINT = "roslaunch gives it arguments such as __name:=...; rospy.myargv() leaves those out"
 ENDS = "ended while it drives, it sends an all-zero Twist and is gone within 3 s"
+AFTER_KILL = "at rosnode kill roscpp closes the topics before the program knows of it"
 REPORTS = re.compile(r"Traceback|Error\b|Exception|not defined|exceeded|\[(?:ERROR|FATAL|WARN)\]")
 
 
@@ -41,7 +43,8 @@ def is_class(submission: Submission) -> Note | str | None:
     must_be_one_program(submission.package(PACKAGE).folder, Path(made.script).name)
     check_file(submission, PACKAGE, made.script)
     check_manifest(submission, made.script)
-    return must_pass(DIAGNOSES, made) or f"{made.node.name} in {made.path}"
+    diagnoses = PYTHON_DIAGNOSES if made.facts.is_python else CPP_DIAGNOSES
+    return must_pass(diagnoses, made) or f"{made.node.name} in {made.path}"
 
 
 @check("C30", "the class does what the functions did", "6.2", needs=is_class,
@@ -73,6 +76,16 @@ class DrivingEnd:
     way: str
     end: End
 
+    def __str__(self) -> str:
+        zero_after_s = self.end.zero_after_s
+        zero = "no zero" if zero_after_s is None else f"zero after {1000 * zero_after_s:.0f} ms"
+        return f"{self.way}: {zero}, gone after {self.end.took_s:.1f} s"
+
+    @property
+    def may_lack_zero(self) -> bool:
+        """roscpp answers rosnode kill itself: it closes the topics before the program knows."""
+        return self.way == KILL and not self.made.facts.is_python
+
     @property
     def is_registered(self) -> bool:
         return "on_shutdown" in self.made.facts.calls
@@ -102,13 +115,18 @@ class DrivingEnd:
 
 
 def no_zero(ending: DrivingEnd) -> Wrong | None:
-    if ending.end.zero_after_s is not None:
+    if ending.end.zero_after_s is not None or ending.may_lack_zero:
         return None
-    hint = "rospy.on_shutdown(self.shutdown), and self.cmd_vel.publish(Twist()) in shutdown"
-    if ending.is_registered:
-        hint = "shutdown has to publish Twist(), all zero, with the publisher of the callback"
+    facts, hint = ending.made.facts, ending.made.facts.idioms.stops_robot
     # If it has exited and registers no shutdown, it will not send a zero next time, either.
     sure = ending.end.took_s is not None and not ending.is_registered
+    if not facts.is_python:
+        line, cause = lack_of_zero(facts)
+        wrong = ending.wrong("no zero comes: the robot drives on", cause or hint, sure)
+        wrong.where = ending.made.at(line) if line else wrong.where
+        return wrong
+    if ending.is_registered:
+        hint = "shutdown has to publish Twist(), all zero, with the publisher of the callback"
     return ending.with_cause(ending.wrong("no zero comes: the robot drives on", hint, sure))
 
 
@@ -120,9 +138,12 @@ def late_zero(ending: DrivingEnd) -> Wrong | None:
 
 
 def still_running(ending: DrivingEnd) -> Wrong | None:
-    hint = "does shutdown end? one second of rest is enough"
-    is_gone = ending.end.took_s is not None
-    return None if is_gone else ending.wrong("it still runs 3 s later", hint)
+    if ending.end.took_s is not None:
+        return None
+    facts, hint = ending.made.facts, "does shutdown end? one second of rest is enough"
+    if not facts.is_python and "signal_shutdown" not in facts.calls:
+        hint = "your handler replaces roscpp's: after the zero it has to call ros::shutdown()"
+    return ending.wrong("it still runs 3 s later", hint)
 
 
 @check("C31", "ended, it stops the robot", "6.2", needs=behaves,
@@ -138,39 +159,38 @@ def stops(submission: Submission) -> Note | str | None:
         hint += submission.task.answers.cmd_vel
         rides = "the node has ended, and the robot still drives"
         raise Wrong(expected, rides, cases[0].where, hint)
-    return ", ".join(
-        f"{way}: zero after {1000 * (end.zero_after_s or 0.0):.0f} ms,"
-        f" gone after {end.took_s:.1f} s"
-        for way, end in seen.ends.items()
-    )
+    words = ", ".join(map(str, cases))
+    lacks_zero = seen.ends[KILL].zero_after_s is None
+    return Note(f"{words}; {AFTER_KILL}", cases[0].where) if lacks_zero else words
 
 
 @check("C32", "nothing follows the zero", "6.2", needs=stops, look="rostopic echo {n.cmd_vel}")
 def nothing_after(submission: Submission) -> Note | str | None:
     """Note moving Twists after the zero; they are allowed, as the handout's listing sends some."""
-    most = max(end.after_zero for end in _endings(submission).ends.values())
+    zeros = (end for end in _endings(submission).ends.values() if end.zero_after_s is not None)
+    most = max(end.after_zero for end in zeros)
     if not most:
         return None
     seen = f"{most} moving Twists followed the zero:"
     seen += " the callback goes on during shutdown (the handout's does, too)"
-    hint = "self.sub = rospy.Subscriber(...) in __init__;"
-    hint += " in shutdown self.sub.unregister() first, then the zero"
-    return Note(seen, program(submission).path, hint)
+    made = program(submission)
+    return Note(seen, made.path, made.facts.idioms.unsubscribes)
 
 
 @check("C33", "its errors are seen", "6.2", needs=behaves,
        look="rosrun {n.package} THE_CLASS, without a joystick")  # fmt: skip
 def errors_are_seen(submission: Submission) -> Note | str | None:
     made = program(submission)
-    text = without_name(submission.text(PACKAGE, made.script), "Joy")
+    # A copy that lacks the import is for Python alone: in C++ it is not built.
+    is_python = made.facts.is_python
+    text = without_name(submission.text(PACKAGE, made.script), "Joy") if is_python else ""
     seen, excepts = submission.recording(alone, made.script, text or ""), made.facts.broad_excepts
     where = made.at(excepts[0].lineno) if excepts else made.path
     output = seen.program.output
     if seen.ended and not REPORTS.search(output):
         words = f"nobody publishes on {submission.task.names.joy}, and it ends; it printed: "
         words += last_lines(output) or "nothing"
-        hint = "a Subscriber waits by itself for the first message;"
-        hint += " an except should display what it catches"
+        hint = made.facts.idioms.waits
         expected = "without a joystick it waits for one, or reports what is missing"
         raise Wrong(expected, words, where, hint)
     if not NAMES_IT.search(seen.broken.output) if seen.broken and seen.broken_ended else excepts:

@@ -14,13 +14,14 @@ from tutorial_check import (
     Submission,
     Wrong,
     check_file,
+    find_script,
     first_of,
     with_bases,
 )
 
 from ..task import NAME, PACKAGE
 
-IS_CLASS = "a class with __init__, its callback bound to self, created under __main__"
+OF_CLASS = re.compile("new|class", re.IGNORECASE)  # in the name of a program
 
 
 @dataclass(frozen=True)
@@ -56,7 +57,7 @@ def _class_of(submission: Submission) -> tuple[str, ClassFacts] | None:
             bool(re.search(r"(^|/)(old|backup|copy)[^/]*/", path, re.IGNORECASE)),
             "on_shutdown" not in scripts[path].calls,
             not (folder / path).stat().st_mode & 0o100,
-            Path(path).name == NAME,
+            Path(path).stem == Path(NAME).stem,
             path,
         )
 
@@ -75,6 +76,8 @@ def program(submission: Submission) -> ClassProgram:
         raise _no_class(submission)
     path, node = likeliest
     file = submission.package(PACKAGE).folder / path
+    if not scripts[path].is_python:
+        return ClassProgram(path, path, node, scripts)
     if scripts[path].has_main or file.stat().st_mode & 0o100 or "src/" not in path:
         return ClassProgram(path, path, node, scripts)
     stem = Path(path).stem
@@ -86,9 +89,13 @@ def _no_class(submission: Submission) -> Wrong:
     scripts, names = submission.programs(PACKAGE), submission.task.names
     for path in (path for path, facts in scripts.items() if facts.error and _fits(path)):
         check_file(submission, PACKAGE, path)
-    named = [path for path in scripts if re.search(r"new|class", path, re.IGNORECASE)]
+    stems = {path.stem for path in submission.cpp_sources(PACKAGE)}
+    for stem in sorted(stems - {Path(path).stem for path in scripts}):
+        if OF_CLASS.search(stem):
+            find_script(submission, PACKAGE, f"{stem}.py")
+    named = [path for path in scripts if OF_CLASS.search(path)]
     expected = f"a class that subscribes to {names.joy} and publishes on {names.cmd_vel}"
-    hint = "class NewJoy2Twist: with __init__(self), callback(self, data), shutdown(self)"
+    hint = [SourceFacts.idioms, *(facts.idioms for facts in scripts.values())][-1].class_parts
     return Wrong(expected, f"no class in any program of {names.package}", "".join(named[:1]), hint)
 
 
@@ -99,17 +106,19 @@ def no_init(made: ClassProgram) -> Wrong | None:
         return None
     seen = f"`def {odd[0]}`: Python calls `__init__`" if odd else f"{node.name} has no __init__"
     hint = "def __init__(self): with two underscores on either side"
-    return Wrong(IS_CLASS, seen, made.at(node.line), hint)
+    return Wrong(made.facts.idioms.is_class, seen, made.at(node.line), hint)
 
 
 def never_made(made: ClassProgram) -> Wrong | None:
-    node = made.node
+    node, idioms = made.node, made.facts.idioms
     is_called = any(node.name in facts.calls for facts in made.scripts.values())
-    if node.instantiated or made.script != made.path or is_called:
+    if node.instantiated or made.script != made.path or (is_called and made.facts.is_python):
         return None
-    bare = (line for line, text in made.facts.bare_names if text == node.name)
-    hint = f"{node.name}() with (), under if __name__ == '__main__':"
-    return Wrong(IS_CLASS, f"{node.name} is never created", made.at(next(bare, node.line)), hint)
+    bare = [(line, text) for line, text in made.facts.bare_names if text == node.name]
+    line, text = node.unmade or next(iter(bare), (node.line, ""))
+    seen = f"{node.name} is never created"
+    seen += f": `{text}` makes no object that lasts" if node.unmade else ""
+    return Wrong(idioms.is_class, seen, made.at(line), idioms.makes_object.format(name=node.name))
 
 
 @dataclass(frozen=True)
@@ -167,9 +176,8 @@ def odd_method(made: ClassProgram) -> Wrong | None:
 
 
 def shares_by_global(made: ClassProgram) -> Note | None:
-    seen = "a class needs no `global`: self. keeps what its methods share"
     lines = made.facts.globals
-    return Note(seen, made.at(lines[0])) if lines else None
+    return Note(made.facts.idioms.shares, made.at(lines[0])) if lines else None
 
 
 def early_shutdown(made: ClassProgram) -> Note | None:
@@ -181,4 +189,5 @@ def early_shutdown(made: ClassProgram) -> Note | None:
     return Note(seen, made.at(early.line), "first the Publisher, then rospy.on_shutdown")
 
 
-DIAGNOSES = (no_init, never_made, odd_method, shares_by_global, early_shutdown)
+PYTHON_DIAGNOSES = (no_init, never_made, odd_method, shares_by_global, early_shutdown)
+CPP_DIAGNOSES = (never_made, shares_by_global)

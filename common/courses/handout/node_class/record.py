@@ -27,7 +27,7 @@ LAUNCH_FILE = """<launch>
 
 @dataclass(frozen=True)
 class Alone:
-    """A run of the program without a joystick, and of a copy that lacks an import."""
+    """A run of the program without a joystick, and in Python of a copy that lacks an import."""
 
     program: Ran
     ended: bool
@@ -92,7 +92,8 @@ def _start(workspace: Workspace, ros: RosSession, script: str, way: str) -> Prog
     if way != LAUNCH:
         return ros.start(PACKAGE, script, f"__name:={name}")
     file = workspace.folder / "tmp" / "ended.launch"
-    package, program = workspace.task.name_of(PACKAGE), Path(script).name
+    package = workspace.task.name_of(PACKAGE)
+    program = Path(workspace.command(PACKAGE, script)[0]).name
     text = LAUNCH_FILE.format(package=package, program=program, name=name)
     put_file(workspace.folder, file, text)
     return ros.launch(["roslaunch", str(file)])

@@ -8,11 +8,12 @@ from typing import ClassVar, Iterator, Mapping
 
 from tutorial_check.submission import cpp_tree as tree
 from tutorial_check.submission.cpp_classes import classes_of
+from tutorial_check.submission.cpp_ending import ending_of, handler_of
 from tutorial_check.submission.cpp_oddities import oddities_of
 from tutorial_check.submission.cpp_tree import Node
 from tutorial_check.submission.idioms import CPP, Idioms
 from tutorial_check.submission.oddities import Oddities
-from tutorial_check.submission.source_facts import Call, SourceFacts
+from tutorial_check.submission.source_facts import Call, Ending, SourceFacts
 
 NAMES = {  # {of roscpp: of rospy}
     "advertise": "Publisher", "subscribe": "Subscriber", "init": "init_node", "ok": "is_shutdown",
@@ -63,8 +64,7 @@ class CppFacts(SourceFacts):
             for start, node in self._nodes(*LOOPS)
             if node.type != "for_statement" or tree.field(node, "condition") is None
         ]
-        for start, root in self._trees:
-            self.classes += classes_of(root, start)
+        self.classes = list(classes_of(self._trees))
         self.imports = {
             tree.text_of(tree.field(node, "path")).strip("<>")
             for _, node in self._nodes("preproc_include")
@@ -136,6 +136,11 @@ class CppFacts(SourceFacts):
             latch = words[2:3] == ["true"] and written == "advertise"
             names.update(latch="True") if latch else None
             words = [*words[:1], kind, callback] if written == "subscribe" else [*words[:1], kind]
+        elif written in ("signal", "sigaction") and words[:1] == ["SIGINT"]:
+            name, words = "on_shutdown", [_callback(handler_of(node, given))]
+        elif written == "shutdown" and tree.text_of(tree.field(node, "function")) != written:
+            is_own = tree.field(node, "function").type != "qualified_identifier"
+            name = written if is_own else "signal_shutdown"
         elif written in ("advertiseService", "createTimer", "createWallTimer"):
             words = [*words[:1], _callback(given[1]) if len(given) > 1 else ""]
         return name, Call(line, words, names)
@@ -162,24 +167,45 @@ class CppFacts(SourceFacts):
 
     def called_by(self, name: str, place: int) -> dict[str, list[int]]:
         """Return {name: lines} of calls in the callbacks that are passed to calls of a name."""
-        bodies, lines = dict(self._bodies), dict[str, set[int]]()
-        waiting = [word for _, word in self.given(name, place)]
         inner = [
             (start, function)
             for start, node in self._nodes("call_expression")
             if self._call(node, start)[0] == name
             for function in tree.below(node, "lambda_expression")
         ]
-        while waiting or inner:
-            body = inner.pop() if inner else bodies.pop(waiting.pop(), None)
-            if body is None:
-                continue
-            start, function = body
-            for node in tree.below(function, "call_expression"):
+        named = (self._bodies.get(word) for _, word in self.given(name, place))
+        return self.called_in(*inner, *filter(None, named))
+
+    def called_in(self, *parts: tuple[int, Node]) -> dict[str, list[int]]:
+        """Return {name: lines} of calls in parts, and in the program's functions that they call.
+
+        parts: (number of the file's first line, less one; node)
+        """
+        bodies, waiting, lines = dict(self._bodies), list(parts), dict[str, set[int]]()
+        while waiting:
+            start, part = waiting.pop()
+            for node in tree.below(part, "call_expression"):
                 called, call = self._call(node, start)
                 lines.setdefault(called, set()).add(call.line)
-                waiting.append(called)
+                body = bodies.pop(called, None)
+                waiting += [body] if body else []
         return {called: sorted(numbers) for called, numbers in lines.items()}
+
+    @cached_property
+    def ending(self) -> Ending:
+        handlers = [name for _, name in self.given("on_shutdown", 0)]
+        return ending_of(self._trees, self._bodies, handlers, self.called_in)
+
+    @property
+    def globals(self) -> list[int]:
+        """The lines of Publishers and Subscribers outside of all functions and classes."""
+        return [
+            start + tree.line_of(node)
+            for start, root in self._trees
+            for node in root.children
+            if node.type == "declaration"
+            and tree.last_name(tree.field(node, "type")) in ("Publisher", "Subscriber")
+        ]
 
 
 def message_of(parameter: Node) -> str:

@@ -34,6 +34,13 @@ class Idioms:
     a_publisher: str
     an_import: str
     rate: str  # with {hz}
+    is_class: str  # what section 6.2 asks for
+    class_parts: str
+    makes_object: str  # of the class {name}
+    shares: str  # what a class has in place of globals
+    stops_robot: str
+    unsubscribes: str  # before the zero
+    waits: str  # for the first message
 
     def subscriber(self, topic: str, kind: str) -> str:
         """Return the line that subscribes to a topic with messages of a kind, such as Joy."""
@@ -73,6 +80,15 @@ PYTHON = Idioms(
     a_publisher="rospy.Publisher('{topic}', {type}, queue_size=10)",
     an_import="from {home}.msg import {type}",
     rate="rospy.Rate({hz})",
+    is_class="a class with __init__, its callback bound to self, created under __main__",
+    class_parts="class NewJoy2Twist: with __init__(self), callback(self, data), shutdown(self)",
+    makes_object="{name}() with (), under if __name__ == '__main__':",
+    shares="a class needs no `global`: self. keeps what its methods share",
+    stops_robot="rospy.on_shutdown(self.shutdown), and self.cmd_vel.publish(Twist()) in shutdown",
+    unsubscribes="self.sub = rospy.Subscriber(...) in __init__;"
+    " in shutdown self.sub.unregister() first, then the zero",
+    waits="a Subscriber waits by itself for the first message;"
+    " an except should display what it catches",
 )
 CPP = Idioms(
     language="C++",
@@ -95,4 +111,14 @@ CPP = Idioms(
     a_publisher='ros::Publisher pub = n.advertise<{home}::{type}>("{topic}", 10);',
     an_import="#include <{home}/{type}.h>",
     rate="ros::Rate rate({hz});",
+    is_class="a class with NodeHandle, Publisher and Subscriber, of which main makes an object",
+    class_parts="class NewJoy2Twist, with its constructor, a method callback(), and as members"
+    " ros::NodeHandle, ros::Publisher, ros::Subscriber",
+    makes_object="{name} node; in main, without (), after ros::init and before ros::spin()",
+    shares="a class needs no global Publisher: a member keeps what its methods share",
+    stops_robot="ros::init(argc, argv, name, ros::init_options::NoSigintHandler); after the object"
+    " is made, signal(SIGINT, onCtrlC); onCtrlC publishes geometry_msgs::Twist(), and then calls"
+    " ros::shutdown()",
+    unsubscribes="a member ros::Subscriber sub_; before the zero sub_.shutdown()",
+    waits="ros::spin() waits for messages; before the first, nothing else is there to read",
 )

@@ -31,6 +31,19 @@ class ClassFacts:
     is_node: bool
     attributes: set[str]  # of an object, without methods
     bases: set[str]  # except object
+    unmade: Place = ()  # (line, text) in C++ of what should make an object, and makes none
+
+
+@dataclass(frozen=True)
+class Ending:
+    """What a program in C++ does at Ctrl-C; lines, or 0."""
+
+    own_sigint: int = 0  # NoSigintHandler: roscpp leaves Ctrl-C to the program
+    replaced: int = 0  # a handler that roscpp replaces, as a NodeHandle comes later
+    shutdown_first: int = 0  # ros::shutdown() in the handler, before it publishes
+    late: int = 0  # publishes after ros::spin(), or in a destructor
+    late_place: str = ""
+    unset_pointer: int = 0  # of the program, that no line sets
 
 
 class SourceFacts:
@@ -107,6 +120,10 @@ class SourceFacts:
     def keyboard(self) -> int:
         """The first line that reads the keyboard, or 0."""
         return 0
+
+    @cached_property
+    def ending(self) -> Ending:
+        return Ending()
 
     @cached_property
     def called_back(self) -> dict[str, list[int]]:
