@@ -94,10 +94,12 @@ def server(submission):
     file, seen = recorded(submission, PACKAGE, "add_two_ints_server.py", serve)
     values, trouble = seen.answers
     file.must_run(seen.program, f"a server of {SERVICE}", may_end=bool(values))
-    hint = "look at the names in rospy.Service(...)"
+    hint = f"look at the names in {file.either('rospy.Service', 'advertiseService')}(...)"
     file.must(values, "Service(", f"{SERVICE}, {KIND}", trouble, hint)
-    hint = "return AddTwoIntsResponse(request.a + request.b)"
-    file.must(values["sum"] == SUM, "return", f"{ASKED} make {SUM}", values["sum"], hint)
+    words, hint = "return", "return AddTwoIntsResponse(request.a + request.b)"
+    if not file.is_python:
+        words, hint = ".sum return", "response.sum = request.a + request.b; return true"
+    file.must(values["sum"] == SUM, words, f"{ASKED} make {SUM}", values["sum"], hint)
 
 
 @check("W7", "the client asks and prints", "2", needs=are_generated,
@@ -105,12 +107,14 @@ def server(submission):
 def client(submission):
     file, seen = recorded(submission, PACKAGE, CLIENT, ask)
     requests, output = seen.heard[SERVICE], seen.program.output
-    expected, hint = f"it waits for {SERVICE}", f"rospy.wait_for_service('{SERVICE[1:]}')"
+    expected, name = f"it waits for {SERVICE}", SERVICE[1:]
+    hint = file.either(f"rospy.wait_for_service('{name}')", f'ros::service::waitForService("{name}")')
     file.must_run(seen.program, expected, f"{hint} before the call", may_end=bool(requests))
-    words, hint = "ServiceProxy( wait_for_service(", "look at the name of the service"
+    words, hint = "ServiceProxy( serviceClient< wait_for_service(", "look at the service's name"
     file.must(requests, words, f"it calls {SERVICE}", "it does not", hint)
     proxy = re.search(r"(\w+)\s*=\s*(?:rospy\.)?ServiceProxy", file.text)
-    words, hint = f"{proxy[1]}( argv" if proxy else "argv", "a is sys.argv[1], b is sys.argv[2]"
+    words, hint = f"{proxy[1]}( argv" if proxy else "argv[ argv", "a is argv[1], b is argv[2]"
     file.must(requests[0] == GIVEN, words, f"it asks {GIVEN}", requests[0], hint)
     expected, there = f"it prints the response, here {STRANGE}", output[-80:].strip() or "nothing"
-    file.must(str(STRANGE) in output, "print", expected, there, "print response.sum")
+    hint = f"print {file.either('response.sum', 'add.response.sum')}"
+    file.must(str(STRANGE) in output, "print ROS_INFO cout", expected, there, hint)

@@ -1,8 +1,9 @@
 """Exercise 7: turtle1 as a transform, and a second turtle that follows it."""
 
 import math
+from pathlib import Path
 
-from tutorial_check import Client, File, Launch, Seen, check, launch_file, program_of, recorded
+from tutorial_check import Client, Launch, Script, Seen, check, launch_file, program_of, recorded
 
 from .turtles import KINDS, POSE, START_S, gap, turtles
 
@@ -25,7 +26,8 @@ def broadcast(workspace, script, package) -> Seen:
     """Move turtle1, and record transforms."""
     with turtles(workspace) as (ros, client):
         client.listen("/tf", "tf2_msgs/TFMessage")
-        program = ros.start(package, script, "_turtle:=turtle1")
+        # The parameter of Python's page, and the argument of the page in C++.
+        program = ros.start(package, script, "_turtle:=turtle1", "turtle1")
         ros.wait_for_start(lambda: program.ended or client.count("/tf"))
         client.ask(*TELEPORT, PLACE)
         past = client.count("/tf") + 5
@@ -43,7 +45,7 @@ def broadcaster(submission):
     given = {
         f"{frame['child_frame_id']} in {frame['header']['frame_id']}": frame for frame in frames
     }
-    there, words = ", ".join(given) or "none", "frame_id" if frames else "Subscriber("
+    there, words = ", ".join(given) or "none", "frame_id" if frames else "Subscriber( subscribe"
     hint = "header.frame_id is world; child_frame_id is the turtle, as in the parameter turtle"
     is_there = "turtle1 in world" in given
     file.must(is_there, f"{words} sendTransform", expected, f"frames: {there}", hint)
@@ -54,7 +56,7 @@ def broadcaster(submission):
     file.must(math.dist(place, (x, y, 0.0)) < NEAR, words, f"at ({x}, {y}, 0)", place, hint)
     wanted = [0.0, 0.0, round(math.sin(theta / 2), 2), round(math.cos(theta / 2), 2)]
     is_right = abs(abs(sum(a * b for a, b in zip(turn, wanted))) - 1.0) < NEAR
-    words, hint = "rotation quaternion", "quaternion_from_euler(0, 0, theta)"
+    words, hint = "rotation quaternion", file.either("quaternion_from_euler(0, 0, theta)", "setRPY(0, 0, theta)")
     file.must(is_right, words, f"at {theta} rad: {wanted}", turn, hint)
 
 
@@ -74,19 +76,21 @@ def follow(workspace, path) -> Seen:
 @check("W16", "turtle2 follows", "7", needs=broadcaster, look=f"roslaunch learning_tf2 {DEMO}")
 def follows(submission):
     package, broadcaster, name = names(submission)
-    listener = File(submission, package, program_of(submission, package, name))
+    listener = Script(submission, package, program_of(submission, package, name))
     launch = launch_file(submission, package, DEMO)
     seen = submission.recording(follow, launch.path)
     apart_m = [gap(pose, PLACE) for pose in seen.heard[SECOND][-1:]]
     if apart_m and apart_m[0] < NEAR_M:
         return
     expected, started = "a turtle2, which comes near turtle1", [n["type"] for n in launch.nodes]
-    is_whole, there = started.count(broadcaster) > 1 and name in started, ", ".join(started)
+    stems, there = [Path(program).stem for program in started], ", ".join(started)
+    is_whole = stems.count(Path(broadcaster).stem) > 1 and Path(name).stem in stems
     hint = "a broadcaster for each turtle, each with its parameter turtle; and the listener"
     launch.must(is_whole, f"{broadcaster} <launch", expected, f"only {there}", hint)
     listener.must_run(seen.program, expected)
     words, there, hint = "spawn Spawn", "no turtle2", "call the service spawn"
     if apart_m:
         words, there = "lookup_transform lookupTransform", f"{apart_m[0]:.1f} m apart"
-        hint = "lookup_transform('turtle2', 'turtle1', ...)"
+        call = listener.either("lookup_transform", "buffer.lookupTransform")
+        hint = f'{call}("turtle2", "turtle1", ...)'
     listener.must(False, words, expected, there, hint)

@@ -79,9 +79,10 @@ def background(submission):
     given = {color: seen.answers[0].get(f"background_{color}") for color in RGB}
     expected = f"/turtlesim/background_r, _g and _b are {RGB}"
     file.must_run(seen.program, expected, may_end=True)
-    hint = "a number, int(sys.argv[1]), as /turtlesim/background_r, not as /background_r"
-    file.must(given == RGB, "set_param", expected, given, hint)
-    color, words = seen.heard[SENSOR][0], "ServiceProxy( set_param"
+    number = file.either("int(sys.argv[1])", "std::atoi(argv[1])")
+    hint = f"a number, {number}, as /turtlesim/background_r, not as /background_r"
+    file.must(given == RGB, "set_param setParam param::set", expected, given, hint)
+    color, words = seen.heard[SENSOR][0], "ServiceProxy( serviceClient< set_param"
     hint = "turtlesim reads them when its service clear is called, so call it after that"
     file.must(color == RGB, words, f"turtle1 sees {RGB}", color, hint)
 
@@ -146,7 +147,7 @@ def reaches(submission):
         path, expected = seen.heard[POSE], f"turtle1 comes within {TOLERANCE_M} m of ({x}, {y})"
         gaps = [gap(pose, {"x": x, "y": y}) for pose in path]
         others = [topic for topic in seen.types if "cmd_vel" in topic and topic != COMMAND]
-        file.must(not others, "Publisher(", expected, f"it publishes on {others}", COMMAND)
+        file.must(not others, "Publisher( advertise<", expected, f"it publishes on {others}", COMMAND)
         if not length(path):
             file.must_run(seen.program, expected)
         near = next((k for k, gap_m in enumerate(gaps) if gap_m < NEARLY_M), 0)
@@ -156,7 +157,7 @@ def reaches(submission):
         hint = "from -pi to pi it is the short way round; and no faster than it turns"
         file.must(way < 2.5 * gaps[0], "angular.z", expected, f"{way:.0f} m", hint)
         *_, speed, turn = path[-1].values()
-        rests, hint = not (speed or turn), "once it is there, publish Twist()"
+        rests, hint = not (speed or turn), f"once it is there, publish {file.idioms.zero}"
         there = f"{gaps[-1]:.1f} m from it, {speed:.1f} m/s, {turn:.1f} rad/s"
         is_right, expected = rests and gaps[-1] < 2 * TOLERANCE_M, f"at rest at ({x}, {y})"
         file.must(is_right, "while publish(", expected, there, hint)

@@ -56,6 +56,10 @@ class Script(File):
             self.name, self.text = compiled.name, "\n".join(self.facts.text.values())
         self.idioms = self.facts.idioms
 
+    def either(self, python: str, cpp: str) -> str:
+        """Return the text for the language of the program."""
+        return python if self.facts.is_python else cpp
+
     def at(self, *words: str) -> str:
         """Return FILE:LINE of the first of the words that the text has; else the file."""
         place = super().at(*words)
