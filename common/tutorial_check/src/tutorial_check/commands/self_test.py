@@ -25,7 +25,8 @@ HUNK = re.compile(r"^@@.*\n((?:[ +-].*\n|\n)*)", re.MULTILINE)
 def solutions(course: Course) -> Iterator[tuple[str, str, list[Path]]]:
     """Yield (name, the check at which it fails or "", layers: each overwrites the ones before).
 
-    solutions/right, and right_WHAT, are packages; wrong_CHECK_WHAT are files or a .patch of right.
+    solutions/right, and right_WHAT, are packages; wrong_CHECK_WHAT are files or a .patch of right,
+    or of right_cpp if WHAT begins with cpp_.
     """
     folder = course.folder / SOLUTIONS
     right = folder / RIGHT
@@ -34,7 +35,9 @@ def solutions(course: Course) -> Iterator[tuple[str, str, list[Path]]]:
     paths = (path for path in folder.iterdir() if path.is_dir() or path.suffix == PATCH)
     for path in sorted(paths):
         if path.name.startswith(WRONG_OF):
-            yield path.stem, path.stem.split("_")[1], [right, path]
+            _, check, what = path.stem.split("_", 2)
+            below = f"{right}_cpp" if what.startswith("cpp_") else right
+            yield path.stem, check, [Path(below), path]
         elif path.name.startswith(RIGHT):
             yield path.stem, "", [path] if path.is_dir() else [right, path]
         else:

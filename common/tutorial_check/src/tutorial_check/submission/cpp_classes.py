@@ -58,7 +58,7 @@ def _class_facts(node: Node, body: Node, start: int, is_made: bool, unmade: Plac
 def _made(root: Node) -> set[str]:
     """Return the types of which a file makes objects that last."""
     nodes = tree.below(root, "declaration", "new_expression")
-    made = [node for node in nodes if not _is_function(node)]
+    made = [node for node in nodes if not (_is_function(node) or _is_pointer(node))]
     names = {tree.last_name(tree.field(node, "type")) for node in made}
     for node in tree.below(root, "template_argument_list", "call_expression"):
         is_call = node.type == "call_expression"
@@ -79,6 +79,16 @@ def _unmade(name: str, start: int, root: Node) -> Iterator[Place]:
             kind = None
         if tree.last_name(kind) == name:
             yield start + tree.line_of(node), tree.text_of(node)
+
+
+def _is_pointer(node: Node) -> bool:
+    """Return whether a declaration makes a pointer or reference, and no object."""
+    declarator = tree.field(node, "declarator")
+    if declarator is not None and declarator.type == "init_declarator":
+        declarator = tree.field(declarator, "declarator")
+    return declarator is not None and declarator.type in (
+        "pointer_declarator", "reference_declarator"
+    )  # fmt: skip
 
 
 def _is_function(node: Node) -> bool:
