@@ -66,6 +66,7 @@ def must_be_built(submission: Submission, package: str, path: str) -> None:
     """Raise Wrong unless rosrun finds a program in C++. path: of its main source."""
     executable = _executable(submission, package, path)
     if not executable.is_built:
+        must_build(submission)
         seen = f"catkin_make has made no {executable.name}"
         raise Wrong(f"a program {executable.name}", seen, path, "catkin_make in your workspace")
     name = submission.package(package).name
