@@ -107,8 +107,8 @@ def server(submission):
 def client(submission):
     file, seen = recorded(submission, PACKAGE, CLIENT, ask)
     requests, output = seen.heard[SERVICE], seen.program.output
-    expected, name = f"it waits for {SERVICE}", SERVICE[1:]
-    hint = file.either(f"rospy.wait_for_service('{name}')", f'ros::service::waitForService("{name}")')
+    expected, hint = f"it waits for {SERVICE}", f"wait_for_service('{SERVICE[1:]}')"
+    hint = file.either(f"rospy.{hint}", f'ros::service::waitForService("{SERVICE[1:]}")')
     file.must_run(seen.program, expected, f"{hint} before the call", may_end=bool(requests))
     words, hint = "ServiceProxy( serviceClient< wait_for_service(", "look at the service's name"
     file.must(requests, words, f"it calls {SERVICE}", "it does not", hint)

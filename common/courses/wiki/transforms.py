@@ -56,7 +56,8 @@ def broadcaster(submission):
     file.must(math.dist(place, (x, y, 0.0)) < NEAR, words, f"at ({x}, {y}, 0)", place, hint)
     wanted = [0.0, 0.0, round(math.sin(theta / 2), 2), round(math.cos(theta / 2), 2)]
     is_right = abs(abs(sum(a * b for a, b in zip(turn, wanted))) - 1.0) < NEAR
-    words, hint = "rotation quaternion", file.either("quaternion_from_euler(0, 0, theta)", "setRPY(0, 0, theta)")
+    hint = file.either("quaternion_from_euler(0, 0, theta)", "setRPY(0, 0, theta)")
+    words = "rotation quaternion"
     file.must(is_right, words, f"at {theta} rad: {wanted}", turn, hint)
 
 

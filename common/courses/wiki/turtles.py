@@ -147,7 +147,8 @@ def reaches(submission):
         path, expected = seen.heard[POSE], f"turtle1 comes within {TOLERANCE_M} m of ({x}, {y})"
         gaps = [gap(pose, {"x": x, "y": y}) for pose in path]
         others = [topic for topic in seen.types if "cmd_vel" in topic and topic != COMMAND]
-        file.must(not others, "Publisher( advertise<", expected, f"it publishes on {others}", COMMAND)
+        words, there = "Publisher( advertise<", f"it publishes on {others}"
+        file.must(not others, words, expected, there, COMMAND)
         if not length(path):
             file.must_run(seen.program, expected)
         near = next((k for k, gap_m in enumerate(gaps) if gap_m < NEARLY_M), 0)

@@ -84,14 +84,16 @@ def _function_around(node: Node) -> Node:
 
 def _calls(node: Node, *names: str) -> list[Node]:
     calls = tree.below(node, "call_expression")
+    if not names:
+        return calls
     return [call for call in calls if tree.last_name(tree.field(call, "function")) in names]
 
 
 def _late_parts(root: Node) -> Iterator[tuple[Node, str]]:
     """Yield (node, its place) of what runs when roscpp has closed the topics."""
     for function in tree.below(root, "function_definition"):
-        if tree.below(function, "destructor_name"):
-            yield from ((call, "in the destructor") for call in tree.below(function, "call_expression"))
+        for call in _calls(function) if tree.below(function, "destructor_name") else ():
+            yield call, "in the destructor"
     for block in tree.below(root, "compound_statement"):
         place = ""
         for statement in block.children:
@@ -128,12 +130,15 @@ def _replaced(root: Node) -> Node | None:
 
 def _unset_pointer(root: Node) -> Node | None:
     """Return a pointer outside of all functions, through which one goes, and that none sets."""
-    for node in root.children:
-        declared = tree.below(node, "pointer_declarator") if node.type == "declaration" else []
+
+    def texts(kind: str, part: str) -> set[str]:
+        return {tree.text_of(tree.field(node, part)) for node in tree.below(root, kind)}
+
+    unset = texts("field_expression", "argument") - texts("assignment_expression", "left")
+    for node in (node for node in root.children if node.type == "declaration"):
+        declared = tree.below(node, "pointer_declarator")
         name = tree.last_name(tree.field(declared[0], "declarator")) if declared else ""
         value = tree.text_of(tree.field(tree.field(node, "declarator"), "value")) if name else ""
-        users = {tree.text_of(tree.field(n, "argument")) for n in tree.below(root, "field_expression")}
-        left = {tree.text_of(tree.field(n, "left")) for n in tree.below(root, "assignment_expression")}
-        if name in users - left and value in ("", "NULL", "nullptr", "0"):
+        if name in unset and value in ("", "NULL", "nullptr", "0"):
             return node
     return None
