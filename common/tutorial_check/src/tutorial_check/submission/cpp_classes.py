@@ -6,7 +6,8 @@ from typing import Iterator, Sequence, Tuple
 
 from tutorial_check.submission import cpp_tree as tree
 from tutorial_check.submission.cpp_tree import Node
-from tutorial_check.submission.source_facts import ClassFacts, Place
+from tutorial_check.submission.oddities import Place
+from tutorial_check.submission.source_facts import ClassFacts
 
 OF_A_NODE = {"NodeHandle", "Publisher", "Subscriber", "Timer"}  # roscpp's classes
 CALLS_OF_A_NODE = {"advertise", "subscribe", "publish"}

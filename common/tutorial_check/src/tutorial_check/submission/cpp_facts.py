@@ -138,9 +138,8 @@ class CppFacts(SourceFacts):
             words = [*words[:1], kind, callback] if written == "subscribe" else [*words[:1], kind]
         elif written in ("signal", "sigaction") and words[:1] == ["SIGINT"]:
             name, words = "on_shutdown", [_callback(handler_of(node, given))]
-        elif written == "shutdown" and tree.text_of(tree.field(node, "function")) != written:
-            is_own = tree.field(node, "function").type != "qualified_identifier"
-            name = written if is_own else "signal_shutdown"
+        elif tree.text_of(tree.field(node, "function")) == "ros::shutdown":
+            name = "signal_shutdown"
         elif written in ("advertiseService", "createTimer", "createWallTimer"):
             words = [*words[:1], _callback(given[1]) if len(given) > 1 else ""]
         return name, Call(line, words, names)
