@@ -161,8 +161,8 @@ class CppFacts(SourceFacts):
     @cached_property
     def _bodies(self) -> dict[str, tuple[int, Node]]:
         """{function: (number of its file's first line, less one; its definition)}."""
-        found = self._nodes("function_definition")
-        return {tree.last_name(_declarator(node)): (start, node) for start, node in found}
+        definitions = self._nodes("function_definition")
+        return {tree.last_name(_declarator(node)): (start, node) for start, node in definitions}
 
     def called_by(self, name: str, place: int) -> dict[str, list[int]]:
         """Return {name: lines} of calls in the callbacks that are passed to calls of a name."""
