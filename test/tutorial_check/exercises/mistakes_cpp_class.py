@@ -77,7 +77,7 @@ ROWS = [
         "  ros::Rate rate(50);\n  while (ros::ok())\n  {\n    ros::spinOnce();\n"
         "    rate.sleep();\n  }\n  node.stop();\n", "C31", "after Ctrl-C: no zero",
         "new_joy2twist.cpp:51", "below the loop of ros::ok() it is too late"),
-    cls33("it ends without a joystick", "  ros::spin();\n",
-        '  if (!ros::topic::waitForMessage<sensor_msgs::Joy>("/joy", ros::Duration(0.3)))\n'
-        "    return 1;\n  ros::spin();\n", "nobody publishes on /joy", "new_joy2twist.cpp"),
+    cls33("it ends without a joystick", SUBSCRIBED, "&\n    ros::Duration(1.0).sleep();\n"
+        "    if (joy_.getNumPublishers() == 0)\n      exit(1);", "nobody publishes on /joy",
+        "new_joy2twist.cpp", "ros::spin() waits"),
 ]  # fmt: skip

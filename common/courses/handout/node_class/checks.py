@@ -30,7 +30,6 @@ from .lack_of_zero import lack_of_zero
 from .record import KILL, LAUNCH, End, Endings, alone, endings
 
 NAMES_IT = re.compile(r"not defined|NameError")  # without the import
-ARGUMENTS_HINT = "roslaunch gives it arguments such as __name:=...; rospy.myargv() leaves those out"
 ENDS = "ended while it drives, it sends an all-zero Twist and is gone within 3 s"
 AFTER_KILL = "at rosnode kill roscpp closes the topics before the program knows of it"
 REPORTS = re.compile(r"Traceback|Error\b|Exception|not defined|exceeded|\[(?:ERROR|FATAL|WARN)\]")
@@ -59,11 +58,12 @@ def behaves(submission: Submission) -> Note | str | None:
 
 def _endings(submission: Submission) -> Endings:
     must_be_launchable(submission)
-    seen = submission.recording(endings, program(submission).script)
+    made = program(submission)
+    seen = submission.recording(endings, made.script)
     if seen.program:
         how = "by a launch file" if seen.failed == LAUNCH else "under another name"
         expected = f"the class drives, started {how} as well"
-        raise crash(submission, PACKAGE, seen.program, expected, ARGUMENTS_HINT)
+        raise crash(submission, PACKAGE, seen.program, expected, made.facts.idioms.arguments)
     return seen
 
 

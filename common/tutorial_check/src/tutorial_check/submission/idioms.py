@@ -41,6 +41,7 @@ class Idioms:
     stops_robot: str
     unsubscribes: str  # before the zero
     waits: str  # for the first message
+    arguments: str  # that roslaunch adds
 
     def subscriber(self, topic: str, kind: str) -> str:
         """Return the line that subscribes to a topic with messages of a kind, such as Joy."""
@@ -89,6 +90,7 @@ PYTHON = Idioms(
     " in shutdown self.sub.unregister() first, then the zero",
     waits="a Subscriber waits by itself for the first message;"
     " an except should display what it catches",
+    arguments="roslaunch gives it arguments such as __name:=...; rospy.myargv() leaves those out",
 )
 CPP = Idioms(
     language="C++",
@@ -121,4 +123,6 @@ CPP = Idioms(
     " ros::shutdown()",
     unsubscribes="a member ros::Subscriber sub_; before the zero sub_.shutdown()",
     waits="ros::spin() waits for messages; before the first, nothing else is there to read",
+    arguments="roslaunch gives it arguments such as __name:=...; ros::init(argc, argv, ...) takes"
+    " those out, so read argv after it",
 )
