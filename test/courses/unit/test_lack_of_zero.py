@@ -1,0 +1,77 @@
+"""Why a program in C++ sends no zero at Ctrl-C, and when it need not."""
+
+import pytest
+
+from courses.handout.node_class.checks import DrivingEnd, no_zero, still_running
+from courses.handout.node_class.class_text import ClassProgram
+from courses.handout.node_class.lack_of_zero import lack_of_zero
+from courses.handout.node_class.record import CTRL_C, KILL, LAUNCH, End
+from tutorial_check.submission.cpp_facts import CppFacts
+from tutorial_testing.claims import claim
+
+pytestmark = claim("What no program ...", because="the end of a class in C++")
+CLASS = """class Node
+{
+public:
+  void stop() { pub_.publish(geometry_msgs::Twist()); }
+  ros::Publisher pub_;
+  ros::NodeHandle handle_;
+};
+"""
+MAIN = """Node* robot;
+void onCtrlC(int) { robot->stop(); ros::shutdown(); }
+int main(int argc, char** argv)
+{
+  ros::init(argc, argv, "node", ros::init_options::NoSigintHandler);
+  Node node;
+  robot = &node;
+  signal(SIGINT, onCtrlC);
+  ros::spin();
+}
+"""
+HANDLER = "  signal(SIGINT, onCtrlC);\n"
+OWN = ", ros::init_options::NoSigintHandler"
+
+
+def facts(*changes):
+    text = CLASS + MAIN
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new)
+    return CppFacts({"src/node.cpp": text})
+
+
+@pytest.mark.parametrize(("changes", "line", "words"), [
+    ([("robot->stop(); ros::shutdown();", "ros::shutdown(); robot->stop();")], 9, "first the zero"),
+    ([(HANDLER, ""), (OWN, ""), ("  Node node;", f"{HANDLER}  Node node;")], 13, "replaces this"),
+    ([(HANDLER, ""), (OWN, ""), ("spin();", "spin();\n  node.stop();")], 16, "after ros::spin()"),
+    ([(HANDLER, ""), (OWN, ""), ("void stop", "~Node")], 4, "in the destructor"),
+    ([(HANDLER, "")], 12, "signal(SIGINT, onCtrlC)"),
+    ([("  robot = &node;\n", "")], 8, "points to no object"),
+    ([("robot->stop(); ", "")], 9, "onCtrlC has to publish"),
+    ([], 4, "all zero"),
+    ([(HANDLER, ""), (OWN, "")], 12, ""),
+])  # fmt: skip
+def test_the_cause_and_its_line(changes, line, words):
+    at, hint = lack_of_zero(facts(*changes))
+    assert at == line and words in hint
+
+
+@pytest.mark.parametrize(("way", "is_wrong"), [(CTRL_C, True), (LAUNCH, True), (KILL, False)])
+def test_roscpp_leaves_no_time_for_a_zero_after_rosnode_kill(way, is_wrong):
+    program = facts((HANDLER, ""), (OWN, ""))
+    (node,) = program.classes
+    made = ClassProgram("src/node.cpp", "src/node.cpp", node, {"src/node.cpp": program})
+    silent = End(zero_after_s=None, in_time=True, took_s=0.2, after_zero=0, output="")
+    wrong = no_zero(DrivingEnd(None, made, way, silent))
+    assert bool(wrong) == is_wrong
+    if wrong:
+        assert wrong.where == "src/node.cpp:12" and "NoSigintHandler" in wrong.hint
+
+
+def test_a_handler_that_ends_nothing():
+    program = facts((" ros::shutdown();", ""))
+    made = ClassProgram("src/node.cpp", "src/node.cpp", program.classes[0], {"src/node.cpp": program})
+    driving = End(zero_after_s=0.1, in_time=True, took_s=None, after_zero=90, output="")
+    wrong = still_running(DrivingEnd(None, made, CTRL_C, driving))
+    assert wrong.where == "src/node.cpp:15" and "ros::shutdown()" in wrong.hint
