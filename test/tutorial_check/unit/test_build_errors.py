@@ -4,7 +4,7 @@ import time
 
 import pytest
 
-from tutorial_check.checking.build_errors import build_error
+from tutorial_check.checking.build_errors import build_error, endless_build
 from tutorial_testing.claims import claim
 
 TALKER = "project(mine)\nadd_executable(talker src/talker.cpp)\n"
@@ -89,3 +89,20 @@ def test_an_error_of_cmake_about_a_program_in_cpp_has_its_line_and_cause(
     assert words in wrong.hint
     assert wrong.seen.startswith("CMake: ")
     assert "Tried" not in wrong.seen and "Generating" not in wrong.seen
+
+
+@claim("A build that does not end is reported with what it is compiling, or CMake's command")
+@pytest.mark.parametrize(("output", "where", "words"), [
+    ("-- ==> add_subdirectory(mine)\n[ 50%] Building CXX object "
+     "mine/CMakeFiles/talker.dir/src/talker.cpp.o\n", "mine/src/talker.cpp", "which template"),
+    ("-- ==> add_subdirectory(mine)\n", "mine/CMakeLists.txt:3", "which command of CMakeLists.txt"),
+    ("[ 50%] Building CXX object mine/CMakeFiles/talker.dir/src/talker.cpp.o\n[100%] Built target "
+     "talker\n", "mine/CMakeLists.txt:3", "which command of CMakeLists.txt"),
+    ("Base path: /ws\n", "mine/CMakeLists.txt:3", "which command of CMakeLists.txt"),
+])  # fmt: skip
+def test_a_build_that_does_not_end_has_its_last_step(output, where, words, session):
+    cmake = f"{TALKER}execute_process(COMMAND sleep 1000)\n"
+    (session.source / "mine/CMakeLists.txt").write_text(cmake)
+    wrong = endless_build(session, output)
+    assert (wrong.where, "two minutes" in wrong.seen) == (where, True)
+    assert words in wrong.hint

@@ -26,6 +26,12 @@ TAKEN = re.compile(
 )
 NO_SOURCE = re.compile(r"Cannot find source file: (\S{1,300})")
 NAMED_TARGET = re.compile(r'language for target:? "?([^\s".]{1,200})')
+# What is compiled, what package is configured, or that neither is going on.
+STEP = re.compile(
+    r"Building \w+ object (\S{1,200}?)/CMakeFiles/\S{1,200}?\.dir/(\S{1,200}?)\.o$"
+    r"|==> add_subdirectory\((\S{1,200})\)|Built target", re.M
+)  # fmt: skip
+COMMANDS = ("execute_process", "add_custom_", "file(DOWNLOAD", "while(", "include(")
 # genmsg's errors about a message or service: (file, type) or (file, what it read there).
 DEFINITION = re.compile(
     r"messages which\s+'([^']+)'\s+depends.+?message\s+\[(\S+)\]"
@@ -43,6 +49,21 @@ def build_error(submission: Submission, output: str) -> Wrong:
         if error:
             return error
     return _other(submission, output)
+
+
+def endless_build(submission: Submission, output: str) -> Wrong:
+    """Return the Wrong for a catkin_make that has not ended, from what it has printed."""
+    steps = [("", "", ""), *STEP.findall(printable(output))]
+    folder, source, configured = steps[-1]
+    if source:
+        where, seen = f"{folder}/{source}", "compiling takes more than two minutes"
+    else:
+        packages = submission.packages
+        packages = [p for p in packages if p.inside == configured] or packages
+        places = (Target(package).line_with(*COMMANDS) for package in packages)
+        where = next(filter(None, places), "")
+        seen = "CMake or a command takes more than two minutes"
+    return Wrong("catkin_make ends", seen, where, build_hint("catkin_make", seen))
 
 
 def missing_in(output: str) -> list[str]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tutorial_check.checking.build_errors import build_error
+from tutorial_check.checking.build_errors import build_error, endless_build
 from tutorial_check.checking.results import Wrong
 from tutorial_check.checking.submission import Submission
 from tutorial_check.data.recorders import BUILT, OWN_BUILT
@@ -24,8 +24,7 @@ def must_build(submission: Submission) -> Built:
         cmake_of(package)
     made = submission.recording(BUILT)
     if made.code is None:
-        hint = "catkin_make in your workspace"
-        raise Wrong("catkin_make ends", "it runs for more than two minutes", hint=hint)
+        raise endless_build(submission, made.output)
     if made.code != 0:
         outputs = (made.output, build_output(submission))
         wrong, own = (build_error(submission, output) for output in outputs)

@@ -24,6 +24,7 @@ CONTEXT = re.compile(
 BEFORE = 60_000  # characters in which they are
 PLACE = re.compile(r"(?<!\S)(/[^\s:]{1,500}):(\d{1,9})[:,](?:\d{1,9}: +(required))?")
 MOST_PLACES = 500
+MOST_TEXT = 300  # characters of a line
 LACKS_SEMICOLON = re.compile(r"expected (?:.,. or )?(?:.;. |initializer )before")
 OPENED = re.compile(r"^(/[^\s:]{1,500}):(\d{1,9}):\d{1,9}: note: to match this", re.M)
 TAB = 8  # columns, for g++
@@ -41,8 +42,9 @@ class Place:
         return f"{_inside(submission, self.path)}:{self.line}"
 
     def text(self, submission: Submission) -> str:
-        """Return the line; "" if it cannot be read."""
-        return "".join(text_of(submission, self.path).split("\n")[self.line - 1 : self.line])
+        """Return the line, or its start if it is long; "" if it cannot be read."""
+        lines = text_of(submission, self.path).split("\n")[self.line - 1 : self.line]
+        return "".join(lines)[:MOST_TEXT]
 
 
 def own_place(submission: Submission, output: str, error: re.Match[str]) -> Place | None:
