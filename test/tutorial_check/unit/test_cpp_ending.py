@@ -92,6 +92,12 @@ def test_an_object_that_lasts(made, is_made):
     assert node.unmade == ((17, made) if made and not is_made else ())
 
 
+def test_an_object_without_a_name_lasts_if_its_constructor_spins():
+    spins = ("  void stop()", "  Node() { ros::spin(); }\n  void stop()")
+    text = (CLASS + MAIN).replace(*spins).replace("  Node node;\n  robot = &node;\n", "  Node();\n")
+    assert [node.instantiated for node in CppFacts({"a.cpp": text}).classes] == [True]
+
+
 def test_a_class_in_a_header_is_made_in_main():
     program = CppFacts({"main.cpp": MAIN, "node.h": CLASS})
     assert [(node.name, node.instantiated) for node in program.classes] == [("Node", True)]

@@ -65,13 +65,22 @@ def _class_of(submission: Submission) -> tuple[str, ClassFacts] | None:
     return min(nodes, key=unlikely, default=None)
 
 
+def _unread_class(scripts: Mapping[str, SourceFacts]) -> tuple[str, ClassFacts] | None:
+    """Return the likeliest program in C++ on a machine that cannot read C++."""
+    unread = (path for path, facts in scripts.items() if not (facts.is_python or facts.functions))
+    for path in (path for path in unread if OF_CLASS.search(path)):
+        return path, ClassFacts(Path(path).stem, 0, [], True, True, set(), set())
+    return None
+
+
 def _fits(words: str) -> bool:
     return bool(re.search(r"joy.*twist", words, re.IGNORECASE))
 
 
 def program(submission: Submission) -> ClassProgram:
     """Return the program that is a class. Raises Wrong if there is none."""
-    scripts, likeliest = submission.programs(PACKAGE), _class_of(submission)
+    scripts = submission.programs(PACKAGE)
+    likeliest = _class_of(submission) or _unread_class(scripts)
     if not likeliest:
         raise _no_class(submission)
     path, node = likeliest

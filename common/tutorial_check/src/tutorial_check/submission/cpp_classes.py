@@ -11,6 +11,7 @@ from tutorial_check.submission.source_facts import ClassFacts
 
 OF_A_NODE = {"NodeHandle", "Publisher", "Subscriber", "Timer"}  # roscpp's classes
 CALLS_OF_A_NODE = {"advertise", "subscribe", "publish"}
+WAITS = ("spin", "spinOnce", "waitForShutdown")
 Root = Tuple[int, Node]  # number of its file's first line, less one; root of its tree
 
 
@@ -61,12 +62,25 @@ def _made(root: Node) -> set[str]:
     nodes = tree.below(root, "declaration", "new_expression")
     made = [node for node in nodes if not (_is_function(node) or _is_pointer(node))]
     names = {tree.last_name(tree.field(node, "type")) for node in made}
+    waiting = _waiting(root)
     for node in tree.below(root, "template_argument_list", "call_expression"):
         is_call = node.type == "call_expression"
-        if not (is_call and node.parent.type == "expression_statement"):
+        is_alone = is_call and node.parent.type == "expression_statement"
+        if not is_alone or tree.last_name(tree.field(node, "function")) in waiting:
             inner = tree.field(node, "function") if is_call else node
             names |= {tree.text_of(n) for n in tree.below(inner, "type_identifier", "identifier")}
     return names
+
+
+def _waiting(root: Node) -> set[str]:
+    """Return the names of functions, such as constructors, in which ROS runs callbacks."""
+    return {
+        tree.last_name(tree.field(tree.field(function, "declarator"), "declarator"))
+        for function in tree.below(root, "function_definition")
+        for call in tree.below(function, "call_expression")
+        if tree.last_name(tree.field(call, "function")) in WAITS
+        and tree.field(function, "declarator") is not None
+    }
 
 
 def _unmade(name: str, start: int, root: Node) -> Iterator[Place]:
