@@ -13,6 +13,7 @@ from tutorial_check import (
     check_file,
     find_script,
     flipped_anonymous,
+    in_cpp,
     must_pass,
     wrong_of,
 )
@@ -52,7 +53,7 @@ def are_runnable(submission: Submission) -> Note | str:
     programs = scripts(submission)
     for script in programs:
         check_file(submission, BEGINNER, script.where)
-    notes = (script.unusual_node_name() for script in programs)
+    notes = (*(script.unusual_node_name() for script in programs), in_cpp(programs))
     return next(filter(None, notes), ", ".join(script.where for script in programs))
 
 

@@ -6,7 +6,16 @@ import statistics
 from dataclasses import dataclass
 from functools import cached_property
 
-from tutorial_check import Note, Script, Wrong, first_of, has_failed, with_import
+from tutorial_check import (
+    Note,
+    Script,
+    Wrong,
+    first_of,
+    has_failed,
+    never_calls_back,
+    unsubscribed,
+    with_import,
+)
 
 from ..task import other_topic
 from .record import KIND, LISTEN_S, STRINGS, TOPIC, Talk
@@ -55,8 +64,8 @@ class Talked:
 
     @property
     def publisher(self) -> str:
-        call = self.script.facts.first("Publisher")
-        return self.script.at_line(call.line if call else 1)
+        facts = self.script.facts
+        return self.script.at_line(*facts.lines("Publisher")[:1] or [int(facts.is_python)])
 
     def crash(self) -> Wrong:
         facts = self.script.facts
@@ -70,6 +79,16 @@ def few_messages(talk: Talked) -> Note | None:
     if len(talk.times) >= FEW or talk.wanted:
         return None
     return Note(f"{len(talk.times)} messages in {LISTEN_S + 2:.0f} s: slower than 1 Hz")
+
+
+def made_again(talk: Talked) -> Wrong | None:
+    """Find a Publisher that is made in the loop: until listeners have connected, it is gone."""
+    line = talk.script.facts.oddities.repeated_publisher
+    if not line:
+        return None
+    seen = f"{len(talk.times)} messages: advertise in the loop makes a new Publisher at each turn"
+    hint = f"above the loop: {talk.hint}"
+    return Wrong(talk.expected, seen, talk.script.at_line(line), hint, sure=True)
 
 
 def no_sleep(talk: Talked) -> Wrong | None:
@@ -117,8 +136,20 @@ def other_type(talk: Talked) -> Wrong | None:
 
 def sent_elsewhere(talk: Talked) -> Wrong | None:
     topic = other_topic(talk.seen.published, TOPIC, talk.seen.published, KIND)
+    if not topic:
+        return None
     seen = f"it publishes on {topic}{talk.end}"
-    return Wrong(talk.expected, seen, talk.publisher, talk.hint) if topic else None
+    private = talk.script.private("Publisher", talk.expected, seen)
+    return private or Wrong(talk.expected, seen, talk.publisher, talk.hint)
+
+
+def never_loops(talk: Talked) -> Wrong | None:
+    line, spin = talk.script.facts.oddities.late_loop, talk.script.facts.idioms.spin
+    if not line:
+        return None
+    seen = f"not one message: {spin} comes before the loop, and returns only when the node ends"
+    hint = f"a talker needs no {spin}"
+    return Wrong(talk.expected, seen, talk.script.at_line(line), hint, sure=True)
 
 
 def ended_silently(talk: Talked) -> Wrong | None:
@@ -127,9 +158,13 @@ def ended_silently(talk: Talked) -> Wrong | None:
 
 def silent(talk: Talked) -> Wrong:
     """Return the Wrong for a talker without a message."""
-    diagnoses = (crashed_silently, other_type, sent_elsewhere, ended_silently)
+    diagnoses = (
+        crashed_silently, other_type, sent_elsewhere, never_loops, made_again, ended_silently,
+    )  # fmt: skip
+    facts = talk.script.facts
     hint = "is publish(...) called within the loop?"
-    no_message = Wrong(talk.expected, "not one message", talk.script.where, hint)
+    where = talk.script.at_line(*[] if "publish" in facts.calls else facts.loops[:1])
+    no_message = Wrong(talk.expected, "not one message", where, hint)
     return first_of(diagnoses, talk) or no_message
 
 
@@ -166,8 +201,17 @@ def subscribed_elsewhere(listen: Listened) -> Wrong | None:
     topic = other_topic(listen.seen.subscribers, TOPIC, listen.seen.types, KIND)
     if TOPIC in listen.seen.subscribers or not topic:
         return None
-    hint = "the topic is called chatter"
-    return Wrong(LISTENS, f"it subscribes to {topic}", listen.subscriber, hint, sure=True)
+    seen, hint = f"it subscribes to {topic}", "the topic is called chatter"
+    private = listen.script.private("Subscriber", LISTENS, seen)
+    return private or Wrong(LISTENS, seen, listen.subscriber, hint, sure=True)
+
+
+def subscription_has_ended(listen: Listened) -> Wrong | None:
+    cause = None if TOPIC in listen.seen.subscribers else unsubscribed(listen.script.facts)
+    if not cause:
+        return None
+    seen = f"it subscribes to nothing: {cause.seen}"
+    return Wrong(LISTENS, seen, listen.script.at_line(cause.line), cause.hint, sure=True)
 
 
 def not_subscribed(listen: Listened) -> Wrong | None:
@@ -185,6 +229,29 @@ def no_callback(listen: Listened) -> Wrong | None:
     return Wrong(LISTENS, "its Subscriber has no callback", where, listen.hint, sure=True)
 
 
+def never_called(listen: Listened) -> Wrong | None:
+    cause = None if any(listen.times) else never_calls_back(listen.script.facts)
+    where = listen.script.at_line(cause.line) if cause else ""
+    return Wrong(LISTENS, cause.seen, where, cause.hint, sure=True) if cause else None
+
+
+def no_text(listen: Listened) -> Wrong | None:
+    """Find a std::string where ROS_INFO needs the characters in it."""
+    line, text = listen.script.facts.oddities.text_as_object or (0, "")
+    if not line:
+        return None
+    seen, hint = f"%s displays something else than {text}", f"{text}.c_str()"
+    return Wrong(LISTENS, seen, listen.script.at_line(line), hint, sure=True)
+
+
+def only_debug(listen: Listened) -> Wrong | None:
+    called = listen.script.facts.called_back
+    if any(listen.times) or "logdebug" not in called or "loginfo" in called:
+        return None
+    info, where = listen.script.facts.idioms.info, listen.script.at_line(*called["logdebug"][:1])
+    return Wrong(LISTENS, "the level debug, which is not displayed", where, info, sure=True)
+
+
 def wants_other_type(listen: Listened) -> Wrong | None:
     """Compare the type that it subscribes to; rospy warns of types that differ."""
     call = listen.script.facts.first("Subscriber")
@@ -193,12 +260,17 @@ def wants_other_type(listen: Listened) -> Wrong | None:
     if kind == "String" and not refused:
         return None
     kind = "another type of message" if kind == "String" else kind
-    return Wrong(LISTENS, f"it wants {kind} on /chatter", listen.subscriber, listen.hint)
+    idioms = listen.script.facts.idioms
+    hint = with_import(idioms.typed_subscriber("chatter", "String"), "String", listen.script.facts)
+    return Wrong(LISTENS, f"it wants {kind} on /chatter", listen.subscriber, hint)
 
 
 def receives_nothing(listen: Listened) -> Wrong:
     """Return the Wrong for a listener that does not display all texts."""
-    diagnoses = (crashed_deaf, subscribed_elsewhere, not_subscribed, no_callback, wants_other_type)
+    diagnoses = (
+        crashed_deaf, subscribed_elsewhere, subscription_has_ended, not_subscribed, no_callback,
+        wants_other_type, never_called, no_text, only_debug,
+    )  # fmt: skip
     idioms = listen.script.facts.idioms
     hint = f"does callback(data) display {idioms.text}, with {idioms.info}?"
     seen = f"{sum(map(bool, listen.times))} of {len(STRINGS)} displayed"
@@ -217,4 +289,4 @@ def twice_displayed(listen: Listened) -> Note | None:
     return Note(f"each text is displayed {min(listen.times)} times", where, hint)
 
 
-RATE_DIAGNOSES = (few_messages, no_sleep, unwanted_rate, same_text, other_rate)
+RATE_DIAGNOSES = (made_again, few_messages, no_sleep, unwanted_rate, same_text, other_rate)

@@ -14,7 +14,7 @@ from tutorial_check.checking.crashes import cause_of, crash, traceback_of
 from tutorial_check.checking.launch_errors import package_hint
 from tutorial_check.checking.launch_file import LaunchFile, find_launch, launch_file
 from tutorial_check.checking.manifest_errors import must_be_unique, unreadable
-from tutorial_check.checking.package_files import File, Script
+from tutorial_check.checking.package_files import File, Script, in_cpp
 from tutorial_check.checking.packages import must_be_launchable, package_of
 from tutorial_check.checking.programs import find_script, must_be_one_program, program_of, recorded
 from tutorial_check.checking.results import Note, Wrong, first_of, must_pass, wrong_of
@@ -60,11 +60,11 @@ __all__ = [
     "SimulatedTurtleBot", "SourceFacts", "Submission", "Task", "Topics", "Variant", "Workspace",
     "Wrong", "attribute", "build_error", "build_output", "cause_of", "check", "check_file",
     "cmake_of", "crash", "find_launch", "find_script", "first_of", "first_traceback",
-    "flipped_anonymous", "has_error", "has_failed", "has_moved", "is_lacking", "is_stand_in",
-    "last_lines", "launch_file", "line_of", "meant", "missing_in", "must_be_launchable",
-    "must_be_one_program", "must_be_unique", "must_build", "must_pass", "never_calls_back",
-    "not_found", "package_hint", "package_of", "packages_beside", "packages_of_ros", "place_of",
-    "program_of", "put_file", "read_xml", "recorded", "shows", "traceback_of", "underlays",
-    "unmasked", "unreadable", "unsubscribed", "with_bases", "with_import", "without_name",
-    "wrong_of",
+    "flipped_anonymous", "has_error", "has_failed", "has_moved", "in_cpp", "is_lacking",
+    "is_stand_in", "last_lines", "launch_file", "line_of", "meant", "missing_in",
+    "must_be_launchable", "must_be_one_program", "must_be_unique", "must_build", "must_pass",
+    "never_calls_back", "not_found", "package_hint", "package_of", "packages_beside",
+    "packages_of_ros", "place_of", "program_of", "put_file", "read_xml", "recorded", "shows",
+    "traceback_of", "underlays", "unmasked", "unreadable", "unsubscribed", "with_bases",
+    "with_import", "without_name", "wrong_of",
 ]  # fmt: skip

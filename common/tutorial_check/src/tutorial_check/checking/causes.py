@@ -81,7 +81,7 @@ def with_import(line: str, message: str, facts: SourceFacts) -> str:
     """Return a line to write, and the message's import if the program lacks it."""
     home, lacks = HOMES[message], message not in facts.names
     if not facts.is_python:
-        lacks = f"{home}/{message}.h" not in facts.imports
+        lacks = bool(facts.imports) and f"{home}/{message}.h" not in facts.imports
     return f"{line}, and at the top: {facts.idioms.imported(message)}" if lacks else line
 
 

@@ -10,7 +10,7 @@ from tutorial_check.checking.cpp_causes import cause_of_abort
 from tutorial_check.checking.results import Wrong
 from tutorial_check.checking.submission import Submission
 from tutorial_check.data.recordings import Ran
-from tutorial_check.submission.aborts import abort_of, has_failed, signal_of
+from tutorial_check.submission.aborts import TRACEBACK, abort_of, has_failed, signal_of
 from tutorial_check.submission.cpp_facts import CppFacts
 from tutorial_check.submission.cpp_order import ABOVE
 
@@ -24,7 +24,7 @@ LINES: dict[str, Callable[[CppFacts], int]] = {
 
 def compiled_program(submission: Submission, package: str, name: str) -> str:
     """Return the path of the program in C++ whose executable has a name; or ""."""
-    for path in submission.cpp_programs(package) if submission.is_in_cpp(package) else ():
+    for path in submission.cpp_programs(package) if submission.cpp_sources(package) else ():
         executable = submission.executable_of(package, path)
         if executable and executable.name == name:
             return path
@@ -33,7 +33,8 @@ def compiled_program(submission: Submission, package: str, name: str) -> str:
 
 def compiled_crash(submission: Submission, package: str, ran: Ran, expected: str) -> Wrong | None:
     """Return the Wrong for a program in C++ that has failed; None if it has not, or is none."""
-    path = compiled_program(submission, package, ran.name) if has_failed(ran) else ""
+    may_be = has_failed(ran) and TRACEBACK not in ran.output
+    path = compiled_program(submission, package, ran.name) if may_be else ""
     if not path:
         return None
     facts, signal = submission.cpp_programs(package)[path], signal_of(ran)

@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 
 from tutorial_check.checking.causes import explain, hider, traced
+from tutorial_check.checking.cpp_causes import CALLS_BACK
 from tutorial_check.checking.cpp_crashes import compiled_crash, compiled_program
 from tutorial_check.checking.results import Wrong
 from tutorial_check.checking.submission import Submission
@@ -78,6 +79,8 @@ def crash(
 
 def silent_end(facts: SourceFacts) -> tuple[int, str]:
     """Return (line or 0, hint) for a program that ends at once, as far as its text shows why."""
+    if not facts.is_python:
+        return silent_main(facts)
     if facts.keyboard:
         return facts.keyboard, explain("EOF when reading a line")
     for line, text in facts.bare_names:
@@ -96,6 +99,16 @@ def silent_end(facts: SourceFacts) -> tuple[int, str]:
     if not facts.has_main:
         return 0, "listener() is never called: if __name__ == '__main__': listener()"
     return 0, "is listener() called, in the last line, and with ()?"
+
+
+def silent_main(facts: SourceFacts) -> tuple[int, str]:
+    """Return the same for a program in C++, whose main returns."""
+    keeping, idioms = {*CALLS_BACK, "is_shutdown"}, facts.idioms
+    if not keeping & facts.calls.keys():
+        lines = facts.lines("Subscriber") or facts.lines("Publisher") or [0]
+        need = idioms.spin if "Subscriber" in facts.calls else idioms.in_loop
+        return lines[-1], f"{need} is missing below: without it main returns, and the program ends"
+    return 0, f"main returns: only {idioms.spin}, or {idioms.loop}, keeps a program running"
 
 
 def misspelt_init(node: ClassFacts) -> str:

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
+from typing import Sequence
 
 from tutorial_check.checking.crashes import crash, silent_end, traceback_of
 from tutorial_check.checking.packages import package_of
 from tutorial_check.checking.results import Note, Wrong
 from tutorial_check.checking.submission import Submission
 from tutorial_check.checking.texts import Lines
+from tutorial_check.course.definition import ANY
 from tutorial_check.data.recordings import Ran
 from tutorial_check.submission.aborts import abort_of, has_failed
 from tutorial_check.submission.idioms import PYTHON, Idioms
@@ -115,3 +117,17 @@ class Script(File):
         seen = f"the node is called {name!r}, which ROS warns about: not a legal ROS base name"
         right = re.sub(r"\W", "_", re.sub(r"\.py$", "", name))
         return Note(seen, self.at_line(line), f"letters, digits and _ only: {right!r}")
+
+    def private(self, kind: str, expected: str, seen: str) -> Wrong | None:
+        """Return the Wrong for a Publisher or Subscriber of a private NodeHandle, or None."""
+        line = dict(self.facts.oddities.private).get(kind, 0)
+        hint = "a private NodeHandle puts the node's name before a topic: ros::NodeHandle n;"
+        return Wrong(expected, seen, self.at_line(line), hint, sure=True) if line else None
+
+
+def in_cpp(programs: Sequence[Script]) -> Note | None:
+    """Return a Note on programs in C++ where the course takes any language, or None."""
+    paths = [program.where for program in programs if not program.is_python]
+    if not paths or programs[0].submission.language != ANY:
+        return None
+    return Note(f"{', '.join(paths)}: in C++, which is right; the handout's are in Python")

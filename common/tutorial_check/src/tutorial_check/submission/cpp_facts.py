@@ -10,6 +10,7 @@ from tutorial_check.submission import cpp_tree as tree
 from tutorial_check.submission.cpp_classes import classes_of
 from tutorial_check.submission.cpp_ending import ending_of, handler_of
 from tutorial_check.submission.cpp_oddities import oddities_of
+from tutorial_check.submission.cpp_order import LOOPS
 from tutorial_check.submission.cpp_tree import Node
 from tutorial_check.submission.idioms import CPP, Idioms
 from tutorial_check.submission.oddities import Oddities
@@ -31,7 +32,6 @@ MADE_BY_TYPE = {
 }  # fmt: skip
 # What a message's type in a callback may end with.
 POINTER = re.compile(r"(?:Const)?Ptr$|^(?:Const)?Ptr$|_$")
-LOOPS = ("while_statement", "do_statement", "for_statement")
 NO_MESSAGE = ("const", "boost", "std", "ros", "shared_ptr", "MessageEvent", "Const", "void")
 
 
@@ -127,7 +127,9 @@ class CppFacts(SourceFacts):
         names: dict[str, str] = {}
         if written == "init":
             texts = [tree.text_of(word) for word in given if word.type == "string_literal"]
-            names["anonymous"] = str("AnonymousName" in tree.text_of(node))
+            is_plain = len(given) < 4 and bool(texts)  # else it may be in a variable
+            is_anonymous = "AnonymousName" in tree.text_of(node)
+            names["anonymous"] = "True" if is_anonymous else "False" if is_plain else ""
             words = texts[:1]
         elif written in ("advertise", "subscribe"):
             names["queue_size"] = words[1] if len(words) > 1 else ""

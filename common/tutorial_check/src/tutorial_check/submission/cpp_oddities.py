@@ -9,7 +9,9 @@ from tutorial_check.submission import cpp_tree as tree
 from tutorial_check.submission.cpp_order import (
     bare_ok,
     early_handle,
+    late_loop,
     late_subscriber,
+    repeated_publisher,
     text_as_object,
 )
 from tutorial_check.submission.cpp_tree import Node, Tree
@@ -38,6 +40,8 @@ def oddities_of(trees: Sequence[Tree]) -> Oddities:
         text_as_object=text_as_object(trees),
         bare_ok=bare_ok(trees),
         late_subscriber=late_subscriber(trees),
+        late_loop=late_loop(trees),
+        repeated_publisher=repeated_publisher(trees),
     )
 
 

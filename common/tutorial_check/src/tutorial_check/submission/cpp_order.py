@@ -10,6 +10,7 @@ from tutorial_check.submission.oddities import Place
 
 DISPLAYS = ("printf", "ROS_DEBUG", "ROS_INFO", "ROS_WARN", "ROS_ERROR", "ROS_FATAL")
 INNER = ("compound_statement", "field_declaration_list")
+LOOPS = ("while_statement", "do_statement", "for_statement")
 OUTSIDE = "make it in main, below ros::init: a global variable is made before main"
 ABOVE = 'ros::init(argc, argv, "NAME") belongs above it, as the first line of main'
 
@@ -54,8 +55,23 @@ def bare_ok(trees: Sequence[Tree]) -> int:
 def late_subscriber(trees: Sequence[Tree]) -> int:
     """Return the line of the first subscribe if it comes after a spin of its function, or 0."""
     for line, call in tree.calls(trees, "subscribe"):
-        function = tree.above(call, "function_definition")
-        spins = tree.calls([(line - tree.line_of(call), function)], "spin") if function else ()
-        before = [spin for spin, _ in spins if spin < line]
-        return line if before else 0
+        return line if _after_spin(line, call) else 0
     return 0
+
+
+def late_loop(trees: Sequence[Tree]) -> int:
+    """Return the line of the first loop that comes after a spin of its function, or 0."""
+    loops = tree.nodes(trees, *LOOPS)
+    return next((line for line, loop in loops if _after_spin(line, loop)), 0)
+
+
+def _after_spin(line: int, node: Node) -> bool:
+    function = tree.above(node, "function_definition")
+    spins = tree.calls([(line - tree.line_of(node), function)], "spin") if function else ()
+    return any(spin < line for spin, _ in spins)
+
+
+def repeated_publisher(trees: Sequence[Tree]) -> int:
+    """Return the line of the first advertise within a loop, or 0."""
+    calls = tree.calls(trees, "advertise")
+    return next((line for line, call in calls if tree.above(call, *LOOPS)), 0)

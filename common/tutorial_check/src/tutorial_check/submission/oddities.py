@@ -41,3 +41,5 @@ class Oddities:
     text_as_object: Place = ()  # a std::string for %s, without c_str()
     bare_ok: int = 0  # the line of ros::ok without ()
     late_subscriber: int = 0  # the line of a subscribe that comes after ros::spin
+    late_loop: int = 0  # the line of a loop that comes after ros::spin
+    repeated_publisher: int = 0  # the line of advertise in a loop
