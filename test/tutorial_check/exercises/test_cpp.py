@@ -1,18 +1,39 @@
-"""Programs in C++: every mistake is found by the right check, with its cause, in words of C++."""
+"""Programs in C++: mistakes are found, in words of C++; a literal solution and variants are right."""
 
 import importlib
 from pathlib import Path
 
 import pytest
+import variants_cpp
 from edits import apply
 from test_mistakes import is_reported, wrong_of
 
+from tutorial_check.checking.checks import checks_of
+from tutorial_check.course.definition import read_course
 from tutorial_check.report.text import lines_of
 from tutorial_testing.claims import claim
 
 MODULES = sorted(Path(__file__).parent.glob("mistakes_cpp_*.py"))
 MISTAKES = [row for path in MODULES for row in importlib.import_module(path.stem).ROWS]
 OF_PYTHON = ("rospy", ".py", "Traceback")
+
+
+@claim("A literal solution of the handout in C++ is right in every exercise")
+def test_a_literal_solution_in_cpp_is_right(literal_cpp, check):
+    course = read_course()
+    seen = check(literal_cpp.parent, course.by_default)
+    checks = {made.id for made in checks_of(course) if made.exercise in course.by_default}
+    assert seen.keys() == checks
+
+
+@claim(
+    "Other right solutions in C++ (a global publisher, classes with bind, lambdas, spinners, "
+    "timers, several files, a library, names by variables, remaps) are not blamed"
+)
+@pytest.mark.parametrize("row", variants_cpp.ROWS, ids=str)
+def test_a_variant_in_cpp_is_right(row, literal_cpp, check):
+    apply(row.edits, literal_cpp)
+    check(literal_cpp.parent, row.exercises)
 
 
 @claim(
