@@ -32,6 +32,7 @@ from .diagnoses import (
 from .record import TOPIC, Pair, Second, Talk
 
 NO_SECOND = "a second talker publishes, or ends the first"
+NO_NAME = "it ignores __name:=, by which roslaunch gives a node its name"
 
 
 def scripts(submission: Submission) -> list[Script]:
@@ -119,6 +120,8 @@ def anonymous(submission: Submission) -> Note | str:
     if not other.talks:
         raise script.crash(other.first, "the talker runs with anonymous the other way round")
     if other.first_ended == (given == "False"):
+        if not script.is_python:
+            return Note(NO_NAME, where, "ros::init(argc, argv, ...) reads the command line")
         then = "the second ends the first" if given == "True" else "both continue"
         hint = f"is {script.facts.idioms.init_anonymous}?"
         raise Wrong(f"with anonymous={given == 'False'} {then}", "this did not happen", where, hint)
