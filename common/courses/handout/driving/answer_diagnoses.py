@@ -14,6 +14,7 @@ from .joys import COUNT, ROUNDED
 from .probe_diagnoses import SILENCES
 
 MOST_STRAY_ZEROS = 2  # in a row of Joys
+MOVING = ("linear.x", "angular.z")
 IN_CALLBACK = "publish only in the callback, once for every Joy; end with {}"
 
 
@@ -147,6 +148,8 @@ def another_rule(node: Joy2TwistNode) -> Wrong | None:
     if whole:
         return Wrong("", verdict.seen, node.at([whole[0]]), whole[1], sure)
     line, takes_buttons = _setting_line(node.source, verdict.seen)
+    if not line and _is_set_late(node.source):
+        verdict.hint = "first put the values into the message, then publish it"
     where = node.at([line]) if line else node.at_call("publish")
     axes = node.source.idioms.axes
     stick = f"the stick is {axes}, not {axes.replace('axes', 'buttons')}"
@@ -181,10 +184,18 @@ def _setting_line(source: SourceFacts, seen: str) -> tuple[int, bool]:
     return 0, False
 
 
+def _is_set_late(source: SourceFacts) -> bool:
+    """Return whether all fields of a Twist are set below the only publish."""
+    attributes = source.attributes.items()
+    fields = [line for name, (line, _) in attributes if name.endswith(MOVING)]
+    published = source.lines("publish")
+    return len(published) == 1 and bool(fields) and published[0] < min(fields)
+
+
 def _assigned(attributes: dict[str, tuple[int, str]], field: str) -> tuple[int, bool]:
     """Return the same from {"twist.linear.x": (line, value)}. field: "" for any."""
-    names = (field,) if field else ("linear.x", "angular.z")
-    for name, (line, value) in attributes.items():
+    names = (field,) if field else MOVING
+    for name, (line, value) in sorted(attributes.items(), key=lambda named: named[1]):
         takes_buttons = "buttons" in value and "axes" not in value
         if name.endswith(names) and (field or takes_buttons):
             return line, takes_buttons

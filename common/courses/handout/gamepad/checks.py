@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tutorial_check import Note, Submission, Wrong, check, crash
+from tutorial_check import Note, Script, Submission, Wrong, check, crash
 
 from ..driving.main_script import main_script
 from ..task import PACKAGE
@@ -22,5 +22,5 @@ def joystick(submission: Submission) -> Note | str | None:
     if seen.survives_eight_axes:
         return "switch at D and at X"
     words = "with the switch at X (eight axes) it fails; the handout's does, too"
-    hint = 'as many as there are: ", ".join("%.2f" % axis for axis in data.axes)'
-    return Note(words, script, hint)
+    idioms = Script(submission, PACKAGE, script).idioms
+    return Note(words, script, f"as many as there are: {idioms.show_all_axes}")

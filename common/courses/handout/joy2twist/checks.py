@@ -59,6 +59,9 @@ def under_load(submission: Submission) -> Note | None:
     facts = Script(submission, PACKAGE, script).facts
     made = map(facts.first, ("Subscriber", "Publisher"))
     first, second = (call.line if call else 0 for call in made)
+    spinner = facts.first("AsyncSpinner")  # the callbacks of other programs in C++ wait for spin
+    if not facts.is_python and not (spinner and first < second and spinner.line < second):
+        return None
     if not 0 < first < second and not submission.recording(loaded, script).failed:
         return None
     seen = "the subscriber comes before the publisher: for a Joy that comes at once there is no pub"

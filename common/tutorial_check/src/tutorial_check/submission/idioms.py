@@ -26,6 +26,7 @@ class Idioms:
     text: str  # of a String in its callback
     format: str  # of a value with two decimals
     show_axes: str  # displays six axes
+    show_all_axes: str  # however many there are
     publish: str
     zero: str  # a Twist of zeros
     publisher_name: str  # what makes a Publisher
@@ -73,6 +74,7 @@ PYTHON = Idioms(
     text="data.data",
     format="%.2f",
     show_axes="[%.2f, %.2f, %.2f, %.2f, %.2f, %.2f] % data.axes",
+    show_all_axes='", ".join("%.2f" % axis for axis in data.axes)',
     publish="pub.publish(msg)",
     zero="Twist()",
     publisher_name="rospy.Publisher",
@@ -105,6 +107,7 @@ CPP = Idioms(
     text="msg->data",
     format="%.2f",
     show_axes='ROS_INFO("%.2f %.2f %.2f %.2f %.2f %.2f", msg->axes[0], ... msg->axes[5])',
+    show_all_axes="for (float axis : msg->axes)",
     publish="pub.publish(twist)",
     zero="geometry_msgs::Twist()",
     publisher_name="advertise",
