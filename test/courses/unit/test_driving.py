@@ -51,7 +51,7 @@ def connected(publishers=("/node",), kind="geometry_msgs/Twist", topic=CMD_VEL):
 def node(text, connections=None, stray_zeros=0, verdict=None, **numbered):
     """A node whose program has this text, with these recorded facts."""
     facts = PythonFacts(text)
-    about_files = {"facts_of": lambda *_: facts, "scripts": lambda _: {SCRIPT: facts}}
+    about_files = {"facts_of": lambda *_: facts, "programs": lambda _: {SCRIPT: facts}}
     about_files["text"] = lambda *_: text
     run = Joy2TwistRun(
         SCRIPT,

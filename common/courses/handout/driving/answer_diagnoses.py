@@ -54,14 +54,14 @@ def rounded_too_far(node: Joy2TwistNode) -> Wrong | None:
     if node.values_displayed(10 * ROUNDED) != AXES:
         return None
     seen = "the six values have fewer than two decimals"
-    return Wrong("", seen, node.script, "%.2f for each value")
+    return Wrong("", seen, node.display, "%.2f for each value")
 
 
 def some_values_left_out(node: Joy2TwistNode) -> Wrong | None:
     count = node.values_displayed()
     hint = f"all six: {node.source.idioms.show_axes}"
     seen = f"a line has {count} of the six values of a message"
-    return Wrong("", seen, node.script, hint) if count else None
+    return Wrong("", seen, node.display, hint) if count else None
 
 
 def logs_at_debug(node: Joy2TwistNode) -> Note | None:
@@ -82,6 +82,8 @@ NOT_DISPLAYED = (
 
 def few_answers(node: Joy2TwistNode) -> Wrong:
     seen, where = node.run.numbered, node.at_call("publish")
+    if not node.source.first("publish"):
+        where = node.callback
     count = max(seen.came, len(seen.samples))
     if count:
         hint = "publish in the callback, for every message"

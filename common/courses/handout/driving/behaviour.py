@@ -53,7 +53,10 @@ def topics(submission: Submission, script: str = "") -> Note | str:
         must_pass(connections.NO_TOPIC, node, expected)
     wanted, name = submission.task.values.get("node"), node.graph.subscribers.get(joy, ("",))[0]
     if wanted and not script and not re.fullmatch(rf"/{wanted}(_\d+_\d+)?", name):
-        expected, hint = "the name of the node that the task asks for", f"init_node('{wanted}')"
+        expected, hint = (
+            "the name of the node that the task asks for",
+            node.source.idioms.named(wanted),
+        )
         raise Wrong(expected, f"it is called {name}", node.at_call("init_node"), hint)
     return note or f"{node.names.joy} -> {node.names.cmd_vel}"
 

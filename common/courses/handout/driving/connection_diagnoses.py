@@ -142,6 +142,15 @@ def crashed_with_publisher(node: Joy2TwistNode) -> Wrong | None:
     return crashed(node) if node.source.first("Publisher") else None
 
 
+def publisher_ends_with_callback(node: Joy2TwistNode) -> Wrong | None:
+    lines = node.source.called_back.get("Publisher")
+    if node.source.is_python or not lines:
+        return None
+    seen = "the Publisher is made in the callback, and ends with it before a Twist is sent"
+    hint = "make it once, in main: a global variable, or a member of a class"
+    return Wrong("", seen, node.at(lines), hint)
+
+
 def another_topic_published(node: Joy2TwistNode) -> Wrong | None:
     topic, where = node.twists_elsewhere, node.at_call("Publisher")
     hint = f"the topic is called {node.answers.cmd_vel}; that of the TurtleBot stands in"
@@ -159,4 +168,7 @@ def nothing_published(node: Joy2TwistNode) -> Wrong:
     return Wrong("", seen, where, f"{hint}; or was another file edited?")
 
 
-NO_TOPIC = (crashed_with_publisher, another_topic_published, nothing_published)
+NO_TOPIC = (
+    crashed_with_publisher, another_topic_published, publisher_ends_with_callback,
+    nothing_published,
+)  # fmt: skip

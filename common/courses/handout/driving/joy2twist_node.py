@@ -5,6 +5,7 @@ from __future__ import annotations
 import collections
 import contextlib
 import functools
+import re
 from typing import Sequence
 
 from tutorial_check import (
@@ -26,6 +27,8 @@ from .joy2twist_run import Joy2TwistRun, Twist
 from .joys import ROUNDED, numbered_joys, values_displayed
 from .probe_diagnoses import probe_verdict
 from .record import drive
+
+DISPLAYS = re.compile(r"log|print")
 
 
 class Joy2TwistNode:
@@ -65,6 +68,18 @@ class Joy2TwistNode:
     def loop(self) -> str:
         """Where it publishes at a fixed rate."""
         return self.at(self.source.publishing_loops or self.source.lines("Timer", "Rate"))
+
+    @property
+    def display(self) -> str:
+        """Where its callback displays something."""
+        called = self.source.called_back.items()
+        return self.at([n for name, lines in called if DISPLAYS.match(name) for n in lines])
+
+    @property
+    def callback(self) -> str:
+        """Where its callback begins."""
+        functions = (name for _, name in self.source.given("Subscriber", 2))
+        return self.at([self.source.functions.get(name, 0) for name in functions])
 
     @property
     def second_publish(self) -> str:
@@ -108,7 +123,7 @@ class Joy2TwistNode:
     @property
     def first_version(self) -> str:
         """The separate file with the handout's first version, if it displays every Joy."""
-        for script, source in self.submission.scripts(PACKAGE).items():
+        for script, source in self.submission.programs(PACKAGE).items():
             is_first = "Subscriber" in source.calls and "Publisher" not in source.calls
             if script != self.script and is_first:
                 with contextlib.suppress(Wrong):

@@ -17,6 +17,7 @@ class Idioms:
     language: str
     library: str
     init: str
+    init_named: str  # with {name}
     init_anonymous: str
     spin: str
     loop: str  # that ends with the node
@@ -44,6 +45,10 @@ class Idioms:
     waits: str  # for the first message
     arguments: str  # that roslaunch adds
 
+    def named(self, name: str) -> str:
+        """Return the call that names a node."""
+        return self.init_named.format(name=name)
+
     def subscriber(self, topic: str, kind: str) -> str:
         """Return the line that subscribes to a topic with messages of a kind, such as Joy."""
         return self.a_subscriber.format(topic=topic, type=kind, home=HOMES[kind])
@@ -65,6 +70,7 @@ PYTHON = Idioms(
     language="Python",
     library="rospy",
     init="rospy.init_node",
+    init_named="init_node('{name}')",
     init_anonymous="anonymous given to rospy.init_node",
     spin="rospy.spin()",
     loop="while not rospy.is_shutdown():",
@@ -98,6 +104,7 @@ CPP = Idioms(
     language="C++",
     library="roscpp",
     init="ros::init",
+    init_named='ros::init(argc, argv, "{name}")',
     init_anonymous="ros::init_options::AnonymousName given to ros::init",
     spin="ros::spin()",
     loop="while (ros::ok())",
