@@ -29,6 +29,7 @@ def oddities_of(text):
         (MAIN % f"{{ auto s = {SUBSCRIBE}; }}", "lost_subscriber",
             LostSubscriber(6, "s", "its block", False)),
         (MAIN % 'ros::Publisher pub = n.advertise<T>("/t", 1);', "hidden_publisher", (6, "pub")),
+        ("void f() {\n  pub.publish(t);\n}", "unmade_publisher", (5, "pub")),
         (MAIN % "Node node();", "function_declared", (6, "Node node();")),
         ('ros::NodeHandle own("~");\nauto p = own.advertise<T>("t", 1);', "private",
             (("Publisher", 4),)),
@@ -61,7 +62,7 @@ def test_an_oddity_has_its_line(text, name, oddity):
         'ros::NodeHandle own("~"), n;\nauto p = n.advertise<T>("t", 1);',
         "float half = 1.0 / 2 + 4 / 2;",
         "void f() { int button = joy->buttons[1]; float x = joy->axes[1]; }",
-        "ros::Publisher* out;\nvoid f() { out->publish(t); }\nvoid g() { out = new Out; }",
+        "Out* out;\nvoid f() { out->send(t); }\nvoid g() { out = new Out; }",
         "void f(const T::ConstPtr& joy) { joy->axes; }",
     ],
 )

@@ -72,13 +72,12 @@ def _invalid_publisher(facts: SourceFacts) -> tuple[int, str]:
         line, name = hidden
         hint = f"`ros::Publisher {name}` is a second {name}, of this function alone, and the other"
         return line, f"{hint} stays empty: {name} = ... without a type"
-    line = next(iter(facts.lines("publish")), 0)
-    if not maker:
-        return line, "no advertise makes this Publisher"
-    return (
-        line,
-        f"at this time advertise has not made it: line {maker.line} belongs above subscribe",
-    )
+    unmade, subscriber = facts.oddities.unmade_publisher, facts.first("Subscriber")
+    if unmade:
+        return unmade[0], f"no advertise makes {unmade[1]}"
+    if maker and subscriber and subscriber.line < maker.line:
+        return subscriber.line, f"put it below line {maker.line}: first advertise, then subscribe"
+    return next(iter(facts.lines("publish")), 0), ""
 
 
 def _beyond(facts: SourceFacts) -> tuple[int, str]:

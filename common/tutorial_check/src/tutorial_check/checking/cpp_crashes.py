@@ -48,7 +48,7 @@ def blamed(error: str, facts: CppFacts) -> tuple[int, str]:
     """Return (line or 0, fix) for an error of a program."""
     line, hint = cause_of_abort(error, facts)
     if line:
-        return line, hint
+        return line, hint or "".join(explained("c++", error))
     line = next((find(facts) for pattern, find in LINES.items() if re.search(pattern, error)), 0)
     name = NAME.search(error)
     if name:

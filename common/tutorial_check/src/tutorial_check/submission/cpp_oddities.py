@@ -30,6 +30,7 @@ def oddities_of(trees: Sequence[Tree]) -> Oddities:
     return Oddities(
         lost_subscriber=next(_lost_subscribers(trees, outer), None),
         hidden_publisher=next(_hidden_publishers(trees, outer), ()),
+        unmade_publisher=next(_unmade_publishers(trees), ()),
         function_declared=next(_function_declarations(trees), ()),
         private=tuple(_private(trees)),
         whole_division=next(_whole_divisions(trees), ()),
@@ -117,6 +118,21 @@ def _hidden_publishers(trees: Sequence[Tree], outer: set[str]) -> Iterator[Place
     for line, call in tree.calls(trees, "advertise"):
         name = _name_of(call.parent)
         if _local(call) is not None and name in outer:
+            yield line, name
+
+
+def _unmade_publishers(trees: Sequence[Tree]) -> Iterator[Place]:
+    made = set()
+    for _, call in tree.calls(trees, "advertise"):
+        outer = tree.above(call, "assignment_expression", "init_declarator", "field_initializer")
+        if outer is None or outer.type == "field_initializer":
+            made.add(tree.text_of(outer.children[0]) if outer is not None else "")
+        else:
+            left = tree.field(outer, "left")
+            made.add(tree.last_name(left) if left is not None else _name_of(outer))
+    for line, call in tree.calls(trees, "publish"):
+        name = tree.last_name(tree.field(tree.field(call, "function"), "argument"))
+        if name not in made:
             yield line, name
 
 

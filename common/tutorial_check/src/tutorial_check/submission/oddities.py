@@ -31,6 +31,7 @@ class Oddities:
 
     lost_subscriber: LostSubscriber | None = None
     hidden_publisher: Place = ()  # a local variable with the name of a member or global one
+    unmade_publisher: Place = ()  # the first publish of a Publisher that no advertise makes
     function_declared: Place = ()  # `Node node();` declares a function, and makes no Node
     private: tuple[tuple[str, int], ...] = ()  # (Publisher or Subscriber, line of its "~")
     whole_division: Place = ()  # of two whole numbers, with a rest
