@@ -1,6 +1,6 @@
 """Mistakes with talker and listener in C++."""
 
-from edits import put, write
+from edits import put, put_cpp, write
 from rows import mistake, mistake_in
 from solution import CMAKE, B
 from solution_cpp import LISTENER, TALKER
@@ -14,7 +14,10 @@ SUB = 'ros::Subscriber subscriber = node.subscribe("chatter", 10, hear);\n'
 INFO = 'ROS_INFO("%s heard: %s", ros::this_node::getName().c_str(), message->data.c_str());'
 SPIN = "  ros::spin();\n"
 SEND = "    publisher.publish(message);\n"
-OF_TALKER = "add_executable(talker src/talker.cpp)\ntarget_link_libraries(talker ${catkin_LIBRARIES})\n"
+OF_TALKER = (
+    "add_executable(talker src/talker.cpp)\n"
+    "target_link_libraries(talker ${catkin_LIBRARIES})\n"
+)
 INT = put(TALKER, "#include <std_msgs/String.h>", "&\n#include <std_msgs/Int32.h>")
 
 
@@ -35,13 +38,15 @@ ROWS = [
     mistake("another type", [INT, put(TALKER, "<std_msgs::String>", "<std_msgs::Int32>")], "C6",
         "talker.cpp:11", "std_msgs/Int32"),
     talker6("a private topic", NODE, 'ros::NodeHandle node("~");\n', "talker.cpp:9", "private"),
-    mistake("advertise in the loop", [put(TALKER, f"  {PUB}", ""), put(TALKER, "std::ostringstream text",
-        f"{PUB}    &")], "C6", "talker.cpp:14", "in the loop"),
+    mistake("advertise in the loop", [put(TALKER, f"  {PUB}", ""),
+        put(TALKER, "std::ostringstream text", f"{PUB}    &")], "C6", "talker.cpp:14",
+        "in the loop"),
     talker6("sleep forgotten", "    rate.sleep();\n", "", "talker.cpp:13", "a second",
         "rate.sleep()"),
-    talker6("no loop", "while (ros::ok())", "if (ros::ok())", "while (ros::ok())", "ends by itself"),
+    talker6("no loop", "while (ros::ok())", "if (ros::ok())", "talker.cpp:21", "while (ros::ok())",
+        "main returns"),
     talker6("publish forgotten", SEND, "", "publish"),
-    talker6("the loop comes after ros::spin", "  ros::Rate rate", f"{SPIN}&", "talker.cpp:12",
+    talker6("the loop comes after ros::spin", "  ros::Rate rate", f"{SPIN}&", "talker.cpp:14",
         "ros::spin()"),
     talker6("no init", f"  {INIT}", "", "must call ros::init()", "talker.cpp:8",
         "first line of main"),
@@ -52,8 +57,8 @@ ROWS = [
     talker6("an empty name", '"talker"', '""', "talker.cpp:8", "must not be empty"),
     talker6("a space in the node's name", '"talker"', '"my talker"', "talker.cpp:8",
         "[my talker]", "letters, digits"),
-    talker6("a slash in the node's name", '"talker"', '"/talker"', "talker.cpp:8", "cannot contain /",
-        "a node's name has no /"),
+    talker6("a slash in the node's name", '"talker"', '"/talker"', "talker.cpp:8",
+        "cannot contain /", "a node's name has no /"),
     talker6("a space in the topic", '"chatter"', '"chat ter"', "talker.cpp:10", "[chat ter]"),
     talker6("a Publisher without advertise", PUB, "ros::Publisher publisher;\n", "talker.cpp:22",
         "invalid Publisher", "advertise"),
@@ -63,8 +68,8 @@ ROWS = [
         "talker.cpp:23", "points to no message"),
     talker6("an exception of one's own", SEND, '    throw std::runtime_error("no text");\n',
         "std::runtime_error: no text"),
-    talker6("a null pointer", SEND, f"    int* count = nullptr;\n    *count += 1;\n{SEND}", "SIGSEGV",
-        "segmentation fault"),
+    talker6("a null pointer", SEND, f"    int* count = nullptr;\n    *count += 1;\n{SEND}",
+        "SIGSEGV", "segmentation fault", "talker.cpp:23"),
     talker10("ros::ok without ()", "ros::ok()", "ros::ok", "talker.cpp:13", "ros::ok()"),
     talker10("a loop without end", "ros::ok()", "true", "talker.cpp:13", "ros::ok()"),
     listener7("another topic in the listener", '"chatter"', '"/chat"', "/chat", "listener.cpp:13"),
@@ -76,22 +81,22 @@ ROWS = [
         "above ros::spin()"),
     listener7("a loop without spinOnce", SPIN, "  ros::Rate rate(10);\n  while (ros::ok())\n"
         "    rate.sleep();\n", "listener.cpp:15", "ros::spinOnce()"),
-    mistake("a Subscriber local to a function", [put(LISTENER, "int main", within("listen")),
+    mistake("a Subscriber local to a function", [put_cpp(LISTENER, "int main", within("listen")),
         put(LISTENER, f"{NODE}  {SUB}", f"{NODE}  listen(node);\n")], "C7", "listener.cpp:11",
         "listen()"),
-    listener7("a Subscriber local to a block", f"  {SUB}", f"  {{\n  {SUB}  }}\n", "listener.cpp:14",
-        "block"),
-    listener7("a Subscriber that is not kept", "ros::Subscriber subscriber = ", "", "listener.cpp:13",
-        "ros::Subscriber sub ="),
+    listener7("a Subscriber local to a block", f"  {SUB}", f"  {{\n  {SUB}  }}\n",
+        "listener.cpp:14", "block"),
+    listener7("a Subscriber that is not kept", "ros::Subscriber subscriber = ", "",
+        "listener.cpp:13", "ros::Subscriber sub ="),
     listener7("the listener displays nothing", f"  {INFO}\n", "", "displayed", "ROS_INFO"),
-    listener7("the listener displays a number", INFO, 'ROS_INFO("heard %zu", message->data.size());',
-        "displayed", "msg->data"),
+    listener7("the listener displays a number", INFO,
+        'ROS_INFO("heard %zu", message->data.size());', "displayed", "msg->data"),
     listener7("the level is debug", "ROS_INFO", "ROS_DEBUG", "listener.cpp:6", "debug"),
     listener7("a text without c_str()", INFO, 'ROS_INFO("heard %s", message->data);',
         "listener.cpp:6", "c_str()"),
     listener7("no Subscriber", f"  {SUB}", "", "subscribes to nothing", "n.subscribe("),
     mistake("two nodes of one name", [put(TALKER, ", ros::init_options::AnonymousName", ""),
         put(LISTENER, '"listener", ros::init_options::AnonymousName', '"talker"')], "C6",
-        "same name", "talker.cpp:8"),
+        "same name", "listener.cpp:11", "ros::init"),
     mistake("an empty file", [write(TALKER, "")], "C4", "talker"),
 ]

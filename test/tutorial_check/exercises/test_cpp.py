@@ -1,4 +1,4 @@
-"""Programs in C++: mistakes are found, in words of C++; a literal solution and variants are right."""
+"""Programs in C++: mistakes are found, in words of C++; right ones are right, or worth a note."""
 
 import importlib
 from pathlib import Path
@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 import variants_cpp
 from edits import apply
+from notes_cpp import NOTES
 from test_mistakes import is_reported, wrong_of
 
 from tutorial_check.checking.checks import checks_of
@@ -49,3 +50,13 @@ def test_a_mistake_in_cpp_is_found(row, literal_cpp, examined):
     is_found = wrong[0].id == row.check and is_reported(wrong[0], row.words)
     assert is_found, f"should be {row.check}, {row.words}:\n{report}"
     assert not [word for word in OF_PYTHON if word in report], report
+
+
+@claim("What is right in C++ and worth knowing is a note, with its line")
+@pytest.mark.parametrize("row", NOTES, ids=str)
+def test_a_right_program_in_cpp_is_noted(row, literal_cpp, check):
+    apply(row.edits, literal_cpp)
+    results = check(literal_cpp.parent, row.exercises)
+    for name, words in row.notes.items():
+        assert results[name].status == ("note" if words else "ok")
+        assert is_reported(results[name], words), lines_of(results[name])

@@ -20,15 +20,8 @@ from tutorial_check import (
 
 from ..task import BEGINNER
 from . import record
-from .diagnoses import (
-    GOES_ON,
-    RATE_DIAGNOSES,
-    Listened,
-    Talked,
-    receives_nothing,
-    silent,
-    twice_displayed,
-)
+from .diagnoses import GOES_ON, RATE_DIAGNOSES, Talked, same_name, silent
+from .listener_diagnoses import DISPLAYED, Listened, receives_nothing
 from .record import TOPIC, Pair, Second, Talk
 
 NO_SECOND = "a second talker publishes, or ends the first"
@@ -48,6 +41,17 @@ def _talk(submission: Submission) -> Talk:
     return seen
 
 
+def _talk_of_two(submission: Submission) -> Talk:
+    """Return the recording. Raises Wrong if one of the nodes has ended the other."""
+    seen, programs = _talk(submission), scripts(submission)
+    is_ended = seen.talker_ended or seen.listener_ended
+    ended = (same_name(ran, programs) for ran in (seen.talker, seen.listener))
+    wrong = next(filter(None, ended), None) if is_ended else None
+    if wrong:
+        raise wrong
+    return seen
+
+
 @check("C5", "talker.py and listener.py can be run", "3.1", needs="C2",
        look="rosrun beginner_tutorials talker.py", timeless=True)  # fmt: skip
 def are_runnable(submission: Submission) -> Note | str:
@@ -60,7 +64,7 @@ def are_runnable(submission: Submission) -> Note | str:
 
 @check("C6", "the talker talks", "3.1", needs=are_runnable, look="rostopic hz /chatter")
 def talker(submission: Submission) -> Note | str:
-    seen, script = _talk(submission), scripts(submission)[0]
+    seen, script = _talk_of_two(submission), scripts(submission)[0]
     talked = Talked(seen, script, submission.task.values.get("rate"))
     if not seen.received:
         raise silent(talked)
@@ -72,13 +76,13 @@ def talker(submission: Submission) -> Note | str:
 @check("C7", "the listener displays what it receives", "3.1", needs=are_runnable,
        look="rosrun beginner_tutorials listener.py")  # fmt: skip
 def listener(submission: Submission) -> Note | None:
-    seen, script = _talk(submission), scripts(submission)[1]
+    seen, script = _talk_of_two(submission), scripts(submission)[1]
     if seen.listener_ended:
         raise script.end(seen.listener, GOES_ON)
     listened = Listened(seen, script)
     if not all(listened.times):
         raise receives_nothing(listened)
-    return twice_displayed(listened)
+    return must_pass(DISPLAYED, listened)
 
 
 @check("C8", "talker and listener are connected", "3.1", needs=(talker, listener),

@@ -1,26 +1,25 @@
-"""Diagnoses of a talker's messages, of a silent talker, and of a listener's output."""
+"""Diagnoses of a talker's messages, of a silent talker, and of names."""
 
 from __future__ import annotations
 
 import statistics
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Sequence
 
 from tutorial_check import (
     Note,
+    Ran,
     Script,
     Wrong,
     first_of,
     has_failed,
-    never_calls_back,
-    unsubscribed,
     with_import,
 )
 
 from ..task import other_topic
-from .record import KIND, LISTEN_S, STRINGS, TOPIC, Talk
+from .record import KIND, LISTEN_S, TOPIC, Talk
 
-LISTENS = "every text sent on /chatter, displayed once"
 GOES_ON = "it runs until Ctrl-C"
 RATE_TOLERANCE = 0.2  # share of the expected rate
 FEW = 3  # fewer messages give no rate
@@ -86,7 +85,7 @@ def made_again(talk: Talked) -> Wrong | None:
     line = talk.script.facts.oddities.repeated_publisher
     if not line:
         return None
-    seen = f"{len(talk.times)} messages: advertise in the loop makes a new Publisher at each turn"
+    seen = "few messages arrive: advertise in the loop makes a new Publisher at each turn"
     hint = f"above the loop: {talk.hint}"
     return Wrong(talk.expected, seen, talk.script.at_line(line), hint, sure=True)
 
@@ -168,125 +167,16 @@ def silent(talk: Talked) -> Wrong:
     return first_of(diagnoses, talk) or no_message
 
 
-@dataclass(frozen=True)
-class Listened:
-    """A listener's run and its text."""
-
-    seen: Talk
-    script: Script
-
-    @cached_property
-    def times(self) -> list[int]:
-        """How many times each text was displayed."""
-        lines = self.seen.listener.output.splitlines()
-        return [sum(text in line for line in lines) for text in STRINGS]
-
-    @property
-    def hint(self) -> str:
-        """How to make it subscribe."""
-        line = self.script.facts.idioms.subscriber("chatter", "String")
-        return with_import(line, "String", self.script.facts)
-
-    @property
-    def subscriber(self) -> str:
-        return self.script.at_call("Subscriber")
-
-
-def crashed_deaf(listen: Listened) -> Wrong | None:
-    ran = listen.seen.listener
-    return listen.script.crash(ran, LISTENS) if has_failed(ran) or ran.spins else None
-
-
-def subscribed_elsewhere(listen: Listened) -> Wrong | None:
-    topic = other_topic(listen.seen.subscribers, TOPIC, listen.seen.types, KIND)
-    if TOPIC in listen.seen.subscribers or not topic:
+def same_name(ran: Ran, programs: Sequence[Script]) -> Wrong | None:
+    """Find a program that the other one has ended, because it has the same node's name."""
+    if "new node registered with same name" not in ran.output:
         return None
-    seen, hint = f"it subscribes to {topic}", "the topic is called chatter"
-    private = listen.script.private("Subscriber", LISTENS, seen)
-    return private or Wrong(LISTENS, seen, listen.subscriber, hint, sure=True)
-
-
-def subscription_has_ended(listen: Listened) -> Wrong | None:
-    cause = None if TOPIC in listen.seen.subscribers else unsubscribed(listen.script.facts)
-    if not cause:
-        return None
-    seen = f"it subscribes to nothing: {cause.seen}"
-    return Wrong(LISTENS, seen, listen.script.at_line(cause.line), cause.hint, sure=True)
-
-
-def not_subscribed(listen: Listened) -> Wrong | None:
-    if TOPIC in listen.seen.subscribers:
-        return None
-    hint = f"{listen.hint}, before {listen.script.facts.idioms.spin}"
-    return Wrong(LISTENS, "it subscribes to nothing", listen.subscriber, hint)
-
-
-def no_callback(listen: Listened) -> Wrong | None:
-    lacking = listen.script.facts.without_callback
-    if any(listen.times) or not lacking:
-        return None
-    where = listen.script.at_line(lacking.line)
-    return Wrong(LISTENS, "its Subscriber has no callback", where, listen.hint, sure=True)
-
-
-def never_called(listen: Listened) -> Wrong | None:
-    cause = None if any(listen.times) else never_calls_back(listen.script.facts)
-    where = listen.script.at_line(cause.line) if cause else ""
-    return Wrong(LISTENS, cause.seen, where, cause.hint, sure=True) if cause else None
-
-
-def no_text(listen: Listened) -> Wrong | None:
-    """Find a std::string where ROS_INFO needs the characters in it."""
-    line, text = listen.script.facts.oddities.text_as_object or (0, "")
-    if not line:
-        return None
-    seen, hint = f"%s displays something else than {text}", f"{text}.c_str()"
-    return Wrong(LISTENS, seen, listen.script.at_line(line), hint, sure=True)
-
-
-def only_debug(listen: Listened) -> Wrong | None:
-    called = listen.script.facts.called_back
-    if any(listen.times) or "logdebug" not in called or "loginfo" in called:
-        return None
-    info, where = listen.script.facts.idioms.info, listen.script.at_line(*called["logdebug"][:1])
-    return Wrong(LISTENS, "the level debug, which is not displayed", where, info, sure=True)
-
-
-def wants_other_type(listen: Listened) -> Wrong | None:
-    """Compare the type that it subscribes to; rospy warns of types that differ."""
-    call = listen.script.facts.first("Subscriber")
-    kind = call.words[1].rpartition(".")[2] if call and len(call.words) > 1 else "String"
-    refused = any("datatype" in line and "chatter" in line for line in listen.seen.warnings)
-    if kind == "String" and not refused:
-        return None
-    kind = "another type of message" if kind == "String" else kind
-    idioms = listen.script.facts.idioms
-    hint = with_import(idioms.typed_subscriber("chatter", "String"), "String", listen.script.facts)
-    return Wrong(LISTENS, f"it wants {kind} on /chatter", listen.subscriber, hint)
-
-
-def receives_nothing(listen: Listened) -> Wrong:
-    """Return the Wrong for a listener that does not display all texts."""
-    diagnoses = (
-        crashed_deaf, subscribed_elsewhere, subscription_has_ended, not_subscribed, no_callback,
-        wants_other_type, never_called, no_text, only_debug,
-    )  # fmt: skip
-    idioms = listen.script.facts.idioms
-    hint = f"does callback(data) display {idioms.text}, with {idioms.info}?"
-    seen = f"{sum(map(bool, listen.times))} of {len(STRINGS)} displayed"
-    return first_of(diagnoses, listen) or Wrong(LISTENS, seen, listen.subscriber, hint)
-
-
-def twice_displayed(listen: Listened) -> Note | None:
-    if min(listen.times) < 2:
-        return None
-    called = listen.script.facts.called_back
-    displays = sorted(called.get("print", []) + called.get("loginfo", []))
-    places = (listen.script.facts.lines("Subscriber"), displays)
-    where = listen.script.at_line(next((lines[1] for lines in places if len(lines) > 1), 0))
-    info = listen.script.facts.idioms.info
-    hint = f"one Subscriber, and one {info} in its callback, are enough"
-    return Note(f"each text is displayed {min(listen.times)} times", where, hint)
+    calls = [(script, script.facts.first("init_node")) for script in programs]
+    named = [(script, call.words[0]) for script, call in calls if call and call.words]
+    odd = next((script for script, name in named if name not in script.name), programs[-1])
+    seen = "talker and listener have the same name: the node that starts later ends the other"
+    hint = f"{odd.facts.idioms.init} gives each node a name of its own"
+    return Wrong("two nodes side by side", seen, odd.at_call("init_node"), hint, sure=True)
 
 
 RATE_DIAGNOSES = (made_again, few_messages, no_sleep, unwanted_rate, same_text, other_rate)

@@ -103,12 +103,13 @@ def silent_end(facts: SourceFacts) -> tuple[int, str]:
 
 def silent_main(facts: SourceFacts) -> tuple[int, str]:
     """Return the same for a program in C++, whose main returns."""
-    keeping, idioms = {*CALLS_BACK, "is_shutdown"}, facts.idioms
-    if not keeping & facts.calls.keys():
-        lines = facts.lines("Subscriber") or facts.lines("Publisher") or [0]
-        need = idioms.spin if "Subscriber" in facts.calls else idioms.in_loop
-        return lines[-1], f"{need} is missing below: without it main returns, and the program ends"
-    return 0, f"main returns: only {idioms.spin}, or {idioms.loop}, keeps a program running"
+    idioms = facts.idioms
+    if facts.loops or any(name in facts.calls for name in CALLS_BACK):
+        return 0, f"main returns: only {idioms.spin}, or {idioms.loop}, keeps a program running"
+    waits = "Subscriber" in facts.calls
+    lines = facts.lines(*("Subscriber",) if waits else ("publish", "Publisher"))
+    need = f"{idioms.spin} belongs below it" if waits else f"{idioms.loop} belongs around it"
+    return next(iter(lines), 0), f"{need}: without that main returns, and the program ends"
 
 
 def misspelt_init(node: ClassFacts) -> str:

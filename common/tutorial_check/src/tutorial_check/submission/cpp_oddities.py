@@ -13,6 +13,7 @@ from tutorial_check.submission.cpp_order import (
     late_subscriber,
     repeated_publisher,
     text_as_object,
+    unended_line,
 )
 from tutorial_check.submission.cpp_tree import Node, Tree
 from tutorial_check.submission.oddities import LostSubscriber, OddIndex, Oddities, Place
@@ -43,6 +44,7 @@ def oddities_of(trees: Sequence[Tree]) -> Oddities:
         late_subscriber=late_subscriber(trees),
         late_loop=late_loop(trees),
         repeated_publisher=repeated_publisher(trees),
+        unended_line=unended_line(trees),
     )
 
 

@@ -29,8 +29,9 @@ def early_handle(trees: Sequence[Tree]) -> Place:
 def _handles(trees: Sequence[Tree]) -> Iterator[tuple[int, Node]]:
     """Yield (line, node) of each NodeHandle that a declaration makes."""
     for line, node in tree.nodes(trees, "declaration", "field_declaration"):
-        is_handle = tree.last_name(tree.field(node, "type")) == "NodeHandle"
-        if is_handle and tree.field(node, "declarator").type != "pointer_declarator":
+        declarator = tree.field(node, "declarator")
+        is_pointer = declarator is not None and declarator.type == "pointer_declarator"
+        if tree.last_name(tree.field(node, "type")) == "NodeHandle" and not is_pointer:
             yield line, node
 
 
@@ -75,3 +76,14 @@ def repeated_publisher(trees: Sequence[Tree]) -> int:
     """Return the line of the first advertise within a loop, or 0."""
     calls = tree.calls(trees, "advertise")
     return next((line for line, call in calls if tree.above(call, *LOOPS)), 0)
+
+
+def unended_line(trees: Sequence[Tree]) -> int:
+    """Return the line of the first output to cout, or of printf, that ends no line; or 0."""
+    for line, statement in tree.nodes(trees, "expression_statement"):
+        words = {tree.text_of(node) for node in tree.below(statement, "identifier")}
+        is_output = "printf" in words or "cout" in words
+        ends = "endl" in words or "flush" in words or "\\n" in tree.text_of(statement)
+        if is_output and not ends:
+            return line
+    return 0

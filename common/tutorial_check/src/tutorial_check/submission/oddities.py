@@ -44,3 +44,4 @@ class Oddities:
     late_subscriber: int = 0  # the line of a subscribe that comes after ros::spin
     late_loop: int = 0  # the line of a loop that comes after ros::spin
     repeated_publisher: int = 0  # the line of advertise in a loop
+    unended_line: int = 0  # the line of an output without std::endl
