@@ -82,7 +82,7 @@ def few_messages(talk: Talked) -> Note | None:
 
 def made_again(talk: Talked) -> Wrong | None:
     """Find a Publisher that is made in the loop: until listeners have connected, it is gone."""
-    line = talk.script.facts.oddities.repeated_publisher
+    line = talk.script.facts.lapses.repeated_publisher
     if not line:
         return None
     seen = "few messages arrive: advertise in the loop makes a new Publisher at each turn"
@@ -143,7 +143,7 @@ def sent_elsewhere(talk: Talked) -> Wrong | None:
 
 
 def never_loops(talk: Talked) -> Wrong | None:
-    line, spin = talk.script.facts.oddities.late_loop, talk.script.facts.idioms.spin
+    line, spin = talk.script.facts.lapses.late_loop, talk.script.facts.idioms.spin
     if not line:
         return None
     seen = f"not one message: {spin} comes before the loop, and returns only when the node ends"

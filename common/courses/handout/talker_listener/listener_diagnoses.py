@@ -91,7 +91,7 @@ def never_called(listen: Listened) -> Wrong | None:
 
 def no_text(listen: Listened) -> Wrong | None:
     """Find a std::string where ROS_INFO needs the characters in it."""
-    line, text = listen.script.facts.oddities.text_as_object or (0, "")
+    line, text = listen.script.facts.lapses.text_as_object or (0, "")
     if not line:
         return None
     seen, hint = f"%s displays something else than {text}", f"{text}.c_str()"
@@ -133,7 +133,7 @@ def receives_nothing(listen: Listened) -> Wrong:
 
 
 def displayed_late(listen: Listened) -> Note | None:
-    line = listen.script.facts.oddities.unended_line
+    line = listen.script.facts.lapses.unended_line
     seen = "what ends no line is displayed when the program ends, or later"
     return Note(seen, listen.script.at_line(line), "... << std::endl;") if line else None
 

@@ -38,7 +38,7 @@ def unsubscribed(facts: SourceFacts) -> Cause | None:
     for node in (node for node in facts.classes if node.is_node and not node.instantiated):
         hint = f"in main, before {facts.idioms.spin}: {node.name} node;"
         return Cause(node.line, f"no {node.name} is ever made", hint)
-    late, spin = facts.oddities.late_subscriber, facts.idioms.spin
+    late, spin = facts.lapses.late_subscriber, facts.idioms.spin
     seen = f"{spin} comes before it, and returns only when the node ends"
     return Cause(late, seen, f"put it above {spin}") if late else None
 

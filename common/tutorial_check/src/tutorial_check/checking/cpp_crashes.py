@@ -12,7 +12,7 @@ from tutorial_check.checking.submission import Submission
 from tutorial_check.data.recordings import Ran
 from tutorial_check.submission.aborts import TRACEBACK, abort_of, has_failed, signal_of
 from tutorial_check.submission.cpp_facts import CppFacts
-from tutorial_check.submission.cpp_order import ABOVE
+from tutorial_check.submission.cpp_lapses import ABOVE
 
 NAME = re.compile(r"[Nn]ame \[(?P<name>.*?)\](?:\.  Valid|:)")
 # {pattern for an error: the line to blame, or 0}; the first that matches counts.
@@ -54,7 +54,7 @@ def blamed(error: str, facts: CppFacts) -> tuple[int, str]:
     if name:
         line = facts.line_of_text(name["name"])
     if "ros::init() before" in error:
-        return facts.oddities.early_handle or (_first(facts, "NodeHandle"), ABOVE)
+        return facts.lapses.early_handle or (_first(facts, "NodeHandle"), ABOVE)
     return line, "".join(explained("c++", error))
 
 

@@ -9,11 +9,11 @@ from typing import ClassVar, Iterator, Mapping
 from tutorial_check.submission import cpp_tree as tree
 from tutorial_check.submission.cpp_classes import classes_of
 from tutorial_check.submission.cpp_ending import ending_of, handler_of
+from tutorial_check.submission.cpp_lapses import LOOPS, lapses_of
 from tutorial_check.submission.cpp_oddities import oddities_of
-from tutorial_check.submission.cpp_order import LOOPS
 from tutorial_check.submission.cpp_tree import Node
 from tutorial_check.submission.idioms import CPP, Idioms
-from tutorial_check.submission.oddities import Oddities
+from tutorial_check.submission.oddities import Lapses, Oddities
 from tutorial_check.submission.source_facts import Call, Ending, SourceFacts
 
 NAMES = {  # {of roscpp: of rospy}
@@ -80,6 +80,10 @@ class CppFacts(SourceFacts):
     @cached_property
     def oddities(self) -> Oddities:
         return oddities_of(self._trees)
+
+    @cached_property
+    def lapses(self) -> Lapses:
+        return lapses_of(self._trees)
 
     @property
     def attributes(self) -> dict[str, tuple[int, str]]:

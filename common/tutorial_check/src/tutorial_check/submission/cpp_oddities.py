@@ -6,15 +6,6 @@ import re
 from typing import Iterator, Sequence
 
 from tutorial_check.submission import cpp_tree as tree
-from tutorial_check.submission.cpp_order import (
-    bare_ok,
-    early_handle,
-    late_loop,
-    late_subscriber,
-    repeated_publisher,
-    text_as_object,
-    unended_line,
-)
 from tutorial_check.submission.cpp_tree import Node, Tree
 from tutorial_check.submission.oddities import LostSubscriber, OddIndex, Oddities, Place
 
@@ -38,13 +29,6 @@ def oddities_of(trees: Sequence[Tree]) -> Oddities:
         whole_axis=next(_whole_axes(trees), ()),
         indices=tuple(_indices(trees)),
         unset_pointer=next(_unset_pointers(trees), ()),
-        early_handle=early_handle(trees),
-        text_as_object=text_as_object(trees),
-        bare_ok=bare_ok(trees),
-        late_subscriber=late_subscriber(trees),
-        late_loop=late_loop(trees),
-        repeated_publisher=repeated_publisher(trees),
-        unended_line=unended_line(trees),
     )
 
 

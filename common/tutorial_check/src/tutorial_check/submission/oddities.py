@@ -38,6 +38,12 @@ class Oddities:
     whole_axis: Place = ()  # an axis that becomes a whole number
     indices: tuple[OddIndex, ...] = ()  # of axes and buttons
     unset_pointer: Place = ()  # the first use of a pointer that is never set
+
+
+@dataclass(frozen=True)
+class Lapses:
+    """What a program in C++ does too early, too late or never: lines, or 0."""
+
     early_handle: Place = ()  # (line, fix): a NodeHandle before ros::init
     text_as_object: Place = ()  # a std::string for %s, without c_str()
     bare_ok: int = 0  # the line of ros::ok without ()

@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import ClassVar, Sequence
 
 from tutorial_check.submission.idioms import PYTHON, Idioms
-from tutorial_check.submission.oddities import Oddities, Place
+from tutorial_check.submission.oddities import Lapses, Oddities, Place
 
 
 @dataclass
@@ -80,6 +80,10 @@ class SourceFacts:
     @cached_property
     def oddities(self) -> Oddities:
         return Oddities()
+
+    @cached_property
+    def lapses(self) -> Lapses:
+        return Lapses()
 
     @property
     def bare_names(self) -> list[tuple[int, str]]:

@@ -6,7 +6,7 @@ from typing import Iterator, Sequence
 
 from tutorial_check.submission import cpp_tree as tree
 from tutorial_check.submission.cpp_tree import Node, Tree
-from tutorial_check.submission.oddities import Place
+from tutorial_check.submission.oddities import Lapses, Place
 
 DISPLAYS = ("printf", "ROS_DEBUG", "ROS_INFO", "ROS_WARN", "ROS_ERROR", "ROS_FATAL")
 INNER = ("compound_statement", "field_declaration_list")
@@ -15,7 +15,20 @@ OUTSIDE = "make it in main, below ros::init: a global variable is made before ma
 ABOVE = 'ros::init(argc, argv, "NAME") belongs above it, as the first line of main'
 
 
-def early_handle(trees: Sequence[Tree]) -> Place:
+def lapses_of(trees: Sequence[Tree]) -> Lapses:
+    """Return the lapses of a program of one or more files."""
+    return Lapses(
+        early_handle=_early_handle(trees),
+        text_as_object=_text_as_object(trees),
+        bare_ok=_bare_ok(trees),
+        late_subscriber=_late_subscriber(trees),
+        late_loop=_late_loop(trees),
+        repeated_publisher=_repeated_publisher(trees),
+        unended_line=_unended_line(trees),
+    )
+
+
+def _early_handle(trees: Sequence[Tree]) -> Place:
     """Return (line, fix) of the NodeHandle that is made before ros::init, if that is called."""
     handles = list(_handles(trees))
     inits = [line for line, _ in tree.calls(trees, "init")]
@@ -35,7 +48,7 @@ def _handles(trees: Sequence[Tree]) -> Iterator[tuple[int, Node]]:
             yield line, node
 
 
-def text_as_object(trees: Sequence[Tree]) -> Place:
+def _text_as_object(trees: Sequence[Tree]) -> Place:
     """Return (line, text) of a std::string that is displayed by %s without c_str()."""
     for line, call in tree.calls(trees, *DISPLAYS):
         form, *words = [*tree.arguments_of(call), call]
@@ -45,7 +58,7 @@ def text_as_object(trees: Sequence[Tree]) -> Place:
     return ()
 
 
-def bare_ok(trees: Sequence[Tree]) -> int:
+def _bare_ok(trees: Sequence[Tree]) -> int:
     """Return the line of a ros::ok without (), or 0."""
     for line, node in tree.nodes(trees, "qualified_identifier"):
         if tree.text_of(node) == "ros::ok" and node.parent.type != "call_expression":
@@ -53,14 +66,14 @@ def bare_ok(trees: Sequence[Tree]) -> int:
     return 0
 
 
-def late_subscriber(trees: Sequence[Tree]) -> int:
+def _late_subscriber(trees: Sequence[Tree]) -> int:
     """Return the line of the first subscribe if it comes after a spin of its function, or 0."""
     for line, call in tree.calls(trees, "subscribe"):
         return line if _after_spin(line, call) else 0
     return 0
 
 
-def late_loop(trees: Sequence[Tree]) -> int:
+def _late_loop(trees: Sequence[Tree]) -> int:
     """Return the line of the first loop that comes after a spin of its function, or 0."""
     loops = tree.nodes(trees, *LOOPS)
     return next((line for line, loop in loops if _after_spin(line, loop)), 0)
@@ -72,13 +85,13 @@ def _after_spin(line: int, node: Node) -> bool:
     return any(spin < line for spin, _ in spins)
 
 
-def repeated_publisher(trees: Sequence[Tree]) -> int:
+def _repeated_publisher(trees: Sequence[Tree]) -> int:
     """Return the line of the first advertise within a loop, or 0."""
     calls = tree.calls(trees, "advertise")
     return next((line for line, call in calls if tree.above(call, *LOOPS)), 0)
 
 
-def unended_line(trees: Sequence[Tree]) -> int:
+def _unended_line(trees: Sequence[Tree]) -> int:
     """Return the line of the first output to cout, or of printf, that ends no line; or 0."""
     for line, statement in tree.nodes(trees, "expression_statement"):
         words = {tree.text_of(node) for node in tree.below(statement, "identifier")}
