@@ -106,3 +106,22 @@ def test_a_build_that_does_not_end_has_its_last_step(output, where, words, sessi
     wrong = endless_build(session, output)
     assert (wrong.where, "two minutes" in wrong.seen) == (where, True)
     assert words in wrong.hint
+
+
+def test_a_file_outside_that_cmake_includes_is_not_quoted(session):
+    cmake = f"{TALKER}include(/etc/passwd)\n"
+    (session.source / "mine/CMakeLists.txt").write_text(cmake)
+    output = (
+        "CMake Error at /etc/passwd:1:\n  Parse error.  Expected a command name, got unquoted "
+        'argument with text\n  "root:x:0:0:root:/root:/bin/bash".\nCall Stack (most recent call '
+        "first):\n  mine/CMakeLists.txt:3 (include)\n\n\n-- Configuring incomplete\n"
+    )
+    wrong = build_error(session, output)
+    assert (wrong.seen, wrong.where) == ("CMake includes /etc/passwd", "mine/CMakeLists.txt:3")
+    assert "root" not in f"{vars(wrong)}"
+
+
+def test_a_command_of_make_that_fails_is_reported_with_its_target(session):
+    line = "make[2]: *** [mine/CMakeFiles/talker.dir/build.make:76: mine/x.cpp] Error 1"
+    wrong = build_error(session, f'{line}\nmake: *** [all] Error 2\nInvoking "make -j2" failed\n')
+    assert (wrong.seen, wrong.where) == (line, "mine/CMakeLists.txt:2")

@@ -8,9 +8,10 @@ from pathlib import Path
 
 from node_kit.printable import printable
 from tutorial_check.checking.causes import advice, is_lacking, meant, packages_of_ros
-from tutorial_check.checking.compiler_errors import of_compiler
+from tutorial_check.checking.compiler_errors import OUTSIDE, of_compiler
+from tutorial_check.checking.header_errors import is_outside
 from tutorial_check.checking.linker_errors import SOURCES, of_linker
-from tutorial_check.checking.make_output import EXPECTED, Target, build_hint
+from tutorial_check.checking.make_output import EXPECTED, Target, build_hint, failed_target
 from tutorial_check.checking.results import Wrong
 from tutorial_check.checking.submission import Submission
 from tutorial_check.submission.launch_xml import place_of
@@ -18,6 +19,7 @@ from tutorial_check.submission.launch_xml import place_of
 NOTABLE = re.compile(
     r"Error at|CMake Error|^E: |mismatched tag|error:|Could not find|Multiple packages"
 )
+MAKE_ERROR = re.compile(r"^make\[\d+\]: \*\*\* \[")
 CMAKE_ERROR = re.compile(r"^CMake Error(?: at [^\n]*)?:\s(.*?)(?:\n\n\n|\Z)", re.M | re.S)
 DETAILS = re.compile(r"Call Stack|Tried\s+extensions|See\s+documentation|\n(?:CMake |-- )")
 TAKEN = re.compile(
@@ -44,7 +46,7 @@ def build_error(submission: Submission, output: str) -> Wrong:
     output = printable(output)
     is_of_cmake = CMAKE_ERROR.search(output)
     readers = () if is_of_cmake else (of_compiler, of_linker)
-    for read in (_of_definition, _of_package, _of_target, *readers):
+    for read in (_of_definition, _of_package, _of_included, _of_target, *readers):
         error = read(submission, output)
         if error:
             return error
@@ -58,8 +60,7 @@ def endless_build(submission: Submission, output: str) -> Wrong:
     if source:
         where, seen = f"{folder}/{source}", "compiling takes more than two minutes"
     else:
-        packages = submission.packages
-        packages = [p for p in packages if p.inside == configured] or packages
+        packages = sorted(submission.packages, key=lambda package: package.inside != configured)
         places = (Target(package).line_with(*COMMANDS) for package in packages)
         where = next(filter(None, places), "")
         seen = "CMake or a command takes more than two minutes"
@@ -107,6 +108,17 @@ def _of_package(submission: Submission, output: str) -> Wrong | None:
     return Wrong(EXPECTED, seen[:300], place or _own_line(output), hint)
 
 
+def _of_included(submission: Submission, output: str) -> Wrong | None:
+    """Return the Wrong for CMake's error in a file outside of the package. It quotes nothing."""
+    error = CMAKE_ERROR.search(output)
+    path = re.match(r"CMake Error at (/[^\n]{1,500}?):\d", error[0]) if error else None
+    if not path or not is_outside(submission, path[1]):
+        return None
+    places = (Target(p).line_with(path[1], "include(", "include (") for p in submission.packages)
+    where = next(filter(None, places), "")
+    return Wrong(EXPECTED, f"CMake includes {path[1]}"[:300], where, build_hint("header", OUTSIDE))
+
+
 def _of_target(submission: Submission, output: str) -> Wrong | None:
     """Return the Wrong for a target with a name that is taken, or without its source file."""
     message, place = _of_cmake(output), _own_line(output)
@@ -132,8 +144,11 @@ def _of_target(submission: Submission, output: str) -> Wrong | None:
 def _other(submission: Submission, output: str) -> Wrong:
     """Return the Wrong for a CMake error, or for any other line."""
     lines = [line.strip() for line in output.splitlines()]
-    words = next(filter(NOTABLE.search, lines), lines[-1] if lines else "")
+    notable = (next(filter(pattern.search, lines), "") for pattern in (NOTABLE, MAKE_ERROR))
+    words = next(filter(None, notable), lines[-1] if lines else "")
     message, place = _of_cmake(output), _own_line(output)
+    if MAKE_ERROR.search(words):
+        place = failed_target(submission, output).where
     if words.startswith("CMake Error") and message:
         words = f"CMake: {message}"
     named = NAMED_TARGET.search(message)
