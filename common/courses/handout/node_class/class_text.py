@@ -53,6 +53,7 @@ def _class_of(submission: Submission) -> tuple[str, ClassFacts] | None:
         path, node = candidate
         return (
             node.name in bases,
+            not (scripts[path].is_python or node.instantiated),
             not _fits(node.name + path),
             bool(re.search(r"(^|/)(old|backup|copy)[^/]*/", path, re.IGNORECASE)),
             "on_shutdown" not in scripts[path].calls,
