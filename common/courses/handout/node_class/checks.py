@@ -63,7 +63,7 @@ def _endings(submission: Submission) -> Endings:
     if seen.program:
         how = "by a launch file" if seen.failed == LAUNCH else "under another name"
         expected = f"the class drives, started {how} as well"
-        raise crash(submission, PACKAGE, seen.program, expected, made.facts.idioms.arguments)
+        raise crash(submission, PACKAGE, seen.program, expected, made.words.arguments)
     return seen
 
 
@@ -117,7 +117,7 @@ class DrivingEnd:
 def no_zero(ending: DrivingEnd) -> Wrong | None:
     if ending.end.zero_after_s is not None or ending.may_lack_zero:
         return None
-    facts, hint = ending.made.facts, ending.made.facts.idioms.stops_robot
+    facts, hint = ending.made.facts, ending.made.words.stops_robot
     # If it has exited and registers no shutdown, it will not send a zero next time, either.
     sure = ending.end.took_s is not None and not ending.is_registered
     if not facts.is_python:
@@ -174,7 +174,7 @@ def nothing_after(submission: Submission) -> Note | str | None:
     seen = f"{most} moving Twists followed the zero:"
     seen += " the callback goes on during shutdown (the handout's does, too)"
     made = program(submission)
-    return Note(seen, made.path, made.facts.idioms.unsubscribes)
+    return Note(seen, made.path, made.words.unsubscribes)
 
 
 @check("C33", "its errors are seen", "6.2", needs=behaves,
@@ -190,7 +190,7 @@ def errors_are_seen(submission: Submission) -> Note | str | None:
     if seen.ended and not REPORTS.search(output):
         words = f"nobody publishes on {submission.task.names.joy}, and it ends; it printed: "
         words += last_lines(output) or "nothing"
-        hint = made.facts.idioms.waits
+        hint = made.words.waits
         expected = "without a joystick it waits for one, or reports what is missing"
         raise Wrong(expected, words, where, hint)
     if not NAMES_IT.search(seen.broken.output) if seen.broken and seen.broken_ended else excepts:

@@ -20,6 +20,7 @@ from tutorial_check import (
 )
 
 from ..task import NAME, PACKAGE
+from .class_words import ClassWords, words_for
 
 OF_CLASS = re.compile("new|class", re.IGNORECASE)  # in the name of a program
 
@@ -36,6 +37,10 @@ class ClassProgram:
     @property
     def facts(self) -> SourceFacts:
         return self.scripts[self.path]
+
+    @property
+    def words(self) -> ClassWords:
+        return words_for(self.facts)
 
     def at(self, line: int) -> str:
         return self.facts.place(self.path, line)
@@ -105,7 +110,7 @@ def _no_class(submission: Submission) -> Wrong:
             find_script(submission, PACKAGE, f"{stem}.py")
     named = [path for path in scripts if OF_CLASS.search(path)]
     expected = f"a class that subscribes to {names.joy} and publishes on {names.cmd_vel}"
-    hint = [SourceFacts.idioms, *(facts.idioms for facts in scripts.values())][-1].class_parts
+    hint = words_for([SourceFacts(), *scripts.values()][-1]).class_parts
     return Wrong(expected, f"no class in any program of {names.package}", "".join(named[:1]), hint)
 
 
@@ -116,11 +121,11 @@ def no_init(made: ClassProgram) -> Wrong | None:
         return None
     seen = f"`def {odd[0]}`: Python calls `__init__`" if odd else f"{node.name} has no __init__"
     hint = "def __init__(self): with two underscores on either side"
-    return Wrong(made.facts.idioms.is_class, seen, made.at(node.line), hint)
+    return Wrong(made.words.is_class, seen, made.at(node.line), hint)
 
 
 def never_made(made: ClassProgram) -> Wrong | None:
-    node, idioms = made.node, made.facts.idioms
+    node, words = made.node, made.words
     is_called = any(node.name in facts.calls for facts in made.scripts.values())
     if node.instantiated or made.script != made.path or (is_called and made.facts.is_python):
         return None
@@ -128,7 +133,7 @@ def never_made(made: ClassProgram) -> Wrong | None:
     line, text = node.unmade or next(iter(bare), (node.line, ""))
     seen = f"{node.name} is never created"
     seen += f": `{text}` makes no object that lasts" if node.unmade else ""
-    return Wrong(idioms.is_class, seen, made.at(line), idioms.makes_object.format(name=node.name))
+    return Wrong(words.is_class, seen, made.at(line), words.makes_object.format(name=node.name))
 
 
 @dataclass(frozen=True)
@@ -187,7 +192,7 @@ def odd_method(made: ClassProgram) -> Wrong | None:
 
 def shares_by_global(made: ClassProgram) -> Note | None:
     lines = made.facts.globals
-    return Note(made.facts.idioms.shares, made.at(lines[0])) if lines else None
+    return Note(made.words.shares, made.at(lines[0])) if lines else None
 
 
 def early_shutdown(made: ClassProgram) -> Note | None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from tutorial_check import SourceFacts
 
+from .class_words import CPP
+
 ZERO = "geometry_msgs::Twist()"
 
 
@@ -24,7 +26,7 @@ def lack_of_zero(facts: SourceFacts) -> tuple[int, str]:
         return ending.replaced, f"{hint} ros::init_options::NoSigintHandler"
     if ending.late and not handler:
         hint = f"{ending.late_place} it is too late: Ctrl-C has closed the topics;"
-        return ending.late, f"{hint} {facts.idioms.stops_robot}"
+        return ending.late, f"{hint} {CPP.stops_robot}"
     if ending.own_sigint and not handler:
         hint = "with NoSigintHandler Ctrl-C ends the program at once: signal(SIGINT, onCtrlC)"
         return ending.own_sigint, f"{hint}, in which it publishes {ZERO} and calls ros::shutdown()"
