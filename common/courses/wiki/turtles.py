@@ -151,6 +151,10 @@ def reaches(submission):
         file.must(not others, words, expected, there, COMMAND)
         if not length(path):
             file.must_run(seen.program, expected)
+            hint = file.either(
+                "publish in the loop", "callbacks run in ros::spinOnce(), in the loop"
+            )
+            file.must(False, "while publish(", expected, "turtle1 does not move", hint)
         near = next((k for k, gap_m in enumerate(gaps) if gap_m < NEARLY_M), 0)
         hint = "atan2(goal y - y, goal x - x) - theta is the angle to turn by"
         file.must(near, "atan2( angular.z", expected, f"only {min(gaps):.1f} m", hint)
