@@ -18,18 +18,22 @@ def find_compiled(submission: Submission, package: str, name: str) -> str:
     """Return the main source of a program, within its package. Raises Wrong.
 
     name: talker.py for a program talker. An executable of that name comes before one that is made
-    of a source of that name, and that before one whose name has it as a part.
+    of a source of that name, and that before one whose name begins with it, or has it as a part.
     """
     must_build(submission)
     stem, programs = name.rpartition(".py")[0] or name, submission.cpp_programs(package)
     names = {path: _executable(submission, package, path).name for path in programs}
 
-    def rank(path: str) -> int:
-        ways = (names[path] == stem, Path(path).stem == stem, stem in names[path])
-        return next((place for place, is_so in enumerate(ways) if is_so), len(ways))
+    def rank(path: str) -> tuple[int, bool]:
+        called, is_built = names[path], _executable(submission, package, path).is_built
+        # new_joy2twist is another program, not a joy2twist.
+        contains = stem in called and not called.startswith("new_")
+        ways = (called == stem, Path(path).stem == stem, called.startswith(stem), contains)
+        place = next((place for place, is_so in enumerate(ways) if is_so), len(ways))
+        return place, not is_built
 
     best = min(programs, key=rank, default="")
-    if best and rank(best) < 3:
+    if best and rank(best)[0] < 4:
         return best
     raise _no_target(submission, package, stem, names)
 
@@ -45,17 +49,31 @@ def _no_target(submission: Submission, package: str, stem: str, names: dict[str,
     inside = submission.package(package)
     where = f"{inside.inside}/CMakeLists.txt"
     expected = f"a program {stem} in the package {submission.task.in_messages(package)}"
-    sources = [path.relative_to(inside.folder) for path in submission.cpp_sources(package)]
-    stems = [path.stem for path in sources]
     place = place_of(where, inside.cmake or "", "add_executable", "catkin_package", "project")
-    near = difflib.get_close_matches(stem, stems, 1, 0.7)
-    if not near:
-        seen = f"the programs are called {', '.join(names.values())}" if names else "none"
-        hint = f"write src/{stem}.cpp, and in CMakeLists.txt"
-        return Wrong(expected, seen, place, f"{hint} {_lines(stem, f'src/{stem}.cpp')}")
-    source = sources[stems.index(near[0])]
-    seen = f"{source} is in no add_executable of CMakeLists.txt"
-    return Wrong(expected, seen, place, f"below catkin_package() write {_lines(stem, source)}")
+    unused = {source.stem: source for source in _unused_sources(submission, package)}
+    near = difflib.get_close_matches(stem, unused, 1, 0.7)
+    if near:
+        source = unused[near[0]]
+        seen = f"{source} is in no add_executable of CMakeLists.txt"
+        return Wrong(expected, seen, place, f"below catkin_package() write {_lines(stem, source)}")
+    if not names:
+        hint = f"write src/{stem}.cpp, and in CMakeLists.txt {_lines(stem, f'src/{stem}.cpp')}"
+        return Wrong(expected, "none", place, hint)
+    seen = f"the programs are called {', '.join(names.values())}"
+    others = {path: name for path, name in names.items() if not name.startswith("new_")}
+    lower = {path: name.lower() for path, name in others.items()}
+    alike = difflib.get_close_matches(stem, lower.values(), 1, 0.7)
+    source = next((path for path in lower if lower[path] in alike), f"src/{stem}.cpp")
+    return Wrong(expected, seen, place, f"the name is the first word in {_lines(stem, source)}")
+
+
+def _unused_sources(submission: Submission, package: str) -> list[Path]:
+    """Return the C++ files, within a package, that no program is made of."""
+    folder = submission.package(package).folder
+    used = {source for made in submission.executables for source in made.sources}
+    sources = submission.cpp_sources(package)
+    unused = (path for path in sources if str(path.relative_to(submission.source)) not in used)
+    return [path.relative_to(folder) for path in unused]
 
 
 def _lines(stem: str, source: object) -> str:
@@ -69,9 +87,9 @@ def must_be_built(submission: Submission, package: str, path: str) -> None:
         must_build(submission)
         seen = f"catkin_make has made no {executable.name}"
         raise Wrong(f"a program {executable.name}", seen, path, "catkin_make in your workspace")
-    name = submission.package(package).name
-    if not executable.path.startswith(f"devel/lib/{name}/"):
-        inside = submission.package(package)
+    inside = submission.package(package)
+    places = (f"devel/lib/{inside.name}/", f"src/{inside.inside}/")  # where rosrun looks
+    if not executable.path.startswith(places):
         words = (f"add_executable({executable.name}", "add_executable")
         where = place_of(f"{inside.inside}/CMakeLists.txt", inside.cmake or "", *words)
         seen = f"it is made as {executable.path}"

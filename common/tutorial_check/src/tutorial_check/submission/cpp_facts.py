@@ -46,9 +46,11 @@ class CppFacts(SourceFacts):
         super().__init__()
         self._starts: dict[str, int] = {}  # {file: number of its first line, less one}
         self._trees: list[tuple[int, Node]] = []  # (that number, root of its tree)
+        tokens = 0
         for path, text in files.items():
             self._starts[path] = len(self.text)
-            root = tree.parsed(text)
+            tokens += tree.tokens_of(text)
+            root = tree.parsed(text) if tokens <= tree.MOST_TOKENS else None
             if root is not None:
                 self._trees.append((len(self.text), root))
             first = len(self.text) + 1
@@ -65,10 +67,7 @@ class CppFacts(SourceFacts):
             if node.type != "for_statement" or tree.field(node, "condition") is None
         ]
         self.classes = list(classes_of(self._trees))
-        self.imports = {
-            tree.text_of(tree.field(node, "path")).strip("<>")
-            for _, node in self._nodes("preproc_include")
-        }
+        self.imports = {name for _, root in self._trees for name in tree.included(root)}
 
     def place(self, path: str, line: int) -> str:
         """Return FILE:LINE, of the file that a numbered line is in; for line 0 the program."""
@@ -156,9 +155,8 @@ class CppFacts(SourceFacts):
             return ""
         function = given if given.type == "lambda_expression" else None
         name = _callback(given)
-        for _, node in self._nodes("function_definition") if function is None else ():
-            if tree.last_name(_declarator(node)) == name:
-                function = node
+        if function is None:
+            _, function = self._bodies.get(name, (0, None))
         if function is None:
             return ""
         parameters = tree.below(function, "parameter_declaration")

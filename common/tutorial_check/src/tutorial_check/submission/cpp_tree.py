@@ -8,10 +8,17 @@ from __future__ import annotations
 
 import functools
 import importlib.util
+import re
 from pathlib import Path
 from typing import Any, Iterator, Sequence, Tuple
 
 Node = Any  # tree_sitter.Node: .type, .children, .text, .child_by_field_name(), .start_point
+# Of a program; one of 1,000 lines has about 10,000. tree-sitter may need 3 kB for a token, as in
+# a<a<a<a, or seconds for many, as in [[a]][[a]][[a]].
+MOST_TOKENS = 20_000
+TOKEN = re.compile(r"\w+|[^\w\s]")
+MOST_LEVELS = 200  # each node is read once for each node around it
+MOST_LETTERS = 3000  # of an expression's text
 Tree = Tuple[int, Node]  # (number of its file's first line, less one; root)
 
 
@@ -38,10 +45,33 @@ def folder() -> Path | None:
     return Path(spec.origin).parents[1] if spec and spec.origin else None
 
 
+def tokens_of(text: str) -> int:
+    """Return about how many tokens a text has."""
+    return len(TOKEN.findall(text))
+
+
 def parsed(text: str) -> Node | None:
-    """Return the root of a file's tree, or None without tree-sitter."""
+    """Return the root of a file's tree, or None without tree-sitter, or for too long a text."""
     parser = _parser()
-    return parser.parse(text.encode()).root_node if parser else None
+    if parser is None or tokens_of(text) > MOST_TOKENS:
+        return None
+    # A byte order mark would hide the first line.
+    root = parser.parse(text.lstrip("\ufeff").encode(errors="replace")).root_node
+    return root if _depth(root) <= MOST_LEVELS else None
+
+
+def _depth(root: Node) -> int:
+    """Return the levels of a tree, or a number above MOST_LEVELS."""
+    level, depth = [root], 0
+    while level and depth <= MOST_LEVELS:
+        level, depth = [child for node in level for child in node.children], depth + 1
+    return depth
+
+
+def included(root: Node | None) -> set[str]:
+    """Return the files that a file includes, such as ros/ros.h."""
+    lines = below(root, "preproc_include") if root is not None else []
+    return {text_of(field(line, "path")).strip("<>") for line in lines}
 
 
 def walk(node: Node | None) -> Iterator[Node]:
@@ -84,8 +114,8 @@ def field(node: Node, name: str) -> Node | None:
 
 
 def text_of(node: Node | None) -> str:
-    """Return the text of an expression, of a string without its quotes."""
-    if node is None:
+    """Return the text of an expression, of a string without its quotes; "" if it is very long."""
+    if node is None or node.end_byte - node.start_byte > MOST_LETTERS:
         return ""
     text: str = node.text.decode(errors="replace")
     return text.strip('"') if node.type == "string_literal" else " ".join(text.split())

@@ -14,6 +14,7 @@ from tutorial_check.course.tasks import Task
 from tutorial_check.data.recordings import Executable
 from tutorial_check.submission import student_files
 from tutorial_check.submission.cpp_facts import CppFacts
+from tutorial_check.submission.cpp_sources import CPP_ENDINGS, main_of, texts_of
 from tutorial_check.submission.manifests import first_broken
 from tutorial_check.submission.order import Order
 from tutorial_check.submission.packages import SOLUTIONS, Package, packages_below
@@ -27,8 +28,6 @@ NEEDS_BUILD = re.compile(
     r"|add_executable|catkin_install_python)\s*\(",
     re.MULTILINE | re.IGNORECASE,
 )
-CPP_ENDINGS = (".cpp", ".cc", ".cxx", ".c++", ".C", ".CPP")
-HEADER_ENDINGS = (".h", ".hpp", ".hh", ".hxx")
 Value = TypeVar("Value")
 
 
@@ -130,32 +129,36 @@ class SubmissionFiles:
 
     def _cpp_programs(self, name: str) -> Iterator[tuple[str, CppFacts]]:
         folder = self.package(name).folder
-        for executable in self.executables if self.cpp_sources(name) else ():
-            paths = [self.source / source for source in executable.sources]
-            own = [path for path in paths if folder in path.parents and path.is_file()]
-            if not own:
-                continue
-            named = [path for path in own if path.stem == executable.name]
-            main = (named or own)[0]
-            files = dict.fromkeys([main, *own, *self._headers(own, folder)])
-            yield (
-                str(main.relative_to(folder)),
-                CppFacts({str(path.relative_to(folder)): self.read(path) for path in files}),
-            )
+        for path, executable in self.compiled(name).items():
+            sources = self._own_sources(executable, folder)
+            yield path, CppFacts(texts_of(folder / path, sources, folder, self.read))
 
-    def _headers(self, sources: list[Path], folder: Path) -> list[Path]:
-        """Return the headers of the package that sources include."""
-        names = {name for path in sources for name in CppFacts({"": self.read(path)}).imports}
-        files = (path for path in sorted(folder.rglob("*")) if path.suffix in HEADER_ENDINGS)
-        return [path for path in files if any(str(path).endswith(f"/{name}") for name in names)]
+    def compiled(self, name: str) -> dict[str, Executable]:
+        """Return {main source within the package: Executable}."""
+        return self.memo(("compiled", name), lambda: self._compiled(name))
+
+    def _compiled(self, name: str) -> dict[str, Executable]:
+        folder = self.package(name).folder
+        made: dict[str, Executable] = {}
+        for executable in self.executables if self.cpp_sources(name) else ():
+            sources = self._own_sources(executable, folder)
+            if sources:
+                main = main_of(executable, sources, self.read)
+                before = made.get(str(main.relative_to(folder)))
+                if not before or before.name != main.stem:
+                    made[str(main.relative_to(folder))] = executable
+        return made
+
+    def _own_sources(self, executable: Executable, folder: Path) -> list[Path]:
+        """Return those sources of an executable that are in a package's folder."""
+        paths = (self.source / source for source in executable.sources)
+        return [path for path in paths if folder in path.parents and path.is_file()]
 
     def executable_of(self, name: str, path: str) -> Executable | None:
         """Return the executable whose main source has a path; None for a script."""
-        if not path.endswith(CPP_ENDINGS) or path not in self.cpp_programs(name):
+        if not path.endswith(CPP_ENDINGS):
             return None
-        inside = os.path.relpath(self.package(name).folder / path, self.source)
-        made = (executable for executable in self.executables if inside in executable.sources)
-        return min(made, key=lambda made: made.name != Path(path).stem, default=None)
+        return self.compiled(name).get(path)
 
     def scripts(self, name: str) -> dict[str, PythonFacts]:
         """Return {path within the package: PythonFacts} of the Python programs of a package."""
