@@ -27,7 +27,7 @@ def unsubscribed(facts: SourceFacts) -> Cause | None:
         return Cause(lost.line, "the Subscriber that subscribe() returns is not kept", hint)
     if lost:
         seen = f"{lost.name} ends with {lost.ends_with}, and the subscription with it"
-        hint = "make it a member of the class, or a global variable"
+        hint = "make it a variable of main, a member of the class, or a global variable"
         if lost.hides:
             hint = f"write `{lost.name} = ...` without a type: the member of that name is meant"
         return Cause(lost.line, seen, hint)

@@ -14,6 +14,7 @@ from tutorial_check.submission.aborts import TRACEBACK, abort_of, has_failed, si
 from tutorial_check.submission.cpp_facts import CppFacts
 from tutorial_check.submission.cpp_lapses import ABOVE
 
+UNCAUGHT = "nothing catches this exception: the program ends where it is thrown"
 NAME = re.compile(r"[Nn]ame \[(?P<name>.*?)\](?:\.  Valid|:)")
 # {pattern for an error: the line to blame, or 0}; the first that matches counts.
 LINES: dict[str, Callable[[CppFacts], int]] = {
@@ -41,6 +42,7 @@ def compiled_crash(submission: Submission, package: str, ran: Ran, expected: str
     error = abort_of(ran.output)
     seen = error or f"the program was ended by {signal}"
     line, hint = blamed(error or signal, facts)
+    hint = hint or (UNCAUGHT if "::" in error else "")
     return Wrong(expected, seen, facts.place(path, line), hint, sure=bool(error))
 
 
@@ -51,8 +53,8 @@ def blamed(error: str, facts: CppFacts) -> tuple[int, str]:
         return line, hint or "".join(explained("c++", error))
     line = next((find(facts) for pattern, find in LINES.items() if re.search(pattern, error)), 0)
     name = NAME.search(error)
-    if name:
-        line = facts.line_of_text(name["name"])
+    text = name["name"] if name else error.partition(": ")[2]  # of an exception of its own
+    line = line or (facts.line_of_text(text) if text else 0)
     if "ros::init() before" in error:
         return facts.lapses.early_handle or (_first(facts, "NodeHandle"), ABOVE)
     return line, "".join(explained("c++", error))

@@ -31,6 +31,9 @@ def of_linker(submission: Submission, output: str) -> Wrong | None:
         return None
     target = failed_target(submission, output, error.end())
     message = plain(error[0])
+    empty = _empty_source(target) if message.endswith("main'") else ""
+    if empty:
+        return Wrong(EXPECTED, "the file is empty", empty, "was it saved?")
     where, hint = target.where, ""
     symbol = SYMBOL.match(message)
     library = LIBRARIES.get(symbol[1].partition("::")[0], "") if symbol else ""
@@ -45,6 +48,15 @@ def of_linker(submission: Submission, output: str) -> Wrong | None:
     unlinked = f"{target.name} without libraries: " if library or not _links(target) else ""
     hint = hint or build_hint("catkin_make", f"{unlinked}{message}")
     return Wrong(EXPECTED, f"{target.name}: {message}"[:300], where or target.where, hint)
+
+
+def _empty_source(target: Target) -> str:
+    """Return the path within src of an empty file that is named like the target, or ""."""
+    folder = target.package.folder if target.package else None
+    for path in sorted(folder.rglob(f"{target.name}.*")) if folder else ():
+        if path.suffix in SOURCES and path.is_file() and not path.stat().st_size:
+            return f"{target.package.inside}/{path.relative_to(folder)}"
+    return ""
 
 
 def _links(target: Target) -> bool:

@@ -96,6 +96,9 @@ class Script(File):
             expected, where = f"{self.name} ends within 3 s of Ctrl-C", self.at_line(*endless[:1])
             hint = f"{self.idioms.spin}, or {self.idioms.loop}"
             hint += " and no `except` that hides the end" if self.is_python else ""
+            bare_ok = self.facts.lapses.bare_ok
+            if bare_ok:
+                where, hint = self.at_line(bare_ok), "without () it is not called: ros::ok()"
             raise Wrong(expected, "it had to be killed", where, hint)
         trace = traceback_of(self.submission, self.package, output)
         if trace and "ROSInterrupt" in trace.error:

@@ -92,11 +92,12 @@ def _repeated_publisher(trees: Sequence[Tree]) -> int:
 
 
 def _unended_line(trees: Sequence[Tree]) -> int:
-    """Return the line of the first output to cout, or of printf, that ends no line; or 0."""
+    """Return the line of the first output to cout, or of printf, if none ends a line; or 0."""
+    first = 0
     for line, statement in tree.nodes(trees, "expression_statement"):
         words = {tree.text_of(node) for node in tree.below(statement, "identifier")}
-        is_output = "printf" in words or "cout" in words
-        ends = "endl" in words or "flush" in words or "\\n" in tree.text_of(statement)
-        if is_output and not ends:
-            return line
-    return 0
+        if words & {"printf", "cout"}:
+            if words & {"endl", "flush"} or "\\n" in tree.text_of(statement):
+                return 0
+            first = first or line
+    return first

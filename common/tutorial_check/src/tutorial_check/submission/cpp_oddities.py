@@ -209,11 +209,18 @@ def _unset_pointers(trees: Sequence[Tree]) -> Iterator[Place]:
     for node in (n for _, n in tree.nodes(trees, "declaration", "field_declaration")):
         is_smart = POINTER.search(tree.text_of(tree.field(node, "type")))
         for declarator in node.children_by_field_name("declarator"):
-            is_pointer = declarator.type == "pointer_declarator" or (
-                is_smart and declarator.type in ("identifier", "field_identifier")
-            )
-            if is_pointer and _name_of(declarator) not in left:
+            if _is_unset(declarator, bool(is_smart)) and _name_of(declarator) not in left:
                 yield from _uses(trees, _name_of(declarator))
+
+
+def _is_unset(declarator: Node, is_smart: bool) -> bool:
+    """Return whether a declarator makes a pointer without a value, or with a null."""
+    inner = tree.field(declarator, "declarator")
+    if declarator.type == "init_declarator":
+        is_null = tree.text_of(tree.field(declarator, "value")) in ("nullptr", "NULL", "0")
+        return is_null and inner is not None and inner.type == "pointer_declarator"
+    is_name = declarator.type in ("identifier", "field_identifier")
+    return declarator.type == "pointer_declarator" or (is_smart and is_name)
 
 
 def _uses(trees: Sequence[Tree], name: str) -> Iterator[Place]:
