@@ -7,7 +7,7 @@ import pytest
 from tutorial_check.checking.checks import checks_of
 from tutorial_check.checking.packages import package_of
 from tutorial_check.checking.results import UNREACHED, Outcome, Result, Wrong
-from tutorial_check.commands.self_test import complaint_of, patch
+from tutorial_check.commands.self_test import complaint_of, patch, solutions
 from tutorial_check.course.definition import read_course
 from tutorial_check.errors import CannotCheck
 from tutorial_testing.claims import claim
@@ -133,6 +133,26 @@ def test_a_patch_changes_adds_and_removes(tmp_path):
         diff.write_text(text)
         with pytest.raises(CannotCheck, match=r"there is no (\.\./)?gone"):
             patch(tmp_path, diff)
+
+
+@claim("A course of the suite ...", because="of a solution in C++")
+def test_a_wrong_solution_in_cpp_is_a_diff_of_the_right_one_in_cpp(course):
+    own = course()
+    folder = own.folder / "solutions"
+    for name in ("right", "right_cpp", "wrong_S1"):
+        (folder / name).mkdir(parents=True)
+    for name in ("wrong_S2_cpp_late", "wrong_S2_late"):
+        (folder / f"{name}.patch").touch()
+    layers = {
+        name: (check, [layer.name for layer in layers]) for name, check, layers in solutions(own)
+    }
+    assert layers == {
+        "right": ("", ["right"]),
+        "right_cpp": ("", ["right_cpp"]),
+        "wrong_S1": ("S1", ["right", "wrong_S1"]),
+        "wrong_S2_cpp_late": ("S2", ["right_cpp", "wrong_S2_cpp_late.patch"]),
+        "wrong_S2_late": ("S2", ["right", "wrong_S2_late.patch"]),
+    }
 
 
 def test_the_check_that_was_not_reached_is_named():

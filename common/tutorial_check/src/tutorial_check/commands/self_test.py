@@ -35,7 +35,7 @@ def solutions(course: Course) -> Iterator[tuple[str, str, list[Path]]]:
     paths = (path for path in folder.iterdir() if path.is_dir() or path.suffix == PATCH)
     for path in sorted(paths):
         if path.name.startswith(WRONG_OF):
-            _, check, what = path.stem.split("_", 2)
+            check, _, what = path.stem[len(WRONG_OF) :].partition("_")
             below = f"{right}_cpp" if what.startswith("cpp_") else right
             yield path.stem, check, [Path(below), path]
         elif path.name.startswith(RIGHT):
