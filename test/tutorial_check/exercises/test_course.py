@@ -52,6 +52,20 @@ def test_a_student_of_the_wiki_reads_line_and_cause(tmp_path):
     assert (code, "no exercise 9; there are 1, 2" in output) == (2, True), output
 
 
+@claim("A student of a course ...", because="a program in C++")
+def test_a_student_of_the_wiki_reads_line_and_cause_in_cpp(tmp_path):
+    src = shutil.copytree(WIKI / "solutions/right_cpp", tmp_path / "ws" / "src")
+    for name in ("W6_cpp_another_name", "W15_cpp_another_parent"):
+        patch(src, WIKI / f"solutions/wrong_{name}.patch")
+    code, output = check("--course", "wiki", "--in", tmp_path / "ws", "2", "7", "--hints", "2")
+    places = re.findall(r"WRONG +(W\d+)|where: +(.*:\d+)", output)
+    assert [*map("".join, places)] == [
+        *("W6", "src/add_two_ints_server.cpp:18"),
+        *("W15", "src/turtle_tf2_broadcaster.cpp:20"),
+    ], output
+    assert code == 1 and "advertiseService(...)" in output and "rospy" not in output, output
+
+
 @claim("The solutions of square ...", because="the self-test")
 def test_a_self_test_finds_a_check_that_passes_everything(tmp_path):
     course = shutil.copytree(SQUARE, tmp_path / "square")

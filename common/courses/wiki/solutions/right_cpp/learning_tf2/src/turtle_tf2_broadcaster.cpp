@@ -25,7 +25,7 @@ int main(int argc, char** argv)
     frame.transform.rotation.w = std::cos(pose->theta / 2.0);
     broadcaster.sendTransform(frame);
   };
-  ros::Subscriber subscriber = node.subscribe<turtlesim::Pose>("/" + turtle + "/pose", 10, broadcast);
+  auto subscriber = node.subscribe<turtlesim::Pose>("/" + turtle + "/pose", 10, broadcast);
   ros::spin();
   return 0;
 }
