@@ -39,7 +39,7 @@ def test_a_variant_in_cpp_is_right(row, literal_cpp, check):
 
 @claim(
     "Each mistake of a program in C++ is found at the right check, with its cause and its line; "
-    "no report of it speaks of Python"
+    "no report of it has words of Python"
 )
 @pytest.mark.parametrize("row", MISTAKES, ids=str)
 def test_a_mistake_in_cpp_is_found(row, literal_cpp, examined):

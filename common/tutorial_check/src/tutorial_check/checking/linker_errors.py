@@ -52,8 +52,10 @@ def of_linker(submission: Submission, output: str) -> Wrong | None:
 
 def _empty_source(target: Target) -> str:
     """Return the path within src of an empty file that is named like the target, or ""."""
-    folder = target.package.folder if target.package else None
-    for path in sorted(folder.rglob(f"{target.name}.*")) if folder else ():
+    if not target.package:
+        return ""
+    folder = target.package.folder
+    for path in sorted(folder.rglob(f"{target.name}.*")):
         if path.suffix in SOURCES and path.is_file() and not path.stat().st_size:
             return f"{target.package.inside}/{path.relative_to(folder)}"
     return ""

@@ -8,7 +8,7 @@ import signal
 from tutorial_check.data.recordings import Ran
 
 # What ends a program that does something forbidden: {number: words}.
-SIGNALS = {
+SIGNALS: dict[int, str] = {
     signal.SIGILL: "an instruction that does not exist",
     signal.SIGTRAP: "a breakpoint",
     signal.SIGABRT: "abort()",
