@@ -24,6 +24,8 @@ CONTEXT = re.compile(
 BEFORE = 60_000  # characters in which they are
 PLACE = re.compile(r"(?<!\S)(/[^\s:]{1,500}):(\d{1,9})[:,](?:\d{1,9}: +(required))?")
 MOST_PLACES = 500
+NESTED = "#include nested depth"  # the file is innocent, its #include is to blame
+UNENDED = "new types may not be defined"  # in a return type, such as a class without its ;
 MOST_TEXT = 300  # characters of a line
 LACKS_SEMICOLON = re.compile(r"expected (?:.,. or )?(?:.;. |initializer )before")
 OPENED = re.compile(r"^(/[^\s:]{1,500}):(\d{1,9}):\d{1,9}: note: to match this", re.M)
@@ -50,7 +52,7 @@ class Place:
 def own_place(submission: Submission, output: str, error: re.Match[str]) -> Place | None:
     """Return the student's line that an error, a match of ERROR, is about."""
     place = Place(error[1], int(error[2]))
-    if submission.is_own(place.path):
+    if submission.is_own(place.path) and NESTED not in error[4]:
         return _corrected(submission, output, error, place)
     # The compiler often reports an error in a template at the system's header.
     before = output[max(0, error.start() - BEFORE) : error.start()].splitlines()
@@ -73,6 +75,8 @@ def _corrected(submission: Submission, output: str, error: re.Match[str], place:
     message = error[4]
     if LACKS_SEMICOLON.search(message):
         return _line_before(submission, place, int(error[3] or 0))
+    if UNENDED in message:
+        return _end_of_block(submission, place)
     other = None
     if "at end of input" in message:
         other = OPENED.search(output, error.end())
@@ -100,6 +104,15 @@ def _line_before(submission: Submission, place: Place, column: int) -> Place:
     numbers = range(len(lines) - 1, 0, -1)
     codes = (n for n in numbers if lines[n - 1].strip() and lines[n - 1].lstrip()[0] not in "/*#")
     return Place(place.path, next(codes, place.line))
+
+
+def _end_of_block(submission: Submission, place: Place) -> Place:
+    """Return the line with the } that is indented like the start of a block."""
+    lines = text_of(submission, place.path).split("\n")
+    start = lines[place.line - 1] if place.line <= len(lines) else ""
+    end = f"{start[: len(start) - len(start.lstrip())]}}}"
+    numbers = range(place.line + 1, len(lines) + 1)
+    return Place(place.path, next((n for n in numbers if lines[n - 1].rstrip() == end), place.line))
 
 
 def _inside(submission: Submission, path: str | Path) -> str:
