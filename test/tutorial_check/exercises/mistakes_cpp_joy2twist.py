@@ -71,6 +71,11 @@ ROWS = [
         f"  ros::Publisher {PUB}\n")], "C14", "joy2twist.cpp:15", "SIGSEGV", "points to nothing"),
     mistake("a pointer to no Twist", [put(JOY2TWIST, "Twist twist;", "Twist::Ptr twist;"),
         put(JOY2TWIST, "twist.", "twist->")], "C14", FIELDS, "px != 0", "points to nothing"),
+    mistake("the newest Joy before a first one", [
+        put(JOY2TWIST, GLOBAL, "&sensor_msgs::Joy::ConstPtr last;\n"),
+        put(JOY2TWIST, BODY, "  last = joy;\n"), put(JOY2TWIST, SPIN, loop("ros::ok()",
+        f"ros::spinOnce(); geometry_msgs::Twist twist; {X} {PUBLISH}".replace("joy", "last")))],
+        "C14", "joy2twist.cpp:24", "px != 0", "if (last)"),
     mistake("a private topic to publish on", [
         put(JOY2TWIST, f"  {PUB}", '  ros::NodeHandle own("~");\n&'),
         put(JOY2TWIST, PUB, PUB.replace("node", "own").replace("/cmd_vel", "cmd_vel"))], "C15",
@@ -116,6 +121,8 @@ ROWS = [
         "joy2twist.cpp:9", "the callback sleeps"),
     node17("a Rate in the callback", PUBLISH, "&\n  ros::Rate(15).sleep();", "joy2twist.cpp:16",
         "no sleep and no Rate in the callback"),
+    node17("spin in the callback", PUBLISH, "&\n  ros::spin();", "joy2twist.cpp:16",
+        "another ros::spin()", "at the end of main"),
     node34("while (true)", SPIN, loop("true", "ros::spinOnce();"), "joy2twist.cpp:25",
         "had to be killed", "while (ros::ok())"),
     mistake("type of a script", [put(STICK, 'type="joy2twist"', 'type="joy2twist.cpp"')], "C21",

@@ -65,7 +65,7 @@ def test_a_loop_never_calls_back():
         (BEYOND, "void f() {\n  a = joy->axes[5];\n  b = joy->axes[6];\n}", 3, "axes[6]"),
         ("std::out_of_range: vector", "void f() { joy->buttons.at(12); }", 1, "buttons[12]"),
         (BEYOND, "void f() { joy->axes[i]; }", 0, ""),
-        ("SIGSEGV", "T* t;\nvoid f() { t->x = 1; }", 2, "t is a pointer"),
+        ("SIGSEGV", "T* t;\nvoid f() { t->x = 1; }", 2, "t is a pointer, and points"),
         ("SIGSEGV", "void f() {}", 0, ""),
     ],
 )  # fmt: skip

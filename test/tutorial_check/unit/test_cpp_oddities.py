@@ -41,6 +41,8 @@ def oddities_of(text):
         ("void f() { x = joy->axes[6] + joy->buttons.at(12); }", "indices",
             (OddIndex(4, "axes", 6), OddIndex(4, "buttons", 12))),
         ("ros::Publisher* out;\nvoid f() { out->publish(t); }", "unset_pointer", (5, "out")),
+        ("T::ConstPtr last;\nvoid f(T::ConstPtr m) { last = m; last->x; }\nvoid g() { last->x; }",
+            "unset_pointer", (6, "last")),
         ("T::Ptr twist;\nvoid f() { twist->linear.x = 1; }", "unset_pointer", (5, "twist")),
     ],
 )  # fmt: skip

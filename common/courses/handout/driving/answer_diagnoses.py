@@ -235,6 +235,16 @@ def rate_of(node: Joy2TwistNode) -> str:
     return f"{stream.answered} Twists for {stream.sent} Joys{late}"
 
 
+def spins_in_callback(node: Joy2TwistNode) -> Wrong | None:
+    """Find a ros::spin() in the callback; with roscpp that works for some thousand Joys."""
+    lines = node.source.called_back.get("spin", [])
+    lines = [line for line in lines if "ros::spin(" in node.source.text.get(line, "")]
+    if not lines:
+        return None
+    seen = "each Joy starts another ros::spin() in the callback of the last, until it crashes"
+    return Wrong("", seen, node.at(lines), "ros::spin() once, at the end of main", sure=True)
+
+
 def too_slow(node: Joy2TwistNode) -> Wrong:
     if not node.run.sleep_lines:
         return Wrong("", rate_of(node), node.script, "what in the callback takes so long?")

@@ -77,4 +77,5 @@ def mapping(submission: Submission, script: str = "") -> Note | None:
 def rate(submission: Submission, script: str = "") -> Note | str | None:
     expected = "at 50 Joys a second as many Twists, each within 50 ms"
     node = _node(submission, script)
+    must_pass([answers.spins_in_callback], node, expected)
     return answers.rate_of(node) if node.run.is_prompt else must_pass(answers.RATE, node, expected)

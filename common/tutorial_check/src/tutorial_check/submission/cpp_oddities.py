@@ -202,15 +202,18 @@ def _index(line: int, array: Node | None, text: str) -> Iterator[OddIndex]:
 
 def _unset_pointers(trees: Sequence[Tree]) -> Iterator[Place]:
     """Yield (line of the first use, name) of pointers without a value."""
-    left = {
-        tree.last_name(tree.field(node, "left"))
+    left = [
+        (tree.last_name(tree.field(node, "left")), tree.above(node, *FUNCTIONS))
         for _, node in tree.nodes(trees, "assignment_expression")
-    }
+    ]
     for node in (n for _, n in tree.nodes(trees, "declaration", "field_declaration")):
         is_smart = POINTER.search(tree.text_of(tree.field(node, "type")))
         for declarator in node.children_by_field_name("declarator"):
-            if _is_unset(declarator, bool(is_smart)) and _name_of(declarator) not in left:
-                yield from _uses(trees, _name_of(declarator))
+            name = _name_of(declarator)
+            setting = [function for set_name, function in left if set_name == name]
+            # A callback may set it later than it is used.
+            if _is_unset(declarator, bool(is_smart)) and (not setting or is_smart):
+                yield from _uses(trees, name, setting)
 
 
 def _is_unset(declarator: Node, is_smart: bool) -> bool:
@@ -223,7 +226,8 @@ def _is_unset(declarator: Node, is_smart: bool) -> bool:
     return declarator.type == "pointer_declarator" or (is_smart and is_name)
 
 
-def _uses(trees: Sequence[Tree], name: str) -> Iterator[Place]:
+def _uses(trees: Sequence[Tree], name: str, setting: Sequence[Node]) -> Iterator[Place]:
     for line, node in tree.nodes(trees, "field_expression", "pointer_expression"):
-        if tree.text_of(tree.field(node, "argument")) == name:
+        is_it = tree.text_of(tree.field(node, "argument")) == name
+        if is_it and tree.above(node, *FUNCTIONS) not in setting:
             yield line, name
