@@ -37,7 +37,10 @@ def master_gone(node: Joy2TwistNode) -> Wrong | None:
 
 
 def another_type_subscribed(node: Joy2TwistNode) -> Wrong | None:
-    if node.graph.connected or node.answers.joy not in node.graph.subscribers:
+    # The master still knows the topics of a program that has crashed.
+    if node.graph.connected or node.run.ending.early:
+        return None
+    if node.answers.joy not in node.graph.subscribers:
         return None
     call = node.source.first("Subscriber")
     wanted = call.words[1] if call and len(call.words) > 1 else "another type"

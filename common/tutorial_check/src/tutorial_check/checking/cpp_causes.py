@@ -62,10 +62,7 @@ def cause_of_abort(error: str, facts: SourceFacts) -> tuple[int, str]:
         return _beyond(facts)
     if facts.oddities.unset_pointer and ("px != 0" in error or "SIGSEGV" in error):
         line, name = facts.oddities.unset_pointer
-        return (
-            line,
-            f"{name} is a pointer that points to nothing here: if ({name}) ..., or no pointer",
-        )
+        return line, f"{name} is a pointer, and points to nothing here: if ({name}) ..."
     return 0, ""
 
 
