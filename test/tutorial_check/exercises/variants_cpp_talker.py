@@ -124,6 +124,43 @@ GREETS = [
     put_cpp(TALKER, '    text << "good day at " << ros::Time::now();\n', ""),
     put_cpp(TALKER, "text.str()", f"{B}::greeting(now)"),
 ]
+HALF = """#include "ros/ros.h"
+#include "beginner_tutorials/Half.h"
+#include "beginner_tutorials/Number.h"
+
+ros::Publisher halves;
+
+bool half(beginner_tutorials::Half::Request& request, beginner_tutorials::Half::Response& response)
+{
+  response.half = request.number / 2.0;
+  beginner_tutorials::Number number;
+  number.number = response.half;
+  halves.publish(number);
+  return true;
+}
+
+int main(int argc, char** argv)
+{
+  ros::init(argc, argv, "half_server");
+  ros::NodeHandle n;
+  halves = n.advertise<beginner_tutorials::Number>("halves", 1000);
+  ros::ServiceServer service = n.advertiseService("half", half);
+  ros::spin();
+}
+"""
+MAKES = """
+add_message_files(FILES Number.msg)
+add_service_files(FILES Half.srv)
+generate_messages(DEPENDENCIES std_msgs)
+catkin_package(CATKIN_DEPENDS roscpp rospy std_msgs message_runtime)"""
+GENERATED = "${PROJECT_NAME}_generate_messages_cpp"
+SERVER_OF_CMAKE = f"""
+add_executable(half_server src/half_server.cpp)
+target_link_libraries(half_server ${{catkin_LIBRARIES}})
+add_dependencies(half_server {GENERATED})
+add_dependencies(talker {GENERATED})
+add_dependencies(listener {GENERATED})
+"""
 INSTALL = """
 install(TARGETS talker listener RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY include/${PROJECT_NAME}/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION})
@@ -202,6 +239,24 @@ ROWS = [
         put(CMAKE, "(talker", "(my_talker"), put(CMAKE, "(listener", "(my_listener")),
     right("package.xml of format 1, and C++17", "3", write(XML, XML_1, 0o644),
         put(CMAKE, "find_package", "add_compile_options(-std=c++17 -Wall)\n&")),
+    right("beside messages, a service and its server", "3", write(f"{B}/src/half_server.cpp", HALF),
+        write(f"{B}/msg/Number.msg", "float64 number\n"),
+        write(f"{B}/srv/Half.srv", "int64 number\n---\nfloat64 half\n"),
+        put(CMAKE, "rospy roscpp)", "rospy roscpp message_generation)"),
+        put(CMAKE, "catkin_package()", MAKES),
+        put(CMAKE, "listener ${catkin_LIBRARIES})\n", f"&{SERVER_OF_CMAKE}"),
+        put(XML, "  <build_depend>rospy", "  <build_depend>message_generation</build_depend>\n&"),
+        put(XML, "  <exec_depend>rospy", "  <exec_depend>message_runtime</exec_depend>\n&")),
+    right("sources by file(GLOB), each with main in a folder", "3",
+        move(TALKER, f"{B}/src/talker/main.cpp"), move(LISTENER, f"{B}/src/listener/main.cpp"),
+        put(CMAKE, BOTH_OF_CMAKE, "foreach(node talker listener)\n"
+        "  file(GLOB sources src/${node}/*.cpp)\n  add_executable(${node} ${sources})\n"
+        "  target_link_libraries(${node} ${catkin_LIBRARIES})\nendforeach()\n")),
+    listener("a message by value, a global subscriber, a NodeHandlePtr",
+        (HEARD, "std_msgs::String message"), ("message->", "message."),
+        ("int main", "ros::Subscriber subscriber;\n\n@"),
+        ("  ros::NodeHandle node;", "  ros::NodeHandlePtr node(new ros::NodeHandle);"),
+        ("  ros::Subscriber subscriber = node.", "  subscriber = node->")),
     right("no rospy at all", "3 4.3",
         *(put(XML, f"  <{kind}>rospy</{kind}>\n", "") for kind in ("build_depend", "exec_depend")),
         put(CMAKE, "std_msgs rospy roscpp", "roscpp std_msgs"),
