@@ -37,13 +37,13 @@ def of_linker(submission: Submission, output: str) -> Wrong | None:
     where, hint = target.where, ""
     symbol = SYMBOL.match(message)
     library = LIBRARIES.get(symbol[1].partition("::")[0], "") if symbol else ""
-    if library and target.lacks(library):
+    if library and _links(target) and target.lacks(library):
         hint = build_hint("header", f"{library} is no component")
     elif symbol and not library:
         users = USER.findall(output, max(0, error.start() - BEFORE), error.start())
         where, hint = _of_own(submission, target, symbol, users[-1] if users else "")
     others = target.line_with(f"target_link_libraries({target.name} ")
-    if library and others and not hint:
+    if library and others and not _links(target):
         where, hint = others, build_hint("catkin_make", f"{target.name} links others")
     unlinked = f"{target.name} without libraries: " if library or not _links(target) else ""
     hint = hint or build_hint("catkin_make", f"{unlinked}{message}")
