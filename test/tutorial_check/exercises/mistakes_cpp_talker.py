@@ -32,7 +32,7 @@ ROWS = [
         "add_executable(talker src/talker.cpp)", "target_link_libraries(talker"),
     mistake("a target and a source of another name", [put(CMAKE, "talker", "chat"),
         lambda src: (src / TALKER).rename(src / B / "src/chat.cpp")], "C5",
-        "the programs are called chat, listener", "write src/talker.cpp"),
+        "the programs are called chat, listener", "add_executable(talker "),
     talker6("another topic", '"chatter"', '"chater"', "talker.cpp:10", "publishes on /chater",
         'n.advertise<std_msgs::String>("chatter", 10)'),
     mistake("another type", [INT, put(TALKER, "<std_msgs::String>", "<std_msgs::Int32>")], "C6",
