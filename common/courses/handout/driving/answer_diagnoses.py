@@ -88,7 +88,7 @@ def few_answers(node: Joy2TwistNode) -> Wrong:
     if count:
         hint = "publish in the callback, for every message"
         return Wrong("", f"{count} Twists for {COUNT} Joys", where, hint)
-    hint = "is pub.publish(msg) called in the callback, for every message?"
+    hint = f"is {node.source.idioms.publish} called in the callback, for every message?"
     return Wrong("", "no Twist came for any Joy", where, hint)
 
 
@@ -222,8 +222,8 @@ def latched(node: Joy2TwistNode) -> Note | None:
     calls = node.source.calls.get("Publisher", [])
     if not any(call.names.get("latch") == "True" for call in calls):
         return None
-    seen = "latch=True: a late subscriber gets an old velocity"
-    return Note(seen, hint="leave latch out")
+    word = node.source.idioms.latched
+    return Note(f"{word}: a late subscriber gets an old velocity", hint=f"leave {word} out")
 
 
 RIGHT_RULE = (unanswered, another_rule, right_but_crashed, the_same_again, another_scale, latched)

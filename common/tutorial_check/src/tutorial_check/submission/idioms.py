@@ -30,6 +30,7 @@ class Idioms:
     show_all_axes: str  # however many there are
     publish: str
     zero: str  # a Twist of zeros
+    latched: str  # an argument of a Publisher
     publisher_name: str  # what makes a Publisher
     a_subscriber: str  # with {topic}, {type}, {home}
     a_typed_subscriber: str  # names the type, likewise
@@ -75,6 +76,7 @@ PYTHON = Idioms(
     show_all_axes='", ".join("%.2f" % axis for axis in data.axes)',
     publish="pub.publish(msg)",
     zero="Twist()",
+    latched="latch=True",
     publisher_name="rospy.Publisher",
     a_subscriber="rospy.Subscriber('{topic}', {type}, callback)",
     a_typed_subscriber="rospy.Subscriber('{topic}', {type}, callback)",
@@ -99,6 +101,7 @@ CPP = Idioms(
     show_all_axes="for (float axis : msg->axes)",
     publish="pub.publish(twist)",
     zero="geometry_msgs::Twist()",
+    latched="advertise's third argument, true",
     publisher_name="advertise",
     a_subscriber='ros::Subscriber sub = n.subscribe("{topic}", 10, callback)',
     a_typed_subscriber="the callback's message decides: const {home}::{type}::ConstPtr& msg",
