@@ -5,7 +5,7 @@ from mistakes_cpp_talker import INFO
 from rows import noted
 from solution import TALKER as TALKER_PY
 from solution import B
-from solution_cpp import LISTENER, TALKER
+from solution_cpp import JOY2TWIST, LISTENER, PUB, TALKER
 
 PYTHON = """#!/usr/bin/env python3
 import rospy
@@ -35,4 +35,10 @@ NOTES = [
         C5=["src/listener.cpp: in C++"], C9=()),
     noted("queues of 0 and 1", "3", [put(TALKER, '"chatter", 10', '"chatter", 0'),
         put(LISTENER, '"chatter", 10', '"chatter", 1')], C6=(), C7=()),
+    noted("a latch in C++", "4.3", [put(JOY2TWIST, 'Twist>("/cmd_vel", 10', "&, true")],
+        C16=["latch, the true of advertise", "leave latch out"]),
+    noted("an AsyncSpinner before the Publisher", "4.3", [put(JOY2TWIST, f"  {PUB}\n", ""),
+        put(JOY2TWIST, "  ros::spin();\n", "  ros::AsyncSpinner spinner(1);\n  spinner.start();\n"
+            f"  {PUB}\n  ros::waitForShutdown();\n")],
+        C18=["joy2twist.cpp:22", "there is no pub", "first the Publisher"]),
 ]

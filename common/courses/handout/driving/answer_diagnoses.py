@@ -223,7 +223,7 @@ def latched(node: Joy2TwistNode) -> Note | None:
     if not any(call.names.get("latch") == "True" for call in calls):
         return None
     word = node.source.idioms.latched
-    return Note(f"{word}: a late subscriber gets an old velocity", hint=f"leave {word} out")
+    return Note(f"{word}: a late subscriber gets an old velocity", hint="leave latch out")
 
 
 RIGHT_RULE = (unanswered, another_rule, right_but_crashed, the_same_again, another_scale, latched)

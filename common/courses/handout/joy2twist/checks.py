@@ -66,4 +66,4 @@ def under_load(submission: Submission) -> Note | None:
         return None
     seen = "the subscriber comes before the publisher: for a Joy that comes at once there is no pub"
     where, hint = facts.place(script, first or 1), "first the Publisher, then the Subscriber"
-    return Note(f"{seen} (the handout has it so)", where, hint)
+    return Note(f"{seen} (the handout has it so)" if facts.is_python else seen, where, hint)

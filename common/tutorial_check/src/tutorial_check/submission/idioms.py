@@ -101,7 +101,7 @@ CPP = Idioms(
     show_all_axes="for (float axis : msg->axes)",
     publish="pub.publish(twist)",
     zero="geometry_msgs::Twist()",
-    latched="advertise's third argument, true",
+    latched="latch, the true of advertise",
     publisher_name="advertise",
     a_subscriber='ros::Subscriber sub = n.subscribe("{topic}", 10, callback)',
     a_typed_subscriber="the callback's message decides: const {home}::{type}::ConstPtr& msg",
