@@ -107,7 +107,16 @@ class Builder(SubmissionFiles):
         """Keep what was built, unless another attempt could end otherwise."""
         part = self.__dict__.get("part")
         made = [self.whole, *filter(None, [part])]
-        if all(build.code is not None and not PASSES.search(build.output) for build in made):
+        programs = (program for build in made for program in build.executables)
+        # Of the workspace, only these two folders are kept.
+        is_all = all(
+            program.path.startswith(("build/", "devel/"))
+            for program in programs
+            if program.is_built
+        )
+        if is_all and all(
+            build.code is not None and not PASSES.search(build.output) for build in made
+        ):
             self.runner.end_strays()  # of a CMakeLists.txt
             kept = build_tree.Kept(str(self.folder), self._sources, self.whole, part, ())
             build_tree.write(self.order.new_build, kept, self.source.parent)
