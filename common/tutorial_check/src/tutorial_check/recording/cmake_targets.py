@@ -26,11 +26,12 @@ def ask(workspace: Path) -> None:
 def executables(folder: Path, workspace: Path) -> tuple[Executable, ...]:
     """Return the executables that CMake has configured. folder: above the workspace."""
     targets = {target["id"]: target for target in _targets(folder, workspace)}
-    return tuple(
-        _executable(target, targets, workspace)
-        for target in targets.values()
-        if target["type"] == "EXECUTABLE" and target.get("artifacts")
-    )
+    made = []
+    for target in targets.values():
+        if target.get("type") == "EXECUTABLE" and target.get("artifacts"):
+            with contextlib.suppress(LookupError, TypeError, AttributeError):  # it is damaged
+                made.append(_executable(target, targets, workspace))
+    return tuple(made)
 
 
 def _targets(folder: Path, workspace: Path) -> Iterator[dict[str, Any]]:
@@ -38,7 +39,7 @@ def _targets(folder: Path, workspace: Path) -> Iterator[dict[str, Any]]:
     for path in sorted((workspace / API / "reply").glob("target-*.json"))[:MOST_TARGETS]:
         with contextlib.suppress(CannotCheck, ValueError, RecursionError):
             target = json.loads(student_files.read(folder, path))
-            if isinstance(target, dict) and {"id", "type", "name"} <= target.keys():
+            if isinstance(target, dict) and isinstance(target.get("id"), str):
                 yield target
 
 
@@ -54,7 +55,7 @@ def _executable(
                 sources[_within(workspace / "src", workspace / "src", source["path"])] = None
         for needed in current.get("dependencies", []):
             other = targets.get(needed["id"])
-            if other and other["type"] in LIBRARIES and needed["id"] not in known:
+            if other and other.get("type") in LIBRARIES and needed["id"] not in known:
                 known.add(needed["id"])
                 waiting.append(other)
     own = tuple(source for source in sources if not source.startswith(("..", "/")))
