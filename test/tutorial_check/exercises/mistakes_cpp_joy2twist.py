@@ -118,7 +118,7 @@ ROWS = [
         f"if (joy->axes[1] != 0) {X}")], "C16", "joy2twist.cpp:13", "the robot drives on"),
     mistake("Twists from a clock", [*KEPT, put(JOY2TWIST, f"  {PUBLISH}\n", ""),
         put(JOY2TWIST, SPIN, loop("ros::ok()", f"ros::spinOnce(); {PUBLISH}"))], "C16",
-        "joy2twist.cpp:25", "from a clock of its own", "end with ros::spin()"),
+        "joy2twist.cpp:26", "from a clock of its own", "end with ros::spin()"),
     node16("sleep in the callback in C++", CALLBACK, "&  ros::Duration(0.5).sleep();\n",
         "joy2twist.cpp:9", "the callback sleeps"),
     node17("a Rate in the callback", PUBLISH, "&\n  ros::Rate(15).sleep();", "joy2twist.cpp:16",

@@ -11,8 +11,8 @@ HOMES = {  # {message: its package}
 
 
 @dataclass(frozen=True)
-class Idioms:
-    """The lines and names of a language's ROS library."""
+class NodeIdioms:
+    """How a node begins, loops and ends."""
 
     language: str
     library: str
@@ -22,6 +22,17 @@ class Idioms:
     spin: str
     loop: str  # that ends with the node
     in_loop: str  # words for what belongs into it
+    rate: str  # with {hz}
+
+    def named(self, name: str) -> str:
+        """Return the call that names a node."""
+        return self.init_named.format(name=name)
+
+
+@dataclass(frozen=True)
+class MessageIdioms:
+    """How a callback reads, displays and sends messages."""
+
     info: str  # displays a text
     axes: str  # of a Joy in its callback
     text: str  # of a String in its callback
@@ -31,16 +42,17 @@ class Idioms:
     publish: str
     zero: str  # a Twist of zeros
     latched: str  # an argument of a Publisher
+
+
+@dataclass(frozen=True)
+class TopicIdioms:
+    """How a node names topics and their types; each line with {topic}, {type} and {home}."""
+
     publisher_name: str  # what makes a Publisher
-    a_subscriber: str  # with {topic}, {type}, {home}
-    a_typed_subscriber: str  # names the type, likewise
+    a_subscriber: str
+    a_typed_subscriber: str  # names the type
     a_publisher: str
     an_import: str
-    rate: str  # with {hz}
-
-    def named(self, name: str) -> str:
-        """Return the call that names a node."""
-        return self.init_named.format(name=name)
 
     def subscriber(self, topic: str, kind: str) -> str:
         """Return the line that subscribes to a topic with messages of a kind, such as Joy."""
@@ -57,6 +69,11 @@ class Idioms:
     def imported(self, kind: str) -> str:
         """Return the line at the top of a program that imports a message."""
         return self.an_import.format(type=kind, home=HOMES[kind])
+
+
+@dataclass(frozen=True)
+class Idioms(NodeIdioms, MessageIdioms, TopicIdioms):
+    """The lines and names of a language's ROS library."""
 
 
 PYTHON = Idioms(
