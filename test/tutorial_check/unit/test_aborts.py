@@ -5,7 +5,13 @@ import signal
 import pytest
 
 from tutorial_check.data.recordings import Ran
-from tutorial_check.submission.aborts import abort_of, has_error, has_failed, signal_of
+from tutorial_check.submission.aborts import (
+    abort_of,
+    has_error,
+    has_failed,
+    place_of_abort,
+    signal_of,
+)
 from tutorial_testing.claims import claim
 
 RED, PLAIN = "\x1b[31m", "\x1b[0m"
@@ -24,6 +30,12 @@ NO_PUBLISHER = f"""{RED}[FATAL] [1.0]: ASSERTION FAILED
 \tmessage = {PLAIN}
 {RED}[FATAL] [1.0]: Call to publish() on an invalid Publisher{PLAIN}
 {RED}[FATAL] [1.0]:
+{PLAIN}
+"""
+OWN_ASSERTION = f"""{RED}[FATAL] [1.0]: ASSERTION FAILED
+\tfile = /ws/src/beginner_tutorials/src/talker.cpp
+\tline = 21
+\tcond = ready_
 {PLAIN}
 """
 NO_NAME = """terminate called after throwing an instance of 'ros::InvalidNameException'
@@ -49,6 +61,7 @@ INDEX = (
 @pytest.mark.parametrize(("output", "error"), [
     (OWN + NO_INIT, INIT_FIRST),
     (OWN + NO_PUBLISHER, "Call to publish() on an invalid Publisher"),
+    (OWN_ASSERTION, "assertion ready_ failed"),
     (NO_NAME, "ros::InvalidNameException: The node name must not be empty"),
     (LOCKED, "boost::lock_error: boost: mutex lock failed in pthread_mutex_lock: Invalid argument"),
     ("terminate called after throwing an instance of 'int'\n", "int"),
@@ -80,3 +93,11 @@ def test_the_signal_of_a_program_that_fails(code, words):
     ran = Ran("talker", OWN, code, False, False)
     assert signal_of(ran).startswith(words)
     assert has_failed(ran) == bool(words)
+
+
+@pytest.mark.parametrize(("output", "place"), [
+    (INDEX, ("/usr/include/c++/12/bits/stl_vector.h", 1123)), (NO_NAME, ("", 0)),
+    (NO_PUBLISHER, ("/usr/include/ros/publisher.h", 107)), (NO_INIT, ("", 0)),
+])  # fmt: skip
+def test_the_place_of_an_assertion(output, place):
+    assert place_of_abort(output) == place

@@ -31,6 +31,8 @@ def lapses_of(*lines, above=""):
     (lapses_of(INIT, NODE, "while (ros::ok) {}"), Lapses(bare_ok=4)),
     (lapses_of('ROS_INFO("%s", msg->data);'), Lapses(text_as_object=(2, "msg->data"))),
     (lapses_of('printf("%s", msg.data);'), Lapses(text_as_object=(2, "msg.data"), unended_line=2)),
+    (lapses_of("while (ros::ok()) {", "pub.publish(text);", SPIN, "}"), Lapses(looped_spin=4)),
+    (lapses_of(INIT, "while (ros::ok());"), Lapses(empty_loop=3)),
     (lapses_of("std::cout << msg->data;"), Lapses(unended_line=2)),
 ])  # fmt: skip
 def test_a_lapse_has_its_line(seen, lapses):
@@ -39,6 +41,7 @@ def test_a_lapse_has_its_line(seen, lapses):
 
 @pytest.mark.parametrize("lines", [
     (*RIGHT, SPIN), ("ros::NodeHandle* n;", INIT, "n = new ros::NodeHandle;"), (NODE, SUB, SPIN),
+    ("while (ros::ok())", SPIN),
     ('ROS_INFO("%s", msg->data.c_str());', 'ROS_INFO("%d", number->data);'),
     ("std::cout << msg->data << std::endl;", 'std::cout << msg->data << "\\n";', 'puts("x");'),
     ('std::cout << "heard ";', "std::cout << msg->data << std::endl;"),

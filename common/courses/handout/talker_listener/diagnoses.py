@@ -90,6 +90,14 @@ def made_again(talk: Talked) -> Wrong | None:
     return Wrong(talk.expected, seen, talk.script.at_line(line), hint, sure=True)
 
 
+def spins_in_loop(talk: Talked) -> Wrong | None:
+    line, spin = talk.script.facts.lapses.looped_spin, talk.script.facts.idioms.spin
+    if not line or len(talk.times) >= FEW:
+        return None
+    seen, where = f"{spin} in the loop returns only when the node ends", talk.script.at_line(line)
+    return Wrong(talk.expected, seen, where, "ros::spinOnce(), which returns at once", sure=True)
+
+
 def no_sleep(talk: Talked) -> Wrong | None:
     """Find a flood of messages; delayed ones arrive in bursts, so use the mean rate as well."""
     mean_rate = (len(talk.times) - 1) / max(1e-6, talk.times[-1] - talk.times[0])
@@ -158,7 +166,8 @@ def ended_silently(talk: Talked) -> Wrong | None:
 def silent(talk: Talked) -> Wrong:
     """Return the Wrong for a talker without a message."""
     diagnoses = (
-        crashed_silently, other_type, sent_elsewhere, never_loops, made_again, ended_silently,
+        crashed_silently, other_type, sent_elsewhere, never_loops, spins_in_loop, made_again,
+        ended_silently,
     )  # fmt: skip
     facts = talk.script.facts
     hint = "is publish(...) called within the loop?"
@@ -179,4 +188,6 @@ def same_name(ran: Ran, programs: Sequence[Script]) -> Wrong | None:
     return Wrong("two nodes side by side", seen, odd.at_call("init_node"), hint, sure=True)
 
 
-RATE_DIAGNOSES = (made_again, few_messages, no_sleep, unwanted_rate, same_text, other_rate)
+RATE_DIAGNOSES = (
+    made_again, spins_in_loop, few_messages, no_sleep, unwanted_rate, same_text, other_rate,
+)  # fmt: skip

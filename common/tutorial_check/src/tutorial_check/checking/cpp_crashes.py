@@ -10,7 +10,13 @@ from tutorial_check.checking.cpp_causes import cause_of_abort
 from tutorial_check.checking.results import Wrong
 from tutorial_check.checking.submission import Submission
 from tutorial_check.data.recordings import Ran
-from tutorial_check.submission.aborts import TRACEBACK, abort_of, has_failed, signal_of
+from tutorial_check.submission.aborts import (
+    TRACEBACK,
+    abort_of,
+    has_failed,
+    place_of_abort,
+    signal_of,
+)
 from tutorial_check.submission.cpp_facts import CppFacts
 from tutorial_check.submission.cpp_lapses import ABOVE
 
@@ -20,6 +26,7 @@ NAME = re.compile(r"[Nn]ame \[(?P<name>.*?)\](?:\.  Valid|:)")
 LINES: dict[str, Callable[[CppFacts], int]] = {
     "name must not be empty": lambda facts: _first(facts, "init_node"),
     "out of dual 32-bit": lambda facts: _first(facts, "Rate", "Duration"),
+    "out_of_range": lambda facts: _first(facts, "at", "substr"),
 }
 
 
@@ -42,6 +49,7 @@ def compiled_crash(submission: Submission, package: str, ran: Ran, expected: str
     error = abort_of(ran.output)
     seen = error or f"the program was ended by {signal}"
     line, hint = blamed(error or signal, facts)
+    line = facts.line_in(*place_of_abort(ran.output)) or line
     hint = hint or (UNCAUGHT if "::" in error else "")
     return Wrong(expected, seen, facts.place(path, line), hint, sure=bool(error))
 

@@ -12,11 +12,15 @@ from tutorial_check.checking.results import Wrong
 from tutorial_check.checking.submission import Submission
 from tutorial_check.data.recorders import BUILT
 from tutorial_check.data.recordings import Ran
-from tutorial_check.submission.idioms import CPP, PYTHON
+from tutorial_check.submission.idioms import PYTHON
 from tutorial_check.submission.python_facts import PythonFacts
 from tutorial_check.submission.source_facts import ClassFacts, SourceFacts
 from tutorial_check.submission.tracebacks import Traceback, first_traceback, last_lines
 
+ENDS_AT_ONCE = {
+    "spinOnce": "ros::spinOnce() returns at once, and then main: ros::spin() waits for messages",
+    "AsyncSpinner": "its start() returns at once, and then main: ros::waitForShutdown() below it",
+}
 COPY = re.compile(r"checked_\d+_")  # a program with one thing changed; see Builder.sibling
 
 
@@ -67,14 +71,25 @@ def crash(
     if program.code is not None and program.code < 0:
         return Wrong(expected, f"the program was ended by signal {-program.code}", "", hint)
     if program.spins:
-        seen = f"{program.name} uses the CPU without making progress"
-        idioms = CPP if compiled_program(submission, package, program.name) else PYTHON
-        hint = f"an endless loop? There must be none in the callback, or before {idioms.init}"
-        return Wrong(expected, seen, hint=hint, sure=True)
+        return _busy(submission, package, program, expected)
     seen = "it runs" if program.code is None else f"it ended, exit code {program.code}"
     said = last_lines(program.output)
     seen += f"; it printed: {said}" if said else ", and printed nothing"
     return Wrong(expected, seen, hint=hint)
+
+
+def _busy(submission: Submission, package: str, program: Ran, expected: str) -> Wrong:
+    """Return the Wrong for a program that has an endless loop."""
+    seen = f"{program.name} uses the CPU without making progress"
+    path = compiled_program(submission, package, program.name)
+    facts = submission.facts_of(package, path) if path else None
+    if facts and facts.lapses.empty_loop:
+        where = facts.place(path, facts.lapses.empty_loop)
+        hint = "the ; after while (...) is the whole loop: delete it"
+        return Wrong(expected, seen, where, hint, sure=True)
+    init = (facts.idioms if facts else PYTHON).init
+    hint = f"an endless loop? There must be none in the callback, or before {init}"
+    return Wrong(expected, seen, hint=hint, sure=True)
 
 
 def silent_end(facts: SourceFacts) -> tuple[int, str]:
@@ -104,6 +119,9 @@ def silent_end(facts: SourceFacts) -> tuple[int, str]:
 def silent_main(facts: SourceFacts) -> tuple[int, str]:
     """Return the same for a program in C++, whose main returns."""
     idioms = facts.idioms
+    for name, hint in ENDS_AT_ONCE.items():
+        if name in facts.calls and "spin" not in facts.calls and not facts.loops:
+            return facts.lines(name)[0], hint
     if facts.loops or any(name in facts.calls for name in CALLS_BACK):
         return 0, f"main returns: only {idioms.spin}, or {idioms.loop}, keeps a program running"
     waits = "Subscriber" in facts.calls

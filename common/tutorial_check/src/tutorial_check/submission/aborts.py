@@ -30,6 +30,9 @@ OF_GLIBC = re.compile(
     re.MULTILINE,
 )
 FATAL = re.compile(r"\[FATAL\] \[[^\]]*\]: *(?P<what>[^\n\x1b]*)")
+OF_ROS = re.compile(
+    r"ASSERTION FAILED\s+file = (?P<file>\S+)\s+line = (?P<line>\d+)\s+cond = (?P<cond>.*)"
+)
 NO_CAUSE = ("ASSERTION FAILED", "BREAKPOINT HIT", "")  # roscpp's words around the cause
 
 
@@ -41,9 +44,17 @@ def abort_of(output: str) -> str:
         return ": ".join(filter(None, words)) or exception[0]
     fatal = FATAL.findall(output)
     if any(line in fatal for line in NO_CAUSE[:2]):
-        return next((line for line in reversed(fatal) if line not in NO_CAUSE), NO_CAUSE[0])
+        asserted = OF_ROS.search(output)
+        cause = f"assertion {asserted['cond'].strip()} failed" if asserted else NO_CAUSE[0]
+        return next((line for line in reversed(fatal) if line not in NO_CAUSE), cause)
     assertion, other = ASSERTION.search(output), OF_GLIBC.search(output)
     return assertion["what"] if assertion else other[0] if other else ""
+
+
+def place_of_abort(output: str) -> tuple[str, int]:
+    """Return (file, line) that the message of a failed assertion names, or ("", 0)."""
+    place = ASSERTION.search(output) or OF_ROS.search(output)
+    return (place["file"], int(place["line"])) if place else ("", 0)
 
 
 def _plain(kind: str) -> str:

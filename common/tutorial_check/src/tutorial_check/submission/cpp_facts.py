@@ -93,6 +93,11 @@ class CppFacts(SourceFacts):
                 texts.append((start + tree.line_of(node), left.replace("->", "."), right))
         return {name: (line, value) for line, name, value in sorted(texts, reverse=True)}
 
+    def line_in(self, file: str, line: int) -> int:
+        """Return the number of a line of a file of the program, by its whole path; else 0."""
+        starts = (start for path, start in self._starts.items() if file.endswith(f"/{path}"))
+        return next((start + line for start in starts), 0)
+
     def line_of_text(self, text: str) -> int:
         """Return the line of the first string literal with a text, or 0."""
         literals = tree.nodes(self._trees, "string_literal")

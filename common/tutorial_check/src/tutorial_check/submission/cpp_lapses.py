@@ -25,6 +25,8 @@ def lapses_of(trees: Sequence[Tree]) -> Lapses:
         late_loop=_late_loop(trees),
         repeated_publisher=_repeated_publisher(trees),
         unended_line=_unended_line(trees),
+        looped_spin=_looped_spin(trees),
+        empty_loop=_empty_loop(trees),
     )
 
 
@@ -101,3 +103,20 @@ def _unended_line(trees: Sequence[Tree]) -> int:
                 return 0
             first = first or line
     return first
+
+
+def _looped_spin(trees: Sequence[Tree]) -> int:
+    """Return the line of the first spin in a loop that does more, or 0."""
+    for line, call in tree.calls(trees, "spin"):
+        loop = tree.above(call, *LOOPS)
+        if loop is not None and len(tree.below(loop, "expression_statement")) > 1:
+            return line
+    return 0
+
+
+def _empty_loop(trees: Sequence[Tree]) -> int:
+    """Return the line of the first `while (...);`, or 0."""
+    for line, loop in tree.nodes(trees, "while_statement"):
+        if tree.text_of(tree.field(loop, "body")) == ";":
+            return line
+    return 0

@@ -51,3 +51,5 @@ class Lapses:
     late_loop: int = 0  # the line of a loop that comes after ros::spin
     repeated_publisher: int = 0  # the line of advertise in a loop
     unended_line: int = 0  # the line of an output without std::endl
+    looped_spin: int = 0  # the line of ros::spin() in a loop that does more
+    empty_loop: int = 0  # the line of `while (...);`
