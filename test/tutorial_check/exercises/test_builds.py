@@ -1,5 +1,6 @@
 """Builds that are kept: what changed is built, nothing else is, and nothing stale is right."""
 
+import os
 import re
 
 import pytest
@@ -37,10 +38,11 @@ FILES = {
     "src/listener.cpp": "int main() { return 0; }\n",
     "note.md": "a note\n",
 }
+MAKE_SERVICE = "add_service_files(FILES Double.srv)\ngenerate_messages()"
 # With a service: {path: text}.
 SERVICE = {
     "CMakeLists.txt": CMAKE.replace("COMPONENTS", "COMPONENTS message_generation").replace(
-        "catkin_package", "add_service_files(FILES Double.srv)\ngenerate_messages()\ncatkin_package"
+        "catkin_package", f"{MAKE_SERVICE}\ncatkin_package"
     )
     + "add_dependencies(talker ${PROJECT_NAME}_generate_messages_cpp)\n",
     "srv/Double.srv": "int64 number\n---\nint64 twice\n",
@@ -100,13 +102,16 @@ def test_only_what_has_changed_is_built(source, build):
     assert compiled(mended) == ["words"] and "Configuring done" in mended.output
 
 
+def of_package(edit, path, *words):
+    return edit(f"{P}/{path}", *words)
+
+
 def long_ago(path, old, new):
     """Change a file, and let it look older than the build."""
 
     def edit(source):
-        about = (source / path).stat()
-        put(path, old, new)(source)
-        build_store.os.utime(source / path, ns=(about.st_atime_ns, about.st_mtime_ns))
+        of_package(put, path, old, new)(source)
+        os.utime(source / P / path, (0, 0))
 
     return edit
 
@@ -114,10 +119,12 @@ def long_ago(path, old, new):
 MISTAKES = {
     "a source is removed": (remove(f"{P}/src/words.cpp"), "Cannot find source file"),
     "a source has another name": (move(f"{P}/src/words.cpp", f"{P}/src/word.cpp"), "Cannot find"),
-    "a source has changed, and is old": (long_ago(f"{P}/src/words.cpp", "words()", "word()"), "undef"),
-    "a header has changed": (long_ago(f"{P}/include/words.h", "words", "word"), "was not declared"),
+    "a source has changed, and is old": (long_ago("src/words.cpp", "words()", "word()"), "undef"),
+    "a header has changed": (long_ago("include/words.h", "words", "word"), "was not declared"),
     "a header is removed": (remove(f"{P}/include/words.h"), "No such file"),
-    "a package is not found": (put(f"{P}/CMakeLists.txt", "COMPONENTS", "& none_such"), "none_such"),
+    "a package is not found": (
+        of_package(put, "CMakeLists.txt", "COMPONENTS", "& none_such"), "none_such"
+    ),
     "a folder of headers is removed": (
         lambda source: (source / P / "include").rename(source / P / "headers"), "include"
     ),
@@ -137,10 +144,9 @@ def test_nothing_stale_makes_a_mistake_right(source, build, mistake):
 
 
 SERVICE_MISTAKES = {
-    "another field": (long_ago(f"{P}/srv/Double.srv", "number", "value"), "number"),
+    "another field": (long_ago("srv/Double.srv", "number", "value"), "number"),
     "not generated": (
-        put(f"{P}/CMakeLists.txt", "add_service_files(FILES Double.srv)\ngenerate_messages()\n", ""),
-        "",
+        of_package(put, "CMakeLists.txt", f"{MAKE_SERVICE}\n", ""), "Double.h",
     ),
 }  # fmt: skip
 
@@ -176,7 +182,9 @@ def test_a_missing_script_stays_a_mistake_when_a_source_changes(source, build):
 @pytest.mark.skipif(not bubblewrap.granted().options, reason="one worker without namespaces")
 def test_two_workers_build_once(source, underlay):
     """What CMake prints differs from build to build."""
-    put(f"{P}/CMakeLists.txt", "file(", "string(RANDOM LENGTH 9 is)\nmessage(\"it ${is}\")\n&")(source)
+    put(f"{P}/CMakeLists.txt", "file(", 'string(RANDOM LENGTH 9 is)\nmessage("it ${is}")\n&')(
+        source
+    )
     several = {"exercises": ["2", "3"], "only_first": False}
     outcomes = examine(Order(source.parent, underlay, **several), side_by_side=True)
     (printed,) = {

@@ -1,4 +1,4 @@
-"""Sources and CMake files that bomb, hang, fork, remove or reach out: one line, no harm to others."""
+"""Sources and CMake files that bomb, fork, remove or reach out: one line, no harm to others."""
 
 import shutil
 import tempfile
@@ -22,6 +22,10 @@ template <int N, int M> struct Tree { typename Tree<N - 1, 2 * M>::T a, b; typed
 template <int M> struct Tree<0, M> { typedef Tree T; };
 int main() { return sizeof(Tree<40, 1>); }
 """
+BOMB = """
+constexpr long fib(int n) { return n < 2 ? n : fib(n - 1) + fib(n - 2); }
+static_assert(fib(90) > 0, "");
+"""
 # Each replaces talker.cpp.
 SOURCES = {
     "a device without end": f'#include "/dev/zero"\n{MAIN}',
@@ -29,8 +33,7 @@ SOURCES = {
     "itself": f"#include __FILE__\n{MAIN}",
     "the system's users": f'#include "/etc/passwd"\n{MAIN}',
     "a file of root's": f'#include "/etc/shadow"\n{MAIN}',
-    "work for the compiler": "constexpr long fib(int n) { return n < 2 ? n : fib(n - 1) + fib(n - 2);"
-    f" }}\nstatic_assert(fib(90) > 0, '\\0');\n{MAIN}",
+    "work for the compiler": BOMB + MAIN,
     "a large array": f"int many[1 << 30] = {{1}};\n{MAIN}",
 }
 # Each is in CMakeLists.txt, before find_package.
@@ -53,9 +56,7 @@ def scratch(folder, monkeypatch):
 
 @claim("A build that bombs, forks, hangs, removes or reaches out ends with one line, harms none")
 @pytest.mark.parametrize("whats", [SOURCES, COMMANDS], ids=["sources", "commands"])
-def test_a_hostile_build_ends_and_harms_none_beside_or_after_it(
-    underlay, tmp_path, scratch, whats
-):
+def test_a_hostile_build_ends_and_harms_none_beside_or_after_it(underlay, tmp_path, scratch, whats):
     """Two at a time, as with check --all: a right one before and after the hostile ones."""
     victim = tmp_path / "victim"
     victim.mkdir()
