@@ -146,7 +146,7 @@ def test_nothing_stale_makes_a_mistake_right(source, build, mistake):
 SERVICE_MISTAKES = {
     "another field": (long_ago("srv/Double.srv", "number", "value"), "number"),
     "not generated": (
-        of_package(put, "CMakeLists.txt", f"{MAKE_SERVICE}\n", ""), "Double.h",
+        of_package(put, "CMakeLists.txt", f"{MAKE_SERVICE}\n", ""), "does not exist",
     ),
 }  # fmt: skip
 
