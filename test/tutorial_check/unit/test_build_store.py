@@ -21,16 +21,16 @@ def cache(tmp_path, monkeypatch):
 
 def test_what_a_worker_writes_the_next_one_reads(order, cache):
     with BuildStore(order) as store:
-        assert list(store.descriptors) == ["new_build"]
-        os.write(store.descriptors["new_build"], b"first" + WHOLE)
+        assert store.descriptors == [store.new]
+        os.write(store.new, b"first" + WHOLE)
         store.keep()
         with BuildStore(order) as beside:
-            assert os.read(beside.descriptors["last_build"], 99) == b"first" + WHOLE
+            assert os.read(beside.last, 99) == b"first" + WHOLE
     with BuildStore(order) as store:
-        assert os.read(store.descriptors["last_build"], 99) == b"first" + WHOLE
-        os.write(store.descriptors["new_build"], b"cut off")
+        assert os.read(store.last, 99) == b"first" + WHOLE
+        os.write(store.new, b"cut off")
     with BuildStore(order) as store:
-        assert os.read(store.descriptors["last_build"], 99) == b"first" + WHOLE
+        assert os.read(store.last, 99) == b"first" + WHOLE
     assert os.listdir(cache) == [name_of_build(order)]
 
 

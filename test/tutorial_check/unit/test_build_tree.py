@@ -174,6 +174,16 @@ def test_a_build_with_links_or_too_large_is_not_kept(worker, tmp_path, plant):
     assert kept(worker, tmp_path / "kept").read_bytes() == b""
 
 
+@pytest.mark.parametrize(("name", "is_as_before"), [
+    ("build/config.h", True), ("src/CMakeLists.txt", True), (".catkin_workspace", True),
+    ("src/p/config.h", False), ("src/p/p.h", False), ("bin", False),
+])  # fmt: skip
+def test_a_build_that_writes_elsewhere_is_not_kept(worker, name, is_as_before):
+    sources = build_tree.digests_of(worker / "ws/src")
+    (worker / "ws" / name).write_text("made")
+    assert build_tree.is_elsewhere_as_before(worker / "ws", sources) == is_as_before
+
+
 def test_a_name_with_any_characters_is_kept(worker, tmp_path):
     for name in ("ä 1", "new\nline", os.fsdecode(b"\xff")):
         (worker / "ws/build" / name).write_text(name, errors="surrogateescape")

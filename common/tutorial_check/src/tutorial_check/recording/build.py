@@ -12,7 +12,7 @@ def built(workspace: Builder) -> Built:
 
 def own_built(workspace: Builder) -> Built:
     """Build only the exercises' packages, because another package may have stopped the build."""
-    return workspace.part
+    return workspace.needed_built
 
 
 def installed(workspace: Builder, package: str, script: str) -> Installed:

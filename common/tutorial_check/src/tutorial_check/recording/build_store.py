@@ -34,21 +34,22 @@ class BuildStore:
         self._file = cache() / name_of_build(order)
         self._ends = contextlib.ExitStack()
         self._unkept = ""
-        self.descriptors: dict[str, int] = {}  # {field of Order: descriptor}
+        self.last: int | None = None  # a descriptor
+        self.new: int | None = None
 
     def __enter__(self) -> BuildStore:
         with contextlib.suppress(OSError):
             self._file.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
-            new, self._unkept = tempfile.mkstemp(prefix=".", dir=self._file.parent)
-            self._open("new_build", new)
-            last = os.open(self._file, os.O_RDONLY)
-            self._open("last_build", last)
-            os.utime(last)  # used: trim() removes it later
+            self.new, self._unkept = tempfile.mkstemp(prefix=".", dir=self._file.parent)
+            self._ends.callback(os.close, self.new)
+            self.last = os.open(self._file, os.O_RDONLY)
+            self._ends.callback(os.close, self.last)
+            os.utime(self.last)  # used: trim() removes it later
         return self
 
-    def _open(self, field: str, descriptor: int) -> None:
-        self._ends.callback(os.close, descriptor)
-        self.descriptors[field] = descriptor
+    @property
+    def descriptors(self) -> list[int]:
+        return [number for number in (self.last, self.new) if number is not None]
 
     def __exit__(self, *_: object) -> None:
         self.keep()

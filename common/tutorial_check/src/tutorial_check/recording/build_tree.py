@@ -86,6 +86,12 @@ def needs_cmake(kept: Kept, now: Dict[str, str]) -> bool:
     return kept.whole.code != 0 or not suffixes <= CODE
 
 
+def is_elsewhere_as_before(workspace: Path, sources: Dict[str, str]) -> bool:
+    """Return whether a build has made files only in its own folders, which alone are kept."""
+    is_own = {*os.listdir(workspace)} <= {"src", *TREES, ".catkin_workspace"}
+    return is_own and changed(sources, digests_of(workspace / "src")) <= {"CMakeLists.txt"}
+
+
 def write(descriptor: int, kept: Kept, workspace: Path) -> None:
     """Write a build, but for `files`, to a descriptor; close it.
 

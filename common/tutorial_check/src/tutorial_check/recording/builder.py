@@ -60,14 +60,13 @@ class Builder(SubmissionFiles):
     @cached_property
     def built(self) -> Built:
         """Build all; if that fails, what the exercises need: others may need what Debian lacks."""
-        may_keep = self.order.new_build is not None and not self._is_same
-        may_keep = may_keep and not self.runner.has_started  # a program may have changed src
-        whole = result = self.whole
+        may_keep = not self.runner.has_started  # a program may have changed src
+        whole = result = self.all_built
         has_part = whole.code != 0 and len(self.needed) < len(self.packages)
-        if has_part and self.part.code == 0:
-            result = replace(self.part, unbuilt=whole.output or " ")
-        if may_keep:
-            self._keep()
+        if has_part and self.needed_built.code == 0:
+            result = replace(self.needed_built, unbuilt=whole.output or " ")
+        if may_keep and not self._is_same and self.order.new_build is not None:
+            self._keep(self.order.new_build)
         if result.unbuilt:
             for package in self.packages:  # the suite's stand-in replaces it
                 if is_stand_in(package.name):
@@ -75,7 +74,7 @@ class Builder(SubmissionFiles):
         return result
 
     @cached_property
-    def whole(self) -> Built:
+    def all_built(self) -> Built:
         """The build of all packages."""
         if self._kept and self._is_same:
             return self._kept.whole
@@ -83,7 +82,7 @@ class Builder(SubmissionFiles):
         return self._catkin_make(*(["--force-cmake"] if is_forced else []))
 
     @cached_property
-    def part(self) -> Built:
+    def needed_built(self) -> Built:
         """The build of the packages that the exercises need."""
         if self._kept and self._is_same and self._kept.part:
             return self._kept.part
@@ -103,23 +102,15 @@ class Builder(SubmissionFiles):
     def executables(self) -> tuple[Executable, ...]:
         return self.built.executables
 
-    def _keep(self) -> None:
+    def _keep(self, descriptor: int) -> None:
         """Keep what was built, unless another attempt could end otherwise."""
-        part = self.__dict__.get("part")
-        made = [self.whole, *filter(None, [part])]
-        programs = (program for build in made for program in build.executables)
-        # Of the workspace, only these two folders are kept.
-        is_all = all(
-            program.path.startswith(("build/", "devel/"))
-            for program in programs
-            if program.is_built
-        )
-        if is_all and all(
-            build.code is not None and not PASSES.search(build.output) for build in made
-        ):
+        part = self.__dict__.get("needed_built")
+        made = [self.all_built, *filter(None, [part])]
+        is_sure = all(run.code is not None and not PASSES.search(run.output) for run in made)
+        if is_sure and build_tree.is_elsewhere_as_before(self.source.parent, self._sources):
             self.runner.end_strays()  # of a CMakeLists.txt
-            kept = build_tree.Kept(str(self.folder), self._sources, self.whole, part, ())
-            build_tree.write(self.order.new_build, kept, self.source.parent)
+            kept = build_tree.Kept(str(self.folder), self._sources, self.all_built, part, ())
+            build_tree.write(descriptor, kept, self.source.parent)
 
     @cached_property
     def environment(self) -> dict[str, str]:

@@ -36,7 +36,9 @@ class Worker:
 
     def __init__(self, order: Order, wrapper: list[str], store: BuildStore | None = None) -> None:
         """Start it. wrapper: the words before its command, which isolate it."""
-        self._store, descriptors = store, store.descriptors if store else {}
+        self._store = store
+        if store:
+            order = replace(order, last_build=store.last, new_build=store.new)
         if not order.in_namespaces:
             privileges.keep_to_itself()  # and its end of the socket
         environment = {**order.environment, "LANG": os.environ.get("LANG", "C.UTF-8")}
@@ -47,7 +49,7 @@ class Worker:
         environment["PYTHONPATH"] = ":".join(filter(None, libraries))
         environment.update(PATH="/usr/bin:/bin:/usr/sbin:/sbin", PYTHONDONTWRITEBYTECODE="1")
         environment["LC_MESSAGES"] = "C.UTF-8"  # the checker reads English
-        self._order, self._buffer = replace(order, **descriptors), b""
+        self._order, self._buffer = order, b""
         self._end_s = time.monotonic() + LONGEST_S
         self._log = tempfile.TemporaryFile("w+")  # noqa: SIM115  closed by __exit__
         # No pipe: it has a path in /proc, to which a program could plant a link.
@@ -62,7 +64,7 @@ class Worker:
             stderr=self._log,
             env=environment,
             start_new_session=True,
-            pass_fds=(*namespaces, *descriptors.values()),
+            pass_fds=(*namespaces, *(store.descriptors if store else ())),
             cwd="/",
         )
         theirs.close()
