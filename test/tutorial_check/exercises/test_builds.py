@@ -178,6 +178,17 @@ def test_a_missing_script_stays_a_mistake_when_a_source_changes(source, build):
     assert build().code
 
 
+@claim("Of a workspace in C++ ...", because="of which a part cannot be built")
+def test_a_package_that_cannot_be_built_is_tried_once(source, build):
+    write("other/package.xml", MANIFEST.format("other"))(source)
+    write("other/CMakeLists.txt", "project(other)\nfind_package(none_such REQUIRED)\n")(source)
+    first = build()
+    assert first.code == 0 and "none_such" in first.unbuilt
+    assert programs(first) == ["listener", "talker"] and build() == first
+    of_package(put, "src/words.cpp", "hello", "hallo")(source)
+    assert build().code == 0
+
+
 @claim("Two workers of a check build a workspace once")
 @pytest.mark.skipif(not bubblewrap.granted().options, reason="one worker without namespaces")
 def test_two_workers_build_once(source, underlay):
