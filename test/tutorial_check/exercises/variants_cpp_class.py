@@ -39,6 +39,15 @@ void onKill(XmlRpc::XmlRpcValue&, XmlRpc::XmlRpcValue& result)
   result = ros::xmlrpc::responseInt(1, "", 0);
 }
 """
+RUN = """  void run()
+  {
+    while (ros::ok() && !ended)
+      ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.1));
+    stop();
+    ros::shutdown();
+  }
+
+"""
 PAUSE = "    ros::WallDuration(0.2).sleep();\n"
 ZERO = "    cmd_vel_.publish(geometry_msgs::Twist());\n"
 STOP = f"""  void stop()
@@ -229,6 +238,12 @@ ROWS = [
     cls("a flag, which rosnode kill sets as well", *FLAGGED,
         ("#include <ros/ros.h>\n", "@#include <ros/xmlrpc_manager.h>\n"), (FLAG, f"@{ON_KILL}"),
         ("  ros::Rate rate", f"{BOUND}@")),
+    cls("an atomic flag, and a method with the loop",
+        ("#include <csignal>\n", "#include <atomic>\n@"),
+        ("#include <ros/ros.h>\n", "#include <ros/callback_queue.h>\n@"),
+        ("class NewJoy2Twist\n", "std::atomic<bool> ended(false);\n\n@"),
+        (HANDLER, "void onCtrlC(int)\n{\n  ended = true;\n}\n"), ("  void stop()\n", f"{RUN}@"),
+        (PREFIX, "  NewJoy2Twist node;\n"), (SPIN, "  node.run();\n")),
     cls("made by new", (PREFIX, "  robot = new NewJoy2Twist();\n"),
         (SPIN, f"{SPIN}  delete robot;\n")),
     cls("std::unique_ptr, a lambda as the handler",
@@ -247,6 +262,8 @@ ROWS = [
         (MEMBERS, "  ros::Subscriber joy_;\n};\n\nNewJoy2Twist* robot")),
     right("a static handler, parameters, a dead-man button, AsyncSpinner", "6.2",
         write(CLASS, OWN)),
+    right("methods defined below the class", "6.2", write(CLASS, HEADER
+        + (SOURCE + MAIN_ALONE).replace("#include <joy2twist/new_joy2twist.h>\n", ""))),
     right("header, source and main in three files", "6.2",
         write(f"{J}/include/{J}/new_joy2twist.h", HEADER), write(CLASS, SOURCE),
         write(f"{J}/src/main.cpp", MAIN_ALONE), put(JOY_CMAKE, "src/new_joy2twist.cpp",
