@@ -63,8 +63,8 @@ def _no_target(submission: Submission, package: str, stem: str, names: dict[str,
     others = {path: name for path, name in names.items() if not name.startswith("new_")}
     lower = {path: name.lower() for path, name in others.items()}
     alike = difflib.get_close_matches(stem, lower.values(), 1, 0.7)
-    source = next((path for path in lower if lower[path] in alike), f"src/{stem}.cpp")
-    return Wrong(expected, seen, place, f"the name is the first word in {_lines(stem, source)}")
+    own = next((path for path in lower if lower[path] in alike), f"src/{stem}.cpp")
+    return Wrong(expected, seen, place, f"the name is the first word in {_lines(stem, own)}")
 
 
 def _unused_sources(submission: Submission, package: str) -> list[Path]:

@@ -12,8 +12,8 @@ from tutorial_check.checking.results import Wrong, first_of
 from tutorial_check.checking.submission import Submission
 from tutorial_check.data.recorders import INSTALLED
 from tutorial_check.submission import student_files
+from tutorial_check.submission.cpp_sources import CPP_ENDINGS
 from tutorial_check.submission.python_text import unreadable
-from tutorial_check.submission.submission_files import CPP_ENDINGS
 
 # env -S takes arguments.
 INTERPRETER = re.compile(rb"#!\s*(?:\S*/env\s+(?:-S\s*)?(?:\w+=\S*\s+)*)?(\S+)")

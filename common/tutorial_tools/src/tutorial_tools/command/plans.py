@@ -103,21 +103,27 @@ def plan_of_ros2(workspace: Path, arguments: list[str], confirm: Confirm) -> Pla
     return {"sections": ["demo", "more"], "builds": ["workspace", *needed], "command": command}
 
 
+def plan_of_program(word: str, arguments: list[str]) -> Plan:
+    """Return the plan of a subcommand with a parser of its own."""
+    made: Plan = {"sections": ["demo", "more"], "builds": ["workspace"]}
+    refuse(word, arguments)
+    of_cluster = word in ("scheduler", "worker")
+    module = f"tutorial_check.commands.{word}" if of_cluster else "tutorial_check"
+    own = [PROGRAMS[word]] if word in PROGRAMS else ["/usr/bin/python3", "-m", module]
+    if word in ("check", "worker"):  # a parser of C++
+        made["builds"].append(f"maybe={PYPI}")
+    if HELP & options_of(arguments):
+        made["builds"] = []
+    elif of_cluster or CLUSTER in options_of(arguments):
+        made["sections"].append("cluster")
+    return {**made, "command": [*own, *arguments]}
+
+
 def plan(word: str, arguments: list[str]) -> Plan:
     """Return the plan of a subcommand."""
     made: Plan = {"sections": ["demo", "more"], "builds": ["workspace"]}
     if word in OWN_PARSER:
-        refuse(word, arguments)
-        of_cluster = word in ("scheduler", "worker")
-        module = f"tutorial_check.commands.{word}" if of_cluster else "tutorial_check"
-        own = [PROGRAMS[word]] if word in PROGRAMS else ["/usr/bin/python3", "-m", module]
-        if word in ("check", "worker"):  # a parser of C++
-            made["builds"].append(f"maybe={PYPI}")
-        if HELP & options_of(arguments):
-            made["builds"] = []
-        elif of_cluster or CLUSTER in options_of(arguments):
-            made["sections"].append("cluster")
-        return {**made, "command": [*own, *arguments]}
+        return plan_of_program(word, arguments)
     if word == "bench":
         arguments = [BENCHES.get(argument, argument) for argument in arguments]
     if word in ("bench", "lint", "docs"):
