@@ -44,6 +44,7 @@ def test_a_lapse_has_its_line(seen, lapses):
     ("while (ros::ok())", SPIN),
     ('ROS_INFO("%s", msg->data.c_str());', 'ROS_INFO("%d", number->data);'),
     ("std::cout << msg->data << std::endl;", 'std::cout << msg->data << "\\n";', 'puts("x");'),
+    ('printf("heard");', "fflush(stdout);"),
     ('std::cout << "heard ";', "std::cout << msg->data << std::endl;"),
     ("ros::NodeHandle;", "ROS_INFO();", "ros::;", "advertise();"),
 ])  # fmt: skip

@@ -83,7 +83,7 @@ def few_messages(talk: Talked) -> Note | None:
 def made_again(talk: Talked) -> Wrong | None:
     """Find a Publisher that is made in the loop: until listeners have connected, it is gone."""
     line = talk.script.facts.lapses.repeated_publisher
-    if not line:
+    if not line or len(talk.times) >= FEW:
         return None
     seen = "few messages arrive: advertise in the loop makes a new Publisher at each turn"
     hint = f"above the loop: {talk.hint}"

@@ -98,10 +98,10 @@ def _unended_line(trees: Sequence[Tree]) -> int:
     first = 0
     for line, statement in tree.nodes(trees, "expression_statement"):
         words = {tree.text_of(node) for node in tree.below(statement, "identifier")}
-        if words & {"printf", "cout"}:
-            if words & {"endl", "flush"} or "\\n" in tree.text_of(statement):
-                return 0
-            first = first or line
+        is_output = bool(words & {"printf", "cout"})
+        if words & {"endl", "flush", "fflush"} or (is_output and "\\n" in tree.text_of(statement)):
+            return 0
+        first = first or (line if is_output else 0)
     return first
 
 
