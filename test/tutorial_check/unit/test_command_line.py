@@ -45,11 +45,11 @@ def test_in_a_shell_of_a_workspace_that_is_meant(monkeypatch):
 @claim("A command's help has its options alone, and `check --help` all")
 @pytest.mark.parametrize(("words", "command"), [
     ("--in ws 3 --keep a --json b --junit c --gradescope d --classroom e --no-hints", "check"),
-    ("3 --in ws --variant file.yaml --watch --hints 0", "watch"),
+    ("3 --in ws --variant file.yaml --watch --hints 0 --language cpp", "watch"),
     ("--solution 3 --in ws", "solution"),
     ("3 --all=class --jobs 3 --again --out a --variants 1 --keep b --cluster c", "all"),
     ("--course wiki --self-test --jobs 3", "self-test"),
-    ("--package gradescope 2 3 --out a --course square", "package"),
+    ("--package gradescope 2 3 --out a --course square --language any", "package"),
     ("--variants 2026 --show-variant ada", "show-variant"),
 ])  # fmt: skip
 def test_an_option_says_which_command_is_meant(words, command, capsys):
@@ -84,6 +84,8 @@ def test_an_option_says_which_command_is_meant(words, command, capsys):
     ([*UNDERLAY, "--self-test", "--variant", "a"], "--variant is for one workspace, --all and"),
     ([*UNDERLAY, "--self-test", "--keep", "a"], "--keep is for one workspace and --all, not"),
     ([*UNDERLAY, "--self-test", "4.3"], "unrecognized arguments: 4.3"),
+    ([*BEFORE, "--language", "java"], '"java": must be python, cpp or any'),
+    ([*UNDERLAY, "--self-test", "--language", "cpp"], "--language is for one workspace, --all and --pack"),
     ([*BEFORE, "--solution"], "--solution of which exercise? For example: --solution 4.3"),
     ([*BEFORE, "--colour"], "unrecognized arguments: --colour"),
 ])  # fmt: skip

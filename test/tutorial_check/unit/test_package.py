@@ -22,7 +22,7 @@ SQUARE = REPOSITORY / "common/courses/square"
 
 
 def test_the_zip_has_scripts_suite_and_course_and_no_solutions(tmp_path):
-    path = package("gradescope", read_course(SQUARE), ["1"], str(tmp_path / "a.zip"))
+    path = package("gradescope", read_course(SQUARE), ["1"], str(tmp_path / "a.zip"), "cpp")
     with zipfile.ZipFile(path) as file:
         names = file.namelist()
         scripts = {name: file.read(name).decode() for name in ("setup.sh", "run_autograder")}
@@ -31,7 +31,7 @@ def test_the_zip_has_scripts_suite_and_course_and_no_solutions(tmp_path):
     assert modes == [0o755, 0o755]
     assert {"course/course.yaml", "course/square.py", "suite/tutorial"} <= set(names)
     assert not [name for name in names if name.startswith(("course/solutions", "suite/.git/"))]
-    assert "--course source/course 1\n" in scripts["run_autograder"]
+    assert "--course source/course --language cpp 1\n" in scripts["run_autograder"]
     for text in scripts.values():
         assert subprocess.run(["bash", "-n"], input=text, text=True, check=False).returncode == 0
 

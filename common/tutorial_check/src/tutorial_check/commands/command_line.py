@@ -22,7 +22,9 @@ from tutorial_check.sandbox import bubblewrap
 
 
 def _package(options: argparse.Namespace) -> int:
-    print(package(options.package, options.course, options.exercises, options.out))
+    print(
+        package(options.package, options.course, options.exercises, options.out, options.language)
+    )
     return 0
 
 

@@ -18,11 +18,22 @@ WORKSPACE = "TUTORIAL_IN"  # environment variable: the workspace of a ./tutorial
 CHECK = "check"  # the command without an option of its name
 # {command: its sets of options}. If options name two commands, the later one here is run.
 COMMANDS = {
-    CHECK: ("workspace", "files", "exercises", "course", "hints", "variant", "keep"),
-    "watch": ("workspace", "watch", "exercises", "course", "hints", "variant"),
+    CHECK: ("workspace", "files", "exercises", "course", "language", "hints", "variant", "keep"),
+    "watch": ("workspace", "watch", "exercises", "course", "language", "hints", "variant"),
     "solution": ("workspace", "solution", "exercises", "course"),
-    "all": ("all", "exercises", "course", "hints", "variant", "seed", "keep", "out", "jobs"),
-    "package": ("package", "exercises", "course", "out"),
+    "all": (
+        "all",
+        "exercises",
+        "course",
+        "language",
+        "hints",
+        "variant",
+        "seed",
+        "keep",
+        "out",
+        "jobs",
+    ),
+    "package": ("package", "exercises", "course", "language", "out"),
     "self-test": ("self-test", "course", "jobs"),
     "show-variant": ("show-variant", "course", "variant", "seed"),
 }
@@ -163,7 +174,7 @@ def _add_shared(add: _Add) -> None:
     what = "in place of the handout: wiki, or a folder with course.yaml and your own checks"
     add("course", "--course", type=path, default=str(HANDOUT), metavar="FOLDER", help=what)
     what = "of the programs: python, cpp (C++), or any: Python where there is a program in it"
-    add("course", "--language", choices=LANGUAGES, default="", help=f"{what} (the course's)")
+    add("language", "--language", choices=LANGUAGES, default="", help=f"{what} (the course's)")
     what = "setup.bash of the underlay"
     given = os.environ.get(UNDERLAY)
     add("course", "--underlay", type=path, default=given, metavar="SETUP", help=what)

@@ -20,17 +20,20 @@ TEMPLATES = Path(__file__).with_name("autograder")  # @WORDS@ in capitals are re
 RUN_ON_GITHUB = "suite/tutorial check --in submission --classroom result.json --junit report.xml"
 
 
-def package(what: str, course: Course, exercises: Sequence[str], out: str | None) -> str:
+def package(
+    what: str, course: Course, exercises: Sequence[str], out: str | None, language: str = ""
+) -> str:
     """Write a service's file; return its path. what: as in --package. Raises CannotCheck."""
     service, _, repository = what.partition(":")
     if service not in FILES:
         raise CannotCheck(f"--package {what}: there are {GRADESCOPE} and {GITHUB}:OWNER/NAME")
     path = Path(out or FILES[service])
+    words = [*(["--language", language] if language else []), *exercises]
     try:
         if service == GRADESCOPE:
-            _gradescope(path, course, exercises)
+            _gradescope(path, course, words)
         else:
-            path.write_text(_workflow(repository, course, exercises), encoding="utf-8")
+            path.write_text(_workflow(repository, course, words), encoding="utf-8")
     except OSError as error:
         raise CannotCheck(f"{path}: {error.strerror}") from None
     return str(path)
@@ -43,9 +46,9 @@ def _filled(template: str, **words: str) -> str:
     return text
 
 
-def _gradescope(path: Path, course: Course, exercises: Sequence[str]) -> None:
+def _gradescope(path: Path, course: Course, options: Sequence[str]) -> None:
     parts = {"suite": SUITE, **({} if course.folder == HANDOUT else {"course": course.folder})}
-    words = [*(["--course", "source/course"] if "course" in parts else []), *exercises]
+    words = [*(["--course", "source/course"] if "course" in parts else []), *options]
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as file:
         for script in ("setup.sh", "run_autograder"):
             about = zipfile.ZipInfo(script)
@@ -71,10 +74,10 @@ def _commit() -> str:
     return done.stdout.strip()
 
 
-def _workflow(repository: str, course: Course, exercises: Sequence[str]) -> str:
+def _workflow(repository: str, course: Course, options: Sequence[str]) -> str:
     if not re.fullmatch(r"[\w.-]+/[\w.-]+", repository):
         raise CannotCheck(f"--package {GITHUB}:OWNER/NAME: the repository in which this suite is")
-    words = list(exercises)
+    words = list(options)
     if course.folder != HANDOUT:
         if SUITE not in course.folder.parents:
             raise CannotCheck(f"{course.folder}: put the course into the suite's repository")
