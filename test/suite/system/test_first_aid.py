@@ -44,6 +44,10 @@ master() {
     roscore -p "${ROS_MASTER_URI##*:}" >/dev/null 2>&1 &
     until rosparam get /run_id >/dev/null 2>&1; do sleep 0.1; done
 }
+made_of() { # CMAKE
+    echo "$1" >>ws/src/mine/CMakeLists.txt
+    (cd ws && bare env LC_ALL=C.UTF-8 catkin_make)
+}
 until_it_says() { # WORDS COMMAND ...
     touch said
     "${@:2}" >said 2>&1 &
@@ -54,6 +58,23 @@ python() { PYTHONPATH=$1:$PYTHONPATH /usr/bin/python3 "${@:2}"; }
 """
 # Of each problem: the page's sentence, the script that causes it, and after > the doctor's words.
 MADE = r"""
+add_executable cannot create target "..." because another target with the same name already exists
+    package; echo 'int main() {}' >ws/src/mine/a.cpp
+    made_of 'add_executable(a a.cpp) add_executable(a a.cpp)'
+fatal error: ....h: No such file or directory
+    package; echo '#include "ros/Ros.h"' >ws/src/mine/a.cpp; made_of 'add_executable(a a.cpp)'
+multiple definition of ...
+    package; echo 'int main() {}' | tee ws/src/mine/a.cpp >ws/src/mine/b.cpp
+    made_of 'add_executable(a a.cpp b.cpp)'
+undefined reference to ...
+    package; echo 'void f(); int main() { f(); }' >ws/src/mine/a.cpp
+    made_of 'add_executable(a a.cpp)'
+You must call ros::init() before creating the first NodeHandle
+    package 'COMPONENTS roscpp'
+    printf '#include <ros/ros.h>\nros::NodeHandle n;\nint main() {}\n' >ws/src/mine/a.cpp
+    made_of 'add_executable(a a.cpp)
+        target_link_libraries(a ${catkin_LIBRARIES})'
+    ws/devel/lib/mine/a
 Unable to register with master node ...
     until_it_says Unable rosrun beginner_tutorials talker.py; doctor
   > nothing listens on its port: start roscore
@@ -176,7 +197,7 @@ NOT_MADE = {
 
 
 def test_the_page_has_each_problem_where_one_looks():
-    assert len(MADE) + len(NOT_MADE) == 41
+    assert len(MADE) + len(NOT_MADE) == 46
     for sentence in NOT_MADE:
         assert sentence in PAGE
     firsts = [cell.split("`")[1].casefold() for cell, _ in CELLS]
