@@ -85,7 +85,7 @@ def test_an_option_says_which_command_is_meant(words, command, capsys):
     ([*UNDERLAY, "--self-test", "--keep", "a"], "--keep is for one workspace and --all, not"),
     ([*UNDERLAY, "--self-test", "4.3"], "unrecognized arguments: 4.3"),
     ([*BEFORE, "--language", "java"], '"java": must be python, cpp or any'),
-    ([*UNDERLAY, "--self-test", "--language", "cpp"], "--language is for one workspace, --all and --pack"),
+    ([*UNDERLAY, "--self-test", "--language", "cpp"], "--language is for one workspace, --all"),
     ([*BEFORE, "--solution"], "--solution of which exercise? For example: --solution 4.3"),
     ([*BEFORE, "--colour"], "unrecognized arguments: --colour"),
 ])  # fmt: skip
