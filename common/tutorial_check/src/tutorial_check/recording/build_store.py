@@ -89,7 +89,7 @@ def _stamps(underlay: str) -> list[tuple[str, int, int]]:
     """Return (path, time, size) of what comes with compiler, CMake, ROS and the underlay."""
     devel = Path(underlay).parent
     below = (*devel.glob("include/**/*"), *devel.glob("share/**/*.cmake"))
-    files = [*filter(os.path.exists, SYSTEM), *map(str, sorted(below))]
+    files = filter(os.path.exists, [*SYSTEM, *map(str, sorted(below))])
     stats = ((path, os.stat(path)) for path in files)
     return [(path, about.st_mtime_ns, about.st_size) for path, about in stats]
 
