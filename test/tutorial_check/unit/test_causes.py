@@ -56,7 +56,7 @@ def test_a_program_in_python_2_is_named_as_such(line):
     assert hint.startswith("this is Python 2: 2to3 -w /x.py") or is_legal_now
 
 
-@claim("A program in ...", because="the command of the hint")
+@claim("A program in Python 2 ...", because="the command of the hint")
 def test_the_hint_for_python_2_works(tmp_path):
     """Its command converts what Python 3 rejects; Debian 13 has no other converter."""
     pytest.importorskip("fissix")
