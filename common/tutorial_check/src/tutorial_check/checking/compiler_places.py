@@ -29,6 +29,9 @@ UNENDED = "new types may not be defined"  # in a return type, such as a class wi
 MOST_TEXT = 300  # characters of a line
 LACKS_SEMICOLON = re.compile(r"expected (?:.,. or )?(?:.;. |initializer )before")
 OPENED = re.compile(r"^(/[^\s:]{1,500}):(\d{1,9}):\d{1,9}: note: to match this", re.M)
+CLASSES = ("class ", "struct ")
+# Lines that begin a block, or end the one before.
+HEADS = (*CLASSES, "int ", "void ", "bool ", "double ", "float ", "static ", "}")
 TAB = 8  # columns, for g++
 
 
@@ -98,12 +101,25 @@ def _callback(submission: Submission, error: re.Match[str], place: Place) -> Pla
 def _line_before(submission: Submission, place: Place, column: int) -> Place:
     """Return the line with the last code before a column; comments and blank lines have none."""
     lines = text_of(submission, place.path).split("\n")[: place.line]
+    class_end = _class_end(lines[:-1])
+    if class_end:
+        return Place(place.path, class_end)
     indents = {len(text) - len(text.lstrip()) for text in (lines[-1], lines[-1].expandtabs(TAB))}
     if column - 1 not in indents:
         return place
     numbers = range(len(lines) - 1, 0, -1)
     codes = (n for n in numbers if lines[n - 1].strip() and lines[n - 1].lstrip()[0] not in "/*#")
     return Place(place.path, next(codes, place.line))
+
+
+def _class_end(lines: list[str]) -> int:
+    """Return the number of the last line if it is a } that ends a class; else 0."""
+    while lines and not lines[-1].strip():
+        lines = lines[:-1]
+    if not lines or lines[-1].rstrip() != "}":
+        return 0
+    heads = (line for line in lines[-2::-1] if line.startswith(HEADS))
+    return len(lines) if next(heads, "").startswith(CLASSES) else 0
 
 
 def _end_of_block(submission: Submission, place: Place) -> Place:
