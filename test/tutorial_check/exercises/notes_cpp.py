@@ -17,6 +17,7 @@ while not rospy.is_shutdown():
     pub.publish('good day at %s' % rospy.get_time())
     rate.sleep()
 """
+INIT = 'ros::init(argc, argv, "talker", ros::init_options::AnonymousName);'
 COUT = 'std::cout << "heard " << message->data'
 IOSTREAM = put(LISTENER, "#include <ros/ros.h>", "#include <iostream>\n&")
 NOTES = [
@@ -27,6 +28,10 @@ NOTES = [
         C7=["ends no line", "listener.cpp:7", "std::endl"]),
     noted("a text with std::endl", "3", [IOSTREAM, put(LISTENER, INFO, f"{COUT} << std::endl;")],
         C7=()),
+    noted("remaps in the code", "3", [put(TALKER, INIT, 'ros::M_string remaps;\n'
+        '  remaps["words"] = "chatter";\n'
+        '  ros::init(remaps, "talker", ros::init_options::AnonymousName);'),
+        put(TALKER, '>("chatter"', '>("words"')], C8=(), C9=["talker.cpp:10", "ignores __name:="]),
     noted("spin in the callback", "3", [put(LISTENER, INFO, f"{INFO}\n  ros::spin();")],
         C7=["ros::spin() in the callback", "listener.cpp:7"]),
     noted("a talker in Python, a listener in C++", "3", [remove(TALKER), write(TALKER_PY, PYTHON),
@@ -41,4 +46,4 @@ NOTES = [
         put(JOY2TWIST, "  ros::spin();\n", "  ros::AsyncSpinner spinner(1);\n  spinner.start();\n"
             f"  {PUB}\n  ros::waitForShutdown();\n")],
         C18=["joy2twist.cpp:22", "there is no pub", "first the Publisher"]),
-]
+]  # fmt: skip

@@ -8,7 +8,6 @@ from solution_cpp import LISTENER, TALKER
 
 HEAR = 'ros::Subscriber subscriber = node.subscribe("chatter", 10, hear);'
 HEARD = "const std_msgs::String::ConstPtr& message"
-INIT = 'ros::init(argc, argv, "talker", ros::init_options::AnonymousName);'
 LOOP = "  ros::Rate rate(10);\n  while (ros::ok())\n  {\n"
 SAYS = "    publisher.publish(message);\n"
 SPIN = "  ros::spin();\n"
@@ -198,9 +197,6 @@ ROWS = [
         (HEARD, "const ros::MessageEvent<std_msgs::String const>& event"),
         ('  ROS_INFO("%s heard: %s", ros::this_node::getName().c_str(), message->data.c_str());',
         '  printf("%s\\n", event.getMessage()->data.c_str());')),
-    talker("remaps in the code", (INIT, 'ros::M_string remaps;\n  remaps["words"] = "chatter";\n'
-        '  ros::init(remaps, "talker", ros::init_options::AnonymousName);'),
-        ('>("chatter"', '>("words"')),
     talker("counted, with spinOnce and a WallRate",
         (LOOP, "  ros::WallRate rate(5);\n  for (int count = 0; ros::ok(); ++count)\n  {\n"),
         ('"good day at " << ros::Time::now()', '"good day, no. " << count'),
