@@ -66,6 +66,7 @@ def test_ways_to_install_a_handler(installed):
 @pytest.mark.parametrize(("old", "new", "name", "line"), [
     ("  robot->stop();\n  ros::shutdown();\n", "  ros::shutdown();\n  robot->stop();\n",
         "shutdown_first", 11),
+    ("  robot->stop();\n", "  ros::Duration(1).sleep();\n  robot->stop();\n", "sleep_first", 11),
     ("{ sub_.shutdown();", "{ ros::shutdown();", "shutdown_first", 5),
     ("  robot = &node;\n", "", "unset_pointer", 8),
     ("  Node node;\n  robot = &node;\n  signal(SIGINT, onCtrlC);\n",

@@ -100,10 +100,12 @@ class DrivingEnd:
 
     def with_cause(self, wrong: Wrong) -> Wrong:
         """Add the cause to the Wrong for a zero that did not come in time; return it."""
-        called = self.made.facts.called_by("on_shutdown", 0)
+        facts = self.made.facts
+        called = facts.called_by("on_shutdown", 0)
         sleep, publish = (min(called.get(name, [0])) for name in ("sleep", "publish"))
-        if 0 < sleep < publish:
-            wrong.where = self.made.at(sleep)
+        early = (sleep if sleep < publish else 0) if facts.is_python else facts.ending.sleep_first
+        if early:
+            wrong.where = self.made.at(early)
             wrong.hint = "in shutdown first the zero, then the sleep"
         trace = traceback_of(self.submission, PACKAGE, self.end.output)
         if trace:

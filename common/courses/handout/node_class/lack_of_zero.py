@@ -21,6 +21,8 @@ def lack_of_zero(facts: SourceFacts) -> tuple[int, str]:
     name = handler.words[0] if handler else ""
     if ending.shutdown_first:
         return ending.shutdown_first, "ros::shutdown() closes the topics: first the zero, then this"
+    if ending.sleep_first:
+        return ending.sleep_first, "in the handler first the zero, then the sleep"
     if ending.replaced and not ending.own_sigint:
         hint = "ros::NodeHandle replaces this handler by roscpp's: give ros::init"
         return ending.replaced, f"{hint} ros::init_options::NoSigintHandler"

@@ -23,7 +23,8 @@ def ending_of(
     return Ending(
         own_sigint=_first_line(roots, _no_sigint),
         replaced=_first_line(roots, _replaced),
-        shutdown_first=_shutdown_first(bodies, handlers, called_in),
+        shutdown_first=_before_zero("signal_shutdown", bodies, handlers, called_in),
+        sleep_first=_before_zero("sleep", bodies, handlers, called_in),
         late=late,
         late_place=place,
         unset_pointer=_first_line(roots, _unset_pointer),
@@ -45,8 +46,10 @@ def _late(roots: list[Part], called_in: CalledIn) -> tuple[int, str]:
     return 0, ""
 
 
-def _shutdown_first(bodies: dict[str, Part], handlers: list[str], called_in: CalledIn) -> int:
-    """Return the line of a ros::shutdown() in a handler, before it publishes."""
+def _before_zero(
+    first: str, bodies: dict[str, Part], handlers: list[str], called_in: CalledIn
+) -> int:
+    """Return the line of a call in a handler, before it publishes, or 0. first: of the call."""
     known = [name for name in handlers if name in bodies]
     called = [name for handler in known for name in called_in(bodies[handler]) if name in bodies]
     for name in [*known, *called]:
@@ -56,7 +59,7 @@ def _shutdown_first(bodies: dict[str, Part], handlers: list[str], called_in: Cal
             names = called_in((start, node))
             if line and "publish" in names:
                 return line
-            if "publish" not in names and "signal_shutdown" in names:
+            if "publish" not in names and first in names:
                 line = line or start + tree.line_of(node)
     return 0
 

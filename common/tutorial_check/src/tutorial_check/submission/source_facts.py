@@ -41,6 +41,7 @@ class Ending:
     own_sigint: int = 0  # NoSigintHandler: roscpp leaves Ctrl-C to the program
     replaced: int = 0  # a handler that roscpp replaces, as a NodeHandle comes later
     shutdown_first: int = 0  # ros::shutdown() in the handler, before it publishes
+    sleep_first: int = 0  # a sleep in the handler, before it publishes
     late: int = 0  # publishes after ros::spin(), or in a destructor
     late_place: str = ""
     unset_pointer: int = 0  # of the program, that no line sets
