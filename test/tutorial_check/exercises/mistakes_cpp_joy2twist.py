@@ -117,7 +117,7 @@ ROWS = [
     node16("1 / 2", X, "twist.linear.x = 1 / 2 * joy->axes[1];", FIELDS, "linear.x is always 0",
         "1 / 2 is 0 in C++", "1.0 / 2"),
     node16("an int", X, "int speed = joy->axes[1]; twist.linear.x = speed;", FIELDS,
-        "whole numbers only", "speed: a whole number"),
+        "whole numbers only", "speed: an int has no decimals"),
     node16("buttons in C++", f"{X}\n  {Z}",
         "twist.linear.x = joy->buttons[1];\n  twist.angular.z = joy->buttons[0];", FIELDS,
         "msg->axes, not msg->buttons"),

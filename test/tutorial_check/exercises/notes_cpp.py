@@ -5,7 +5,7 @@ from mistakes_cpp_talker import INFO
 from rows import noted
 from solution import TALKER as TALKER_PY
 from solution import B
-from solution_cpp import JOY2TWIST, LISTENER, PUB, TALKER
+from solution_cpp import JOY2TWIST, LISTENER, PUB, SHOW, TALKER
 
 PYTHON = """#!/usr/bin/env python3
 import rospy
@@ -42,6 +42,9 @@ NOTES = [
         put(LISTENER, '"chatter", 10', '"chatter", 1')], C6=(), C7=()),
     noted("a latch in C++", "4.3", [put(JOY2TWIST, 'Twist>("/cmd_vel", 10', "&, true")],
         C16=["latch, the true of advertise", "leave latch out"]),
+    noted("six axes or none", "4.5", [put(JOY2TWIST, SHOW,
+        f'  if (joy->axes.size() != 6) throw std::runtime_error("six");\n{SHOW}')],
+        C20=["eight axes", "for (float axis : msg->axes)"]),
     noted("an AsyncSpinner before the Publisher", "4.3", [put(JOY2TWIST, f"  {PUB}\n", ""),
         put(JOY2TWIST, "  ros::spin();\n", "  ros::AsyncSpinner spinner(1);\n  spinner.start();\n"
             f"  {PUB}\n  ros::waitForShutdown();\n")],

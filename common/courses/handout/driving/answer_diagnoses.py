@@ -15,6 +15,7 @@ from .probe_diagnoses import SILENCES
 
 MOST_STRAY_ZEROS = 2  # in a row of Joys
 MOVING = ("linear.x", "angular.z")
+FLOAT = "an int has no decimals, a float or double has"
 IN_CALLBACK = "publish only in the callback, once for every Joy; end with {}"
 
 
@@ -156,6 +157,8 @@ def another_rule(node: Joy2TwistNode) -> Wrong | None:
     axes = node.source.idioms.axes
     stick = f"the stick is {axes}, not {axes.replace('axes', 'buttons')}"
     hint = stick if takes_buttons else verdict.hint
+    if "whole numbers" in verdict.seen and not node.source.is_python:
+        hint = FLOAT
     return Wrong("", verdict.seen, where, hint, sure)
 
 
@@ -169,7 +172,7 @@ def whole_numbers(source: SourceFacts, seen: str) -> tuple[int, str] | None:
         return line, hint
     if axis and "whole numbers only" in seen:
         line, name = axis
-        return line, f"{name}: a whole number; float or double keeps the decimals"
+        return line, f"{name}: {FLOAT}"
     return None
 
 

@@ -21,6 +21,7 @@ def joystick(submission: Submission) -> Note | str | None:
         raise Wrong(expected, "linear.x < 0", script)
     if seen.survives_eight_axes:
         return "switch at D and at X"
-    words = "with the switch at X (eight axes) it fails; the handout's does, too"
-    idioms = Script(submission, PACKAGE, script).idioms
-    return Note(words, script, f"as many as there are: {idioms.show_all_axes}")
+    facts = Script(submission, PACKAGE, script).facts
+    words = "with the switch at X (eight axes) it fails"
+    words += "; the handout's does, too" if facts.is_python else ""
+    return Note(words, script, f"as many as there are: {facts.idioms.show_all_axes}")
