@@ -49,7 +49,8 @@ class BuildStore:
 
     @property
     def descriptors(self) -> list[int]:
-        return [number for number in (self.last, self.new) if number is not None]
+        """The worker's arguments."""
+        return [number for number in (self.new, self.last) if number is not None]
 
     def __exit__(self, *_: object) -> None:
         self.keep()

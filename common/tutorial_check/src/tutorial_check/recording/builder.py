@@ -31,15 +31,23 @@ PASSES = re.compile(r"Killed|No space left|[Cc]annot allocate|out of memory|memo
 class Builder(SubmissionFiles):
     """A workspace whose packages can be built."""
 
-    def __init__(self, order: Order, task: Task, runner: Runner) -> None:
+    def __init__(
+        self,
+        order: Order,
+        task: Task,
+        runner: Runner,
+        new_build: int | None = None,
+        last_build: int | None = None,
+    ) -> None:
+        """new_build: a descriptor to write a build to. last_build: to read the last one from."""
         super().__init__(order, task)
         self.runner, self.underlay_environment = runner, runner.environment
         self._siblings = 0
         self._kept: build_tree.Kept | None = None
-        has_store = order.new_build is not None
-        self._sources = build_tree.digests_of(self.source) if has_store else {}
-        if order.last_build is not None:
-            self._kept = build_tree.restored(order.last_build, self.folder, self._sources)
+        self._new_build = new_build
+        self._sources = {} if new_build is None else build_tree.digests_of(self.source)
+        if last_build is not None:
+            self._kept = build_tree.restored(last_build, self.folder, self._sources)
         self._is_same = self._kept is not None and self._kept.sources == self._sources
 
     def sibling(self, package: str, script: str, text: str) -> str:
@@ -65,8 +73,8 @@ class Builder(SubmissionFiles):
         has_part = whole.code != 0 and len(self.needed) < len(self.packages)
         if has_part and self.needed_built.code == 0:
             result = replace(self.needed_built, unbuilt=whole.output or " ")
-        if may_keep and not self._is_same and self.order.new_build is not None:
-            self._keep(self.order.new_build)
+        if may_keep and not self._is_same and self._new_build is not None:
+            self._keep(self._new_build)
         if result.unbuilt:
             for package in self.packages:  # the suite's stand-in replaces it
                 if is_stand_in(package.name):

@@ -1,5 +1,7 @@
 """Record in isolation: python3 -m tutorial_check.recording.worker.
 
+Arguments: descriptors, see BuildStore.
+
 Standard output is a socket: unlike a pipe, it has no path in /proc that opens it. Each line is
 JSON: an Order, then Questions, each answered by a Reply. Replies name no folder of this machine.
 """
@@ -13,6 +15,7 @@ import os
 import shutil
 import signal
 import socket
+import sys
 import traceback
 from dataclasses import replace
 from pathlib import Path
@@ -113,7 +116,7 @@ def _prepared(order: Order, reader: int) -> Workspace:
     course = read_course(order.course)
     load(course)  # its recorders
     runner = Runner(variables, order.in_namespaces, reader, ruleset)
-    return Workspace(order, task_of(course)(order.variant), runner)
+    return Workspace(order, task_of(course)(order.variant), runner, *map(int, sys.argv[1:]))
 
 
 if __name__ == "__main__":

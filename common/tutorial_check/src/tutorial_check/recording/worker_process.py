@@ -12,7 +12,6 @@ import subprocess
 import tempfile
 import threading
 import time
-from dataclasses import replace
 
 from tutorial_check.data.json_data import as_json, from_json
 from tutorial_check.data.recorders import BUILT
@@ -37,8 +36,8 @@ class Worker:
     def __init__(self, order: Order, wrapper: list[str], store: BuildStore | None = None) -> None:
         """Start it. wrapper: the words before its command, which isolate it."""
         self._store = store
-        if store:
-            order = replace(order, last_build=store.last, new_build=store.new)
+        descriptors = store.descriptors if store else []
+        numbers = map(str, descriptors)
         if not order.in_namespaces:
             privileges.keep_to_itself()  # and its end of the socket
         environment = {**order.environment, "LANG": os.environ.get("LANG", "C.UTF-8")}
@@ -58,13 +57,13 @@ class Worker:
         namespaces = bubblewrap.granted().descriptors if order.in_namespaces else ()
         self._process = subprocess.Popen(
             # -s: without the home folder's packages from pip, which may not be visible
-            [*wrapper, "/usr/bin/python3", "-s", "-m", "tutorial_check.recording.worker"],
+            [*wrapper, "/usr/bin/python3", "-s", "-m", "tutorial_check.recording.worker", *numbers],
             stdin=subprocess.DEVNULL,
             stdout=theirs.fileno(),
             stderr=self._log,
             env=environment,
             start_new_session=True,
-            pass_fds=(*namespaces, *(store.descriptors if store else ())),
+            pass_fds=(*namespaces, *descriptors),
             cwd="/",
         )
         theirs.close()

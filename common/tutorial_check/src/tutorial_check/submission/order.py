@@ -31,8 +31,6 @@ class Order:
     environment: Dict[str, str] = field(default_factory=dict)  # of the underlay
     readable: Tuple[Path, ...] = ()  # what the student's programs may read
     in_namespaces: bool = False  # isolated by bubblewrap
-    last_build: Optional[int] = None  # a descriptor to read the last check's build from
-    new_build: Optional[int] = None  # a descriptor to write this check's build to
 
 
 @dataclass(frozen=True)
