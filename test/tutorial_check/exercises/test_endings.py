@@ -126,8 +126,9 @@ def test_nothing_is_left(literal, environment, scratch, how, work):
 def test_a_worker_that_is_ended_while_it_starts_leaves_nothing(literal, underlay, tmp_path):
     folder = tmp_path / "folder"
     folder.mkdir()
-    order = replace(prepared(Order(literal.parent, underlay, ["2"]), folder), in_namespaces=True)
-    wrapper = bubblewrap.command(order.folder, order.readable, REPOSITORY)
+    order = prepared(Order(literal.parent, underlay, ["2"]), folder)
+    order = replace(order, sandbox=replace(order.sandbox, in_namespaces=True))
+    wrapper = bubblewrap.command(order.folder, order.sandbox.readable, REPOSITORY)
     for milliseconds in range(0, 20):
         with Worker(order, wrapper):
             time.sleep(milliseconds / 1000)  # ends it at each point of bubblewrap's start

@@ -8,6 +8,7 @@ import pytest
 from tutorial_check.recording import build_store
 from tutorial_check.recording.build_store import BuildStore, name_of_build, trim
 from tutorial_check.recording.build_tree import WHOLE
+from tutorial_check.submission.order import Sandbox
 from tutorial_testing.claims import claim
 
 pytestmark = claim("Builds are kept in the cache, in a bounded size, for each workspace its last")
@@ -46,7 +47,7 @@ def test_what_may_change_a_build_changes_its_name(order, tmp_path, monkeypatch):
     header.touch()
     order = replace(order, underlay=str(tmp_path / "lower/devel/setup.bash"))
     names = [name_of_build(order), name_of_build(replace(order, workspace=tmp_path / "other"))]
-    names += [name_of_build(replace(order, environment={"ROS_DISTRO": "noetic"}))]
+    names += [name_of_build(replace(order, sandbox=Sandbox({"ROS_DISTRO": "noetic"})))]
     names += [name_of_build(replace(order, variant={"package": "drive"}))]
     header.write_text("// newer")
     names += [name_of_build(order)]

@@ -14,7 +14,7 @@ from tutorial_check.checking.submission import Submission
 from tutorial_check.course.tasks import Task
 from tutorial_check.errors import CannotCheck, CutShort
 from tutorial_check.recording.launcher import must_start_programs
-from tutorial_check.submission.order import Question, Reply
+from tutorial_check.submission.order import Question, Reply, Sandbox
 from tutorial_testing.claims import claim
 
 
@@ -97,7 +97,9 @@ def test_a_path_in_a_recording_is_looked_at_only_where_programs_may(order, path,
     source = Path(order.folder) / "handed_in/src"
     source.mkdir(parents=True)
     (source / "link").symlink_to("/root/secret")
-    one = Submission(replace(order, readable=(f"{order.folder}/shown",)), Task({}), None)
+    one = Submission(
+        replace(order, sandbox=Sandbox(readable=(f"{order.folder}/shown",))), Task({}), None
+    )
     whole = path.format(folder=order.folder)
     assert (one.is_own(whole), one.may_see(whole)) == (is_own, may_see)
 

@@ -91,11 +91,11 @@ class RunningLaunch(Launch):
 
 def plug_in_for(workspace: Workspace, ros: RosSession, plan: Plan) -> VirtualGamepad:
     """Plug in a joystick where the launch file's joy_node looks for it."""
-    if plan.device and not workspace.order.in_namespaces:
+    if plan.device and not workspace.order.sandbox.in_namespaces:
         name = Path(plan.path).name
         raise CannotCheck(f"the system grants no {plan.device} to try {name} with")
     gamepad, path = ros.plug_in(*filter(None, [plan.device]))
-    for node in plan.joysticks if not workspace.order.in_namespaces else ():
+    for node in plan.joysticks if not workspace.order.sandbox.in_namespaces else ():
         ros.peer.set_parameter(f"{node}/dev", str(path))
     return gamepad
 

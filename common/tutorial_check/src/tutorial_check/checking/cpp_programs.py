@@ -18,22 +18,27 @@ def find_compiled(submission: Submission, package: str, name: str) -> str:
     """Return the main source of a program, within its package. Raises Wrong.
 
     name: talker.py for a program talker. An executable of that name comes before one that is made
-    of a source of that name, and that before one whose name begins with it, or has it as a part.
+    of a source of that name, and that before one whose name begins with it, or has it as a part,
+    in any case; last comes the only program of the package.
     """
     must_build(submission)
     stem, programs = name.rpartition(".py")[0] or name, submission.cpp_programs(package)
     names = {path: _executable(submission, package, path).name for path in programs}
 
     def rank(path: str) -> tuple[int, bool]:
-        called, is_built = names[path], _executable(submission, package, path).is_built
+        called = names[path].lower()
+        is_built = _executable(submission, package, path).is_built
         # new_joy2twist is another program, not a joy2twist.
-        contains = stem in called and not called.startswith("new_")
-        ways = (called == stem, Path(path).stem == stem, called.startswith(stem), contains)
+        is_other = called.startswith("new_")
+        contains = stem in called and not is_other
+        is_alone = len(names) == 1 and not is_other
+        made_of = Path(path).stem == stem
+        ways = (names[path] == stem, made_of, called.startswith(stem), contains, is_alone)
         place = next((place for place, is_so in enumerate(ways) if is_so), len(ways))
         return place, not is_built
 
     best = min(programs, key=rank, default="")
-    if best and rank(best)[0] < 4:
+    if best and rank(best)[0] < 5:
         return best
     raise _no_target(submission, package, stem, names)
 

@@ -33,7 +33,7 @@ MADE = "(?:Request|Response|Config|(?:Action)?(?:Goal|Result|Feedback)?)"
 def is_outside(submission: Submission, path: str) -> bool:
     """Return whether a file belongs to neither the system, ROS, nor the workspace."""
     real = Path(os.path.realpath(path))
-    known = (Path("/usr"), Path("/opt"), SUITE, *submission.order.readable)
+    known = (Path("/usr"), Path("/opt"), SUITE, *submission.order.sandbox.readable)
     inside = (*known, submission.folder, *_prefixes(submission))
     return not any(Path(os.path.realpath(folder)) in real.parents for folder in inside)
 

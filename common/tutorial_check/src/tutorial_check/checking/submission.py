@@ -31,7 +31,7 @@ class Submission(SubmissionFiles):
     def __init__(self, order: Order, task: Task, ask: Ask) -> None:
         super().__init__(order, task)
         self.source = self.folder / handed_in.COPY
-        visible = [self.source, *order.readable, *map(Path, SYSTEM)]
+        visible = [self.source, *order.sandbox.readable, *map(Path, SYSTEM)]
         self._visible = [Path(os.path.realpath(path)) for path in visible]
         self._ask = ask
         self._runs: dict[object, Any] = {}  # what was recorded, or the Wrong instead

@@ -39,7 +39,7 @@ def examine(bare: Order, report: Report = silent, side_by_side: bool = False) ->
             order, worker = stack.enter_context(started(bare))
             ask: Ask = worker.ask
             several = len(bare.exercises) > 1 and len(os.sched_getaffinity(0)) > 1
-            if side_by_side and several and order.in_namespaces:
+            if side_by_side and several and order.sandbox.in_namespaces:
                 if _needs_build(order, course, ask):  # once, not in both workers
                     worker.build()
                 ask = stack.enter_context(_with_another(bare, course, ask))

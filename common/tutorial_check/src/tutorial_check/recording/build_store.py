@@ -82,7 +82,13 @@ def trim(folder: Path, most_bytes: int = MOST_KEPT_BYTES) -> None:
 def name_of_build(order: Order) -> str:
     """Return a name for builds of a workspace, which also what a build depends on changes."""
     facts: list[object] = [os.path.realpath(order.workspace), str(order.folder.parent)]
-    facts += [order.underlay, order.environment, order.variant, _code(), _stamps(order.underlay)]
+    facts += [
+        order.underlay,
+        order.sandbox.environment,
+        order.variant,
+        _code(),
+        _stamps(order.underlay),
+    ]
     return hashlib.sha256(json.dumps(facts, default=str).encode()).hexdigest()[:32]
 
 

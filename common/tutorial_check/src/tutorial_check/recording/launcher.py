@@ -35,9 +35,10 @@ def started(bare: Order) -> Iterator[tuple[Order, Worker]]:
         order = prepared(bare, Path(folder))
         course = order.folder / "course" / bare.course.name
         copy_sources(bare.course, course)
-        order = replace(order, course=course, readable=(*order.readable, course))
-        wrapper = bubblewrap.command(folder, order.readable, SUITE)
-        order = replace(order, in_namespaces=bool(wrapper))
+        shown = replace(order.sandbox, readable=(*order.sandbox.readable, course))
+        order = replace(order, course=course, sandbox=shown)
+        wrapper = bubblewrap.command(folder, order.sandbox.readable, SUITE)
+        order = replace(order, sandbox=replace(order.sandbox, in_namespaces=bool(wrapper)))
         must_start_programs(order, is_other=user is not None)
         if user is not None:
             privileges.open_to(user, folder)
@@ -65,19 +66,20 @@ def prepared(bare: Order, folder: Path) -> Order:
     readable += [parser] if parser else []
     return replace(
         bare, folder=folder, layout=layout,
-        readable=(*readable, *_needed(bare.underlay)),
+        sandbox=replace(bare.sandbox, readable=(*readable, *_needed(bare.underlay))),
     )  # fmt: skip
 
 
 def sourced(bare: Order) -> Order:
     """Return an order with the environment of its underlay. Raises CannotCheck."""
-    if bare.environment:
+    if bare.sandbox.environment:
         return bare
     if not os.path.isfile(bare.underlay):
         why = "no such file, or not readable; ./tutorial setup builds it"
         raise CannotCheck(f"{bare.underlay}: {why}")
     underlay = os.path.abspath(bare.underlay)
-    return replace(bare, underlay=underlay, environment=_environment(underlay))
+    sandbox = replace(bare.sandbox, environment=_environment(underlay))
+    return replace(bare, underlay=underlay, sandbox=sandbox)
 
 
 def _needed(underlay: str) -> tuple[Path, ...]:
@@ -109,12 +111,12 @@ def _environment(underlay: str) -> dict[str, str]:
 
 def must_start_programs(order: Order, is_other: bool) -> None:
     """Raise CannotCheck if no program can be started. is_other: as another user."""
-    if not order.in_namespaces and os.statvfs(order.folder).f_flag & os.ST_NOEXEC:
+    if not order.sandbox.in_namespaces and os.statvfs(order.folder).f_flag & os.ST_NOEXEC:
         why = "is mounted noexec: set TMPDIR to another folder"
         raise CannotCheck(f"no program can be started: {order.folder.parent} {why}")
     needed = set(_needed(order.underlay)) if is_other else set()
     ways = {up for path in (order.folder, *needed) for up in path.parents} if is_other else set()
-    for folder in sorted(needed if order.in_namespaces else needed | ways):
+    for folder in sorted(needed if order.sandbox.in_namespaces else needed | ways):
         if not folder.stat().st_mode & 0o001:
             # Open everything below a needed folder, but of a home folder only the folder itself.
             is_needed = needed & {folder, *folder.parents}

@@ -77,7 +77,7 @@ class RosSession:
         from tutorial_check.recording.virtual_gamepad import VirtualGamepad  # noqa: PLC0415
 
         workspace = self.workspace
-        path = Path(device) if workspace.order.in_namespaces else workspace.folder / "js0"
+        path = Path(device) if workspace.order.sandbox.in_namespaces else workspace.folder / "js0"
         gamepad = self.help(VirtualGamepad, str(path), workspace.task.joy).remote
         gamepad.connected()
         return gamepad, path

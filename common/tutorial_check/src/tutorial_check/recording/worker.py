@@ -40,7 +40,7 @@ def main() -> None:
     os.dup2(2, 1)  # so that nothing else gets into the replies
     lines = line.makefile()
     order = from_json(Order, json.loads(next(lines)))
-    if order.in_namespaces:
+    if order.sandbox.in_namespaces:
         privileges.prctl(privileges.PR_SET_PDEATHSIG, signal.SIGKILL)  # ends with bwrap
     else:  # its runner notices the end of the reader, and ends the programs
         signal.signal(signal.SIGTERM, signal.SIG_IGN)
@@ -107,15 +107,15 @@ def _prepared(order: Order, reader: int) -> Workspace:
     scratch = order.folder
     shutil.copytree(scratch / handed_in.COPY, scratch / "ws" / "src", symlinks=True)
     environment.prepare(scratch)
-    variables = environment.variables(scratch, order.environment)
-    readable: list[str | Path] = [scratch, *order.readable, *environment.SYSTEM, "/proc"]
+    variables = environment.variables(scratch, order.sandbox.environment)
+    readable: list[str | Path] = [scratch, *order.sandbox.readable, *environment.SYSTEM, "/proc"]
     own = [scratch / name for name in environment.OWN]
     ruleset = None
-    if landlock.version() and not order.in_namespaces:
+    if landlock.version() and not order.sandbox.in_namespaces:
         ruleset = landlock.ruleset(readable, own)
     course = read_course(order.course)
     load(course)  # its recorders
-    runner = Runner(variables, order.in_namespaces, reader, ruleset)
+    runner = Runner(variables, order.sandbox.in_namespaces, reader, ruleset)
     return Workspace(order, task_of(course)(order.variant), runner, *map(int, sys.argv[1:]))
 
 

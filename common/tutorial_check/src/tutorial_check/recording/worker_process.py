@@ -38,9 +38,9 @@ class Worker:
         self._store = store
         descriptors = store.descriptors if store else []
         numbers = map(str, descriptors)
-        if not order.in_namespaces:
+        if not order.sandbox.in_namespaces:
             privileges.keep_to_itself()  # and its end of the socket
-        environment = {**order.environment, "LANG": os.environ.get("LANG", "C.UTF-8")}
+        environment = {**order.sandbox.environment, "LANG": os.environ.get("LANG", "C.UTF-8")}
         # ROS reads these as it loads.
         own = str(order.folder / "ours")
         environment.update(HOME=own, ROS_HOME=own, ROS_LOG_DIR=own, ROS_IP="127.0.0.1")
@@ -54,7 +54,7 @@ class Worker:
         # No pipe: it has a path in /proc, to which a program could plant a link.
         self._line, theirs = socket.socketpair()
         self._line.settimeout(END_S)  # for a worker that does not read
-        namespaces = bubblewrap.granted().descriptors if order.in_namespaces else ()
+        namespaces = bubblewrap.granted().descriptors if order.sandbox.in_namespaces else ()
         self._process = subprocess.Popen(
             # -s: without the home folder's packages from pip, which may not be visible
             [*wrapper, "/usr/bin/python3", "-s", "-m", "tutorial_check.recording.worker", *numbers],
@@ -86,7 +86,7 @@ class Worker:
         """Stop it: a caller that waits for a reply gets Ended."""
         with contextlib.suppress(OSError):  # it has ended
             self._line.shutdown(socket.SHUT_RDWR)
-        if self._order.in_namespaces:
+        if self._order.sandbox.in_namespaces:
             self._kill()
 
     def _kill(self) -> None:

@@ -39,7 +39,6 @@ class CppFacts(SourceFacts):
     """Facts about a program of one or more files, whose lines are numbered through."""
 
     idioms: ClassVar[Idioms] = CPP
-    is_python: ClassVar[bool] = False
 
     def __init__(self, files: Mapping[str, str]) -> None:
         """files: {path within the package: text}, the one with main first."""

@@ -11,7 +11,16 @@ from tutorial_check.course.tasks import Variant
 from tutorial_check.errors import CutShort
 from tutorial_check.submission.packages import Layout
 
-VERSION = 2  # increased by each change that an older check could not read
+VERSION = 3  # increased by each change that an older check could not read
+
+
+@dataclass(frozen=True)
+class Sandbox:
+    """What the student's programs get of this machine."""
+
+    environment: Dict[str, str] = field(default_factory=dict)  # of the underlay
+    readable: Tuple[Path, ...] = ()  # what they may read
+    in_namespaces: bool = False  # isolated by bubblewrap
 
 
 @dataclass(frozen=True)
@@ -28,9 +37,7 @@ class Order:
     language: str = ""  # of the programs; "": the course's
     folder: Path = Path()  # for this order only, with the copy of the workspace
     layout: Layout = field(default_factory=Layout)  # messages name its paths
-    environment: Dict[str, str] = field(default_factory=dict)  # of the underlay
-    readable: Tuple[Path, ...] = ()  # what the student's programs may read
-    in_namespaces: bool = False  # isolated by bubblewrap
+    sandbox: Sandbox = Sandbox()  # noqa: RUF009  frozen
 
 
 @dataclass(frozen=True)

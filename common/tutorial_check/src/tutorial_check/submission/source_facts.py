@@ -51,7 +51,6 @@ class SourceFacts:
     """Facts about a program. What only another language has is empty here."""
 
     idioms: ClassVar[Idioms] = PYTHON
-    is_python: ClassVar[bool] = True
 
     def __init__(self) -> None:
         self.error, self.error_line = "", 0  # why its language cannot read it
@@ -68,6 +67,10 @@ class SourceFacts:
     def place(self, path: str, line: int) -> str:
         """Return FILE:LINE, or for line 0 the file. path: of the program within its package."""
         return f"{path}:{line}" if line else path
+
+    @property
+    def is_python(self) -> bool:
+        return self.idioms is PYTHON
 
     @property
     def error_text(self) -> str:

@@ -38,7 +38,7 @@ class SubmissionFiles:
         self.order, self.folder, self.layout = order, order.folder, order.layout
         self.task: Any = task  # the course's own
         self.source = self.folder / "ws" / "src"
-        self.underlay_environment: Mapping[str, str] = order.environment
+        self.underlay_environment: Mapping[str, str] = order.sandbox.environment
         self._memory: dict[object, Any] = {}
         self._visible = [Path("/")]  # folders that the student's programs may read
 
