@@ -45,6 +45,8 @@ def submission(make_submission, monkeypatch):
         ({"test_joy2twist": "test/a.cpp", "joy2twist_node": "src/b.cpp"}, "src/b.cpp"),
         ({"teleop_joy2twist": "src/teleop.cc", "display": "src/b.cpp"}, "src/teleop.cc"),
         ({"new_joy2twist": "src/a.cpp", "my_joy2twist": "src/b.cpp"}, "src/b.cpp"),
+        ({"Joy2Twist": "src/main.cpp", "display": "src/b.cpp"}, "src/main.cpp"),
+        ({"teleop_node": "src/teleop.cpp"}, "src/teleop.cpp"),
     ],
 )
 def test_the_nearest_name_is_the_program(submission, programs, source):
@@ -58,8 +60,8 @@ def test_the_nearest_name_is_the_program(submission, programs, source):
         ((), {}, "none", "write src/joy2twist.cpp, and in CMakeLists.txt add_executable"),
         (("src/joy2twist.cc",), {"a": "src/a.cpp"}, "src/joy2twist.cc is in no add_executable",
             "add_executable(joy2twist src/joy2twist.cc)"),
-        ((), {"Joy2Twist": "src/main.cpp"}, "called Joy2Twist", "(joy2twist src/main.cpp)"),
-        ((), {"JoyToTwist": "src/joy2Twist.cpp"}, "called JoyToTwist", "src/joy2Twist.cpp)"),
+        ((), {"JoyToTwist": "src/joy2Twist.cpp", "b": "src/b.cpp"}, "called JoyToTwist, b",
+            "src/joy2Twist.cpp)"),
         ((), {"new_joy2twist": "src/n.cpp"}, "called new_joy2twist", "src/joy2twist.cpp)"),
     ],
 )  # fmt: skip

@@ -24,6 +24,7 @@ def find_compiled(submission: Submission, package: str, name: str) -> str:
     must_build(submission)
     stem, programs = name.rpartition(".py")[0] or name, submission.cpp_programs(package)
     names = {path: _executable(submission, package, path).name for path in programs}
+    unused = _near(stem, _unused_sources(submission, package))
 
     def rank(path: str) -> tuple[int, bool]:
         called = names[path].lower()
@@ -31,7 +32,7 @@ def find_compiled(submission: Submission, package: str, name: str) -> str:
         # new_joy2twist is another program, not a joy2twist.
         is_other = called.startswith("new_")
         contains = stem in called and not is_other
-        is_alone = len(names) == 1 and not is_other
+        is_alone = len(names) == 1 and not is_other and not unused
         made_of = Path(path).stem == stem
         ways = (names[path] == stem, made_of, called.startswith(stem), contains, is_alone)
         place = next((place for place, is_so in enumerate(ways) if is_so), len(ways))
@@ -40,7 +41,7 @@ def find_compiled(submission: Submission, package: str, name: str) -> str:
     best = min(programs, key=rank, default="")
     if best and rank(best)[0] < 5:
         return best
-    raise _no_target(submission, package, stem, names)
+    raise _no_target(submission, package, stem, names, unused)
 
 
 def _executable(submission: Submission, package: str, path: str) -> Executable:
@@ -49,18 +50,24 @@ def _executable(submission: Submission, package: str, path: str) -> Executable:
     return executable
 
 
-def _no_target(submission: Submission, package: str, stem: str, names: dict[str, str]) -> Wrong:
-    """Return the Wrong for a program that no add_executable makes."""
+def _near(stem: str, sources: list[Path]) -> Path | None:
+    """Return the source whose name is most like a program's, or None."""
+    by_stem = {source.stem: source for source in sources}
+    near = difflib.get_close_matches(stem, by_stem, 1, 0.7)
+    return by_stem[near[0]] if near else None
+
+
+def _no_target(
+    submission: Submission, package: str, stem: str, names: dict[str, str], unused: Path | None
+) -> Wrong:
+    """Return the Wrong for a program that no add_executable makes. unused: its source, perhaps."""
     inside = submission.package(package)
     where = f"{inside.inside}/CMakeLists.txt"
     expected = f"a program {stem} in the package {submission.task.in_messages(package)}"
     place = place_of(where, inside.cmake or "", "add_executable", "catkin_package", "project")
-    unused = {source.stem: source for source in _unused_sources(submission, package)}
-    near = difflib.get_close_matches(stem, unused, 1, 0.7)
-    if near:
-        source = unused[near[0]]
-        seen = f"{source} is in no add_executable of CMakeLists.txt"
-        return Wrong(expected, seen, place, f"below catkin_package() write {_lines(stem, source)}")
+    if unused:
+        seen = f"{unused} is in no add_executable of CMakeLists.txt"
+        return Wrong(expected, seen, place, f"below catkin_package() write {_lines(stem, unused)}")
     if not names:
         hint = f"write src/{stem}.cpp, and in CMakeLists.txt {_lines(stem, f'src/{stem}.cpp')}"
         return Wrong(expected, "none", place, hint)

@@ -47,7 +47,9 @@ def _executable(
     target: dict[str, Any], targets: dict[str, dict[str, Any]], workspace: Path
 ) -> Executable:
     path = _within(workspace, workspace / "build", target["artifacts"][0]["path"])
-    waiting, known, sources = [target], set[str](), dict[str, None]()
+    waiting = [target]
+    known: set[str] = set()
+    sources: dict[str, None] = {}
     while waiting:
         current = waiting.pop(0)
         for source in current.get("sources", []):

@@ -27,7 +27,9 @@ def classes_of(roots: Sequence[Root]) -> Iterator[ClassFacts]:
 
 
 def _class_facts(node: Node, body: Node, start: int, is_made: bool, unmade: Place) -> ClassFacts:
-    methods, attributes, kinds = set[str](), set[str](), set[str]()
+    methods: set[str] = set()
+    attributes: set[str] = set()
+    kinds: set[str] = set()
     for member in body.children:
         declared = tree.below(member, "function_declarator")
         if declared:

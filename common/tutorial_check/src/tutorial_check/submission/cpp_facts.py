@@ -188,7 +188,8 @@ class CppFacts(SourceFacts):
 
         parts: (number of the file's first line, less one; node)
         """
-        bodies, waiting, lines = dict(self._bodies), list(parts), dict[str, set[int]]()
+        bodies, waiting = dict(self._bodies), list(parts)
+        lines: dict[str, set[int]] = {}
         while waiting:
             start, part = waiting.pop()
             for node in tree.below(part, "call_expression"):

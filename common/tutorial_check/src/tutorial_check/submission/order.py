@@ -37,7 +37,7 @@ class Order:
     language: str = ""  # of the programs; "": the course's
     folder: Path = Path()  # for this order only, with the copy of the workspace
     layout: Layout = field(default_factory=Layout)  # messages name its paths
-    sandbox: Sandbox = Sandbox()  # noqa: RUF009  frozen
+    sandbox: Sandbox = Sandbox()
 
 
 @dataclass(frozen=True)
