@@ -97,9 +97,9 @@ def test_only_what_has_changed_is_built(source, build):
     assert (wrong.code, programs(wrong)) == (1, []) and "error: expected" in wrong.output
     assert build() == wrong
     put(f"{P}/src/words.cpp", '"hallo"', "&;")(source)
-    mended = build()
-    assert (mended.code, programs(mended)) == (0, programs(first)), mended.output
-    assert compiled(mended) == ["words"] and "Configuring done" in mended.output
+    fixed = build()
+    assert (fixed.code, programs(fixed)) == (0, programs(first)), fixed.output
+    assert compiled(fixed) == ["words"] and "Configuring done" in fixed.output
 
 
 def of_package(edit, path, *words):

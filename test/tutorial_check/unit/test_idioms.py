@@ -1,4 +1,4 @@
-"""What a hint tells a student to write, in Python and in C++."""
+"""What a hint prints a student to write, in Python and in C++."""
 
 import ast
 

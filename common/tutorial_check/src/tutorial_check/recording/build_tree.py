@@ -4,7 +4,7 @@ A build tree has the absolute path of the worker's folder in many files, text an
 such folders have the same length, so the new name replaces the old one, and no file changes its
 size. The next build is decided by contents, not by times: an unchanged source gets an old time, a
 changed one keeps the time of its copy. A tree is continued only if nothing but the content of C++
-sources and scripts differs. After any other change catkin_make begins anew: what a removed target,
+sources and scripts differs. After any other change catkin_make begins again: what a removed target,
 header, message or variable of CMake left behind would otherwise make a wrong workspace right.
 """
 
@@ -150,7 +150,7 @@ def restored(descriptor: int, folder: Path, sources: Dict[str, str]) -> Kept | N
 
 
 def _write_files(kept: Kept, content: bytes, workspace: Path, is_same: bool) -> None:
-    """Write the files. If the build continues, programs and libraries must be linked anew: of a
+    """Write the files. If the build continues, programs and libraries must be linked again: of a
     build that fails nothing older may be left.
     """
     start = 0

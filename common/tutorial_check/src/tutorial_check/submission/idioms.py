@@ -1,4 +1,4 @@
-"""How a program says in Python, or in C++, what a hint tells a student to write."""
+"""The lines of Python and of C++ that hints have for a student to write."""
 
 from __future__ import annotations
 
