@@ -5,6 +5,12 @@ import os
 import pytest
 import stored
 import test_cpp
+from test_cpp import (  # noqa: F401
+    test_a_literal_solution_in_cpp_is_right,
+    test_a_mistake_in_cpp_is_found,
+    test_a_right_program_in_cpp_is_noted,
+    test_a_variant_in_cpp_is_right,
+)
 from test_mistakes import test_a_mistake_is_found  # noqa: F401
 from test_right import (  # noqa: F401
     test_a_literal_solution_is_right_and_noted,
