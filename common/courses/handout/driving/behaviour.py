@@ -39,8 +39,14 @@ def displays(submission: Submission, script: str = "", few_are_enough: bool = Fa
     expected = "every Joy displayed with its six axes, two decimals, in one line"
     note = must_pass(answers.DISPLAYED, node, expected)
     if note or few_are_enough:
-        return note or Note("it displays nothing; the handout's does")
+        return note or _few_displayed(node)
     return must_pass(answers.NOT_DISPLAYED, node, expected)
+
+
+def _few_displayed(node: Joy2TwistNode) -> Note:
+    count = node.values_displayed()
+    seen = f"a line has {count} of the six values of a message" if count else "it displays nothing"
+    return Note(f"{seen}; the handout's {'has all' if count else 'does'}")
 
 
 def topics(submission: Submission, script: str = "") -> Note | str:

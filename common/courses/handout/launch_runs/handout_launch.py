@@ -222,7 +222,7 @@ def _no_compiled_program(file: HandoutLaunch, node: LaunchNode) -> Wrong:
     names = [Script(submission, PACKAGE, path).name for path in paths]
     hint = meant(Path(kind).stem, names, 0.7, 'type="{}"')
     hint = JOY_HINT if kind == "joy_node" else hint or "type is the name in add_executable"
-    expected = f"a program {kind} in {submission.task.names.package}"
+    expected = f"the name of a program in {submission.task.names.package}"
     seen = f"Cannot locate node of type [{kind}]"
     return Wrong(expected, seen, file.at_node(node), hint)
 

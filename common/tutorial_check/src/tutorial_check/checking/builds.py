@@ -31,6 +31,7 @@ def must_build(submission: Submission) -> Built:
         if (own.seen, own.where) != (wrong.seen, wrong.where):
             place = f" ({wrong.where})" if wrong.where else ""
             own.seen += f"; another package fails, too: {wrong.seen}{place}"
+        own.look = "catkin_make"
         raise own
     return made
 
