@@ -22,14 +22,16 @@ EXCEPTION = re.compile(
     r"(?:\s+what\(\): *(?P<what>.*))?|without an active exception)",
     re.MULTILINE,
 )
+# Of a line. Bounded, as what follows: a hostile program may print long lines without end.
 ASSERTION = re.compile(
-    r"^.*?(?P<file>[^:\s]+):(?P<line>\d+): .*(?P<what>Assertion .* failed)\.", re.M
+    r"(?P<file>[^:\s]{1,200}):(?P<line>\d{1,7}): .*(?P<what>Assertion .* failed)\."
 )
+MOST_LINES, MOST_OF_A_LINE = 20, 2000
 OF_GLIBC = re.compile(
     r"^(?:(?:free|malloc|realloc|munmap_chunk)\(\)|double free|corrupted|\*\*\* stack).*",
     re.MULTILINE,
 )
-FATAL = re.compile(r"\[FATAL\] \[[^\]]*\]: *(?P<what>[^\n\x1b]*)")
+FATAL = re.compile(r"\[FATAL\] \[[^\]\n]{0,99}\]: *(?P<what>[^\n\x1b]*)")
 OF_ROS = re.compile(
     r"ASSERTION FAILED\s+file = (?P<file>\S+)\s+line = (?P<line>\d+)\s+cond = (?P<cond>.*)"
 )
@@ -47,14 +49,21 @@ def abort_of(output: str) -> str:
         asserted = OF_ROS.search(output)
         cause = f"assertion {asserted['cond'].strip()} failed" if asserted else NO_CAUSE[0]
         return next((line for line in reversed(fatal) if line not in NO_CAUSE), cause)
-    assertion, other = ASSERTION.search(output), OF_GLIBC.search(output)
+    assertion, other = _assertion(output), OF_GLIBC.search(output)
     return assertion["what"] if assertion else other[0] if other else ""
 
 
 def place_of_abort(output: str) -> tuple[str, int]:
     """Return (file, line) that the message of a failed assertion names, or ("", 0)."""
-    place = ASSERTION.search(output) or OF_ROS.search(output)
+    place = _assertion(output) or OF_ROS.search(output)
     return (place["file"], int(place["line"])) if place else ("", 0)
+
+
+def _assertion(output: str) -> re.Match[str] | None:
+    """Return the first assertion of the C or C++ library that has failed, or None."""
+    lines = [line for line in output.splitlines() if "Assertion " in line]
+    short = [line for line in lines[:MOST_LINES] if len(line) < MOST_OF_A_LINE]
+    return next(filter(None, map(ASSERTION.search, short)), None)
 
 
 def _plain(kind: str) -> str:
