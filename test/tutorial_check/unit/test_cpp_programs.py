@@ -6,6 +6,7 @@ import pytest
 
 from tutorial_check.checking import cpp_programs
 from tutorial_check.checking.cpp_programs import find_compiled, must_be_built
+from tutorial_check.checking.programs import find_script
 from tutorial_check.checking.results import Wrong
 from tutorial_check.data.recordings import Executable
 from tutorial_testing.claims import claim
@@ -34,6 +35,13 @@ def submission(make_submission, monkeypatch):
         return made
 
     return with_programs
+
+
+@claim("A program that was built and handed in with its source is no script")
+def test_a_program_that_was_handed_in_is_no_script(submission):
+    made = submission(joy2twist="src/drive.cpp")
+    (made.source / PACKAGE / "joy2twist").write_bytes(b"\x7fELF\2")
+    assert find_script(made, PACKAGE, "joy2twist.py") == "src/drive.cpp"
 
 
 @claim("A program in C++ may have a longer name than the exercise's; the nearest one is taken")

@@ -13,12 +13,12 @@ class ClassWords:
 
     is_class: str  # what section 6.2 asks for
     class_parts: str
-    makes_object: str  # of the class {name}
+    makes_object: str  # {name} is the class
     shares: str  # what a class has in place of globals
     stops_robot: str
     unsubscribes: str  # before the zero
     waits: str  # for the first message
-    arguments: str  # that roslaunch adds
+    arguments: str  # roslaunch adds some
 
 
 PYTHON = ClassWords(

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from tutorial_check.submission.source_facts import SourceFacts
 
-SIZES = {"axes": 6, "buttons": 12}  # of a Joy of the handout's gamepad
+SIZES = {"axes": 6, "buttons": 12}  # the handout's gamepad has so many
 CALLS_BACK = ("spin", "spinOnce", "AsyncSpinner", "callAvailable", "callOne")
 OUT_OF_RANGE = ("this->size()", "out_of_range")
 

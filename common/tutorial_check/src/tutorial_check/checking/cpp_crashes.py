@@ -61,7 +61,7 @@ def blamed(error: str, facts: CppFacts) -> tuple[int, str]:
         return line, hint or "".join(explained("c++", error))
     line = next((find(facts) for pattern, find in LINES.items() if re.search(pattern, error)), 0)
     name = NAME.search(error)
-    text = name["name"] if name else error.partition(": ")[2]  # of an exception of its own
+    text = name["name"] if name else error.partition(": ")[2]
     line = line or (facts.line_of_text(text) if text else 0)
     if "ros::init() before" in error:
         return facts.lapses.early_handle or (_first(facts, "NodeHandle"), ABOVE)

@@ -22,7 +22,7 @@ from tutorial_check.submission.source_facts import SourceFacts
 class File(Lines):
     """A file of a package."""
 
-    idioms: Idioms = PYTHON  # of the program's language
+    idioms: Idioms = PYTHON  # the program's
 
     def __init__(self, submission: Submission, package: str, path: str) -> None:
         """Read it. path: within the package. Raises Wrong if it is missing."""

@@ -28,7 +28,8 @@ def find_script(submission: Submission, package: str, name: str) -> str:
     files = sorted(path for path in folder.rglob("*") if path.is_file())
     paths = must_be_one_program(folder, name)
     # A name without .py counts if no file has one with it.
-    paths += [path for word in (name, name[:-3]) for path in files if path.name == word]
+    scripts = [path for path in files if not _is_compiled(path)]
+    paths += [path for word in (name, name[:-3]) for path in scripts if path.name == word]
     if paths:
         return str(paths[0].relative_to(folder))
     sources = submission.cpp_sources(package)
@@ -43,6 +44,12 @@ def find_script(submission: Submission, package: str, name: str) -> str:
     hint = f"create scripts/{name} in YOUR package; ./tutorial shell without --in has one of OURS"
     look = f"ls {submission.whole('scripts', package)}"
     raise Wrong(expected, "no such file anywhere in it", "", hint, look=look)
+
+
+def _is_compiled(path: Path) -> bool:
+    """Return whether a file is a program that was built, and handed in with its source."""
+    with path.open("rb") as file:
+        return file.read(4) == b"\x7fELF"
 
 
 def _must_have_its_name(submission: Submission, package: str, name: str, files: list[Path]) -> None:

@@ -3,7 +3,7 @@
 A build tree has the absolute path of the worker's folder in many files, text and binary. Names of
 such folders have the same length, so the new name replaces the old one, and no file changes its
 size. The next build is decided by contents, not by times: an unchanged source gets an old time, a
-changed one keeps the time of its copy. A tree is continued only if nothing but the content of C++
+changed one the current time. A tree is continued only if nothing but the content of C++
 sources and scripts differs. After any other change catkin_make begins again: what a removed target,
 header, message or variable of CMake left behind would otherwise make a wrong workspace right.
 """
