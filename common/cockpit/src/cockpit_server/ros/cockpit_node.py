@@ -30,6 +30,7 @@ from cockpit_server.ros.tabs.outlets import Outlets
 from cockpit_server.ros.tabs.plots import Plots
 from cockpit_server.ros.tabs.recorder import Recorder
 from cockpit_server.ros.tabs.turtles import Turtles
+from cockpit_server.ros.transforms import Transforms
 from cockpit_server.tabs.logs import Logs
 from cockpit_server.tabs.map_and_scan import MapAndScan
 from cockpit_server.tabs.publishing import Publishing
@@ -50,7 +51,7 @@ class Cockpit:
         (sensor_msgs/LaserScan), base_pose_ground_truth (nav_msgs/Odometry) and
         mobile_base/events/bumper, sensors/core, commands/led1, led2, sound (kobuki_msgs), any
         topic;
-        /map (nav_msgs/OccupancyGrid), /tf_static (tf2_msgs/TFMessage),
+        /map (nav_msgs/OccupancyGrid), /tf, /tf_static (tf2_msgs/TFMessage),
         /diagnostics (diagnostic_msgs/DiagnosticArray), /rosout (rosgraph_msgs/Log)
     Publishes: joy (sensor_msgs/Joy) of a robot that is driven; what a driver writes into a form
     Calls: services that end in /reset; what a driver writes into a form
@@ -62,6 +63,7 @@ class Cockpit:
         graphs = self._graphs = GraphWatch(name)
         log = Log()
         feeds = Feeds(log.warn)
+        transforms = Transforms(feeds, graphs)
         pages: dict[int, Page] = {}
         robots, reports = Robots(feeds, graphs), Joy2TwistReports(feeds)
         joysticks = Joysticks(feeds, graphs, name)

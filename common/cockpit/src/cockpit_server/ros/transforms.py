@@ -4,39 +4,54 @@ from __future__ import annotations
 
 import threading
 from math import hypot, isfinite
-from typing import Callable, Hashable, Sequence
+from typing import Any, Hashable, Protocol, Sequence
 
 import genpy
 import rospy
-import tf2_py
 from geometry_msgs.msg import Transform, TransformStamped
 from tf2_msgs.msg import TFMessage
 
 from cockpit_server.graph import GraphWatcher
 from cockpit_server.messages import ReceivedMessage, Subscriptions, decoded
 
+tf2_py: Any
+try:
+    import tf2_py
+except ImportError:  # It belongs to [more] of etc/packages, which a machine may lack.
+    tf2_py = None
+
 TF, TF_STATIC = "/tf", "/tf_static"
 KEPT_S = 10.0  # how far back lookups reach: tf2's default
 MOST_FRAMES, LONGEST_NAME = 2_000, 200  # in all; characters
 LONGEST_MESSAGE = 1_000_000  # bytes
 UNIT, UNIT_TOLERANCE = 1.0, 1e-3  # length of a rotation's quaternion; tf2 refuses 1e-3 and more
-Listener = Callable[[TransformStamped, ReceivedMessage], None]
+MISSING = "Install python3-tf2 (./tutorial setup does), and start the cockpit again."
+
+
+class TfListener(Protocol):
+    """What Transforms calls in rospy's threads, one call at a time."""
+
+    def on_transform(
+        self, stamped: TransformStamped, message: ReceivedMessage, refusal: str, now: float
+    ) -> None:
+        """Take a transform. refusal: why tf2 refuses it, or ""; now: of ROS's clock [s]."""
+
+    def on_clear(self) -> None:
+        """Forget all transforms: nobody needs them any more, or the time has gone back."""
 
 
 class Transforms:
-    """A buffer of tf2, which is filled while an owner needs it and empty otherwise.
-
-    Messages arrive in rospy's threads. listeners: called there with each valid transform.
-    """
+    """A buffer of tf2, which is filled while an owner needs it and empty otherwise."""
 
     def __init__(self, subscriptions: Subscriptions, graphs: GraphWatcher) -> None:
         self._subscriptions, self._graphs = subscriptions, graphs
         self._owners: set[Hashable] = set()
         self._lock = threading.Lock()
-        self._buffer = tf2_py.BufferCore(genpy.Duration.from_sec(KEPT_S))
+        self._buffer = tf2_py and tf2_py.BufferCore(genpy.Duration.from_sec(KEPT_S))
         self._stamps: dict[str, genpy.Time] = {}  # child frame -> its newest stamp
         self._now = 0.0  # of ROS's clock, which goes back when a recording starts again [s]
-        self.listeners: Sequence[Listener] = ()
+        self._is_filled = False
+        self.listeners: Sequence[TfListener] = ()
 
     def set_needed(self, owner: Hashable, is_needed: bool) -> None:
         """Subscribe to tf while an owner needs it; called twenty times a second by each."""
@@ -44,7 +59,7 @@ class Transforms:
         published = self._graphs.graph.published if self._owners else ()
         handlers = {topic: self._on_tf for topic in (TF, TF_STATIC) if topic in published}
         self._subscriptions.set_subscriptions(self, handlers, every=True)
-        if not self._owners and self._stamps:
+        if not self._owners and self._is_filled:
             self._clear()
 
     def lookup(
@@ -54,6 +69,8 @@ class Transforms:
 
         stamp: at that time, or the newest if the buffer does not reach it; None: the newest.
         """
+        if self._buffer is None:
+            return None, MISSING
         times = (stamp, genpy.Time(0)) if stamp else (genpy.Time(0),)
         why = ""
         for time in times:
@@ -70,7 +87,7 @@ class Transforms:
             now = rospy.get_time()
             if now < self._now:
                 self._clear()
-            self._now = now
+            self._now, self._is_filled = now, True
             for stamped in transforms.transforms:
                 self._add(stamped, message)
 
@@ -78,36 +95,50 @@ class Transforms:
         for names in (stamped, stamped.header):  # as tf2 does for names of tf
             field = "child_frame_id" if names is stamped else "frame_id"
             setattr(names, field, getattr(names, field).lstrip("/"))
-        if not is_valid(stamped):
+        refusal = refusal_of(stamped)
+        if not refusal and not self._keep(stamped, message):
             return
+        for listener in self.listeners:
+            listener.on_transform(stamped, message, refusal, self._now)
+
+    def _keep(self, stamped: TransformStamped, message: ReceivedMessage) -> bool:
+        """Add a valid transform to the buffer; return False if it has too many frames."""
         child, stamp = stamped.child_frame_id, stamped.header.stamp
         if child not in self._stamps and len(self._stamps) >= MOST_FRAMES:
-            return
+            return False
         # tf2 prints a warning for each repeated or old transform.
         last = self._stamps.get(child)
+        self._stamps[child] = stamp if last is None else max(stamp, last)
+        if self._buffer is None:
+            return True
         if message.topic == TF_STATIC:
             self._buffer.set_transform_static(stamped, message.sender)
         elif last is None or stamp > last:
             self._buffer.set_transform(stamped, message.sender)
-        self._stamps[child] = stamp if last is None else max(stamp, last)
-        for listener in self.listeners:
-            listener(stamped, message)
+        return True
 
     def _clear(self) -> None:
-        self._buffer.clear()
+        if self._buffer is not None:
+            self._buffer.clear()
         self._stamps.clear()
+        self._is_filled = False
+        for listener in self.listeners:
+            listener.on_clear()
 
 
-def is_valid(stamped: TransformStamped) -> bool:
-    """Return whether tf2 accepts a transform; it prints an error for each other one."""
+def refusal_of(stamped: TransformStamped) -> str:
+    """Return why tf2 refuses a transform, or ""; tf2 itself prints an error for each."""
     parent, child = stamped.header.frame_id, stamped.child_frame_id
     place, turn = stamped.transform.translation, stamped.transform.rotation
     length = hypot(turn.x, turn.y, turn.z, turn.w)
-    numbers = (place.x, place.y, place.z, length)
-    return (
-        bool(parent and child)
-        and parent != child
-        and max(len(parent), len(child)) <= LONGEST_NAME
-        and all(map(isfinite, numbers))
-        and abs(length - UNIT) < UNIT_TOLERANCE
-    )
+    if not parent or not child:
+        return f"its {'child_frame_id' if parent else 'header.frame_id'} is empty"
+    if parent == child:
+        return "it is its own parent"
+    if max(len(parent), len(child)) > LONGEST_NAME:
+        return f"a name has more than {LONGEST_NAME} characters"
+    if not all(map(isfinite, (place.x, place.y, place.z, length))):
+        return "a number is infinite or NaN"
+    if abs(length - UNIT) >= UNIT_TOLERANCE:
+        return f"the length of its quaternion is {length:.3g}, not 1"
+    return ""
