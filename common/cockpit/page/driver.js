@@ -22,11 +22,15 @@ export class Driver {
   #timer = null;
   #away = false; // the page is hidden, or without the keyboard
 
-  constructor(link, glass) {
+  /** onHands(): called when keys or thumbs did something. */
+  constructor(link, glass, onHands) {
     this.link = link;
     this.mode = "D";
     this.names = null; // {D, X: names of the buttons of that mode}
-    const changed = () => this.#report();
+    const changed = () => {
+      onHands();
+      this.#report();
+    };
     const lost = (why) => this.release(why);
     this.keys = new Keys(() => this.isDriving, changed);
     this.glass = new TouchStick(glass, changed, lost);

@@ -1,7 +1,8 @@
 /** The driver's session: the driver, the speed and Stop above all tabs, and driving in the tab Robot. */
 
-import { byId, number, say } from "./dom.js";
+import { byId, element, number, say } from "./dom.js";
 import { Driver } from "./driver.js";
+import { REACH } from "./keys.js";
 
 const NOTHING = {
   session: { driver: null, yours: false, robot: "", topic: "" },
@@ -20,7 +21,9 @@ export class DriverSession {
     this.link = link;
     this.notice = notice;
     this.tab = tab;
-    this.driver = new Driver(link, byId("glass"));
+    this.driver = new Driver(link, byId("glass"), () => this.#showReach());
+    byId("reach").append(...Object.entries(REACH).map(([code, [name]]) => element("button", {
+      "data-code": code, "aria-keyshortcuts": code.at(-1), onclick: () => this.#showReach(code) }, name)));
     link.on("hello", ({ role }) => this.#begin(role));
     link.on("session", (session) => this.#take(session));
     link.on("drives", (drives) => this.#hear({ drives }));
@@ -71,6 +74,7 @@ export class DriverSession {
     say(byId("ready"), drives.ready);
     say(byId("how-to"), drives.how);
     byId("how").hidden = !drives.how;
+    this.#showReach();
     this.#showButtons(session, drives, isByHand);
   }
 
@@ -87,10 +91,17 @@ export class DriverSession {
       const selected = document.querySelector("[role=tab][aria-selected=true]");
       ([stop, take].find((one) => !one.disabled && one.offsetParent) ?? selected)?.focus();
     }
-    byId("hand-over").hidden = byId("glass").hidden = !isByHand;
+    for (const part of ["hand-over", "glass", "reach", "reach-now"]) byId(part).hidden = !isByHand;
     byId("look").disabled = byId("mode").disabled = yours;
     document.body.classList.toggle("driving", yours);
     document.body.classList.toggle("by-hand", isByHand);
+  }
+
+  /** How far keys push the stick, which a button or a key has chosen. */
+  #showReach(code = this.driver.keys.reach) {
+    this.driver.keys.reach = code;
+    for (const button of byId("reach").children) button.setAttribute("aria-pressed", button.dataset.code === code);
+    say(byId("reach-now"), `keys: ${REACH[code][0]}`);
   }
 
   get #now() {

@@ -1,4 +1,4 @@
-/** The keys that move the virtual gamepad: Shift is LB, arrows or WASD the left stick. */
+/** The keys that move the virtual gamepad: Shift is LB, arrows or WASD the left stick, 1 to 3 how far it goes. */
 
 import { REST } from "./f710.js";
 
@@ -6,12 +6,14 @@ const STICK = {
   ArrowUp: [0, 1], KeyW: [0, 1], ArrowDown: [0, -1], KeyS: [0, -1],
   ArrowLeft: [1, 0], KeyA: [1, 0], ArrowRight: [-1, 0], KeyD: [-1, 0],
 };
+export const REACH = { Digit1: ["a fourth", 1 / 4], Digit2: ["half", 1 / 2], Digit3: ["whole", 1] }; // of the stick
 const SHIFTS = ["ShiftLeft", "ShiftRight"];
 const HAVE_SHIFT = ["keydown", "keyup", "pointerdown", "pointermove", "pointerup", "wheel"];
 const TYPED_INTO = "input:not([type=checkbox]), select, textarea";
 
 export class Keys {
   #down = new Set();
+  reach = "Digit3"; // a key of REACH
 
   /** isOurs(): whether keys drive now. onChange(): called after a change. */
   constructor(isOurs, onChange) {
@@ -29,13 +31,14 @@ export class Keys {
     }
     // Captured, so that arrows do not choose tabs while driving.
     addEventListener("keydown", (/** @type {any} */ event) => {
-      const isKnown = event.code in STICK || SHIFTS.includes(event.code);
+      const isKnown = [STICK, REACH].some((keys) => event.code in keys) || SHIFTS.includes(event.code);
       if (!isKnown || !isOurs() || event.target.matches?.(TYPED_INTO)) return;
       event.preventDefault();
       event.stopPropagation();
       // A key that was down before the page returned only repeats, and must be pressed again.
       if (event.repeat || event.ctrlKey || event.altKey || event.metaKey) return;
-      this.#down.add(event.code);
+      if (event.code in REACH) this.reach = event.code;
+      else this.#down.add(event.code);
       onChange();
     }, { capture: true });
     // When both Shifts are released, Windows reports one.
@@ -49,7 +52,8 @@ export class Keys {
 
   get hands() {
     const pushes = [...this.#down].map((code) => STICK[code] ?? [0, 0]);
-    const sum = (i) => Math.sign(pushes.reduce((total, push) => total + push[i], 0));
+    const [, reach] = REACH[this.reach];
+    const sum = (i) => reach * Math.sign(pushes.reduce((total, push) => total + push[i], 0));
     const held = SHIFTS.some((code) => this.#down.has(code)) ? ["LB"] : [];
     return { ...REST, left: [sum(0), sum(1)], held };
   }

@@ -47,6 +47,7 @@ export class RobotTab {
         <button id="take" class="primary" disabled>Drive from this page</button>
         <button id="reset" disabled>Reset robot</button>
       </div>
+      <div class="row" id="reach" role="group" aria-label="Keys push the stick" hidden>Keys 1–3</div>
       <div class="row" id="hand-over" hidden>
         <button id="give">Hand over</button>
         <label>to page <input type="number" id="heir" min="1" step="1" required></label>

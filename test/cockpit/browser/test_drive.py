@@ -5,6 +5,7 @@ from urllib.parse import urlsplit
 from tutorial_testing.claims import claim
 from tutorial_testing.cockpit.hands import Keys
 from tutorial_testing.socket_page import REST, SocketPage
+from tutorial_testing.waiting import wait_for
 
 FULL = "0.35 m/s, 0.00 rad/s"  # at full deflection: config/f710_d.yaml
 
@@ -15,6 +16,8 @@ STOP_ON_TOP = """(() => {
 })()"""
 # Whether a menu would open.
 MENU = "document.body.dispatchEvent(new Event('contextmenu', {cancelable: true, bubbles: true}))"
+
+PRESSED = "[...document.querySelectorAll('#reach [aria-pressed=true]')].map((e) => e.textContent)"
 
 
 @claim(
@@ -55,3 +58,34 @@ def test_a_second_page_is_refused_until_the_first_hands_over(world, page):
         second.wait_for("session", lambda session: session["yours"])
         page.wait_for_text("#session", "drives the robot")
         assert world.stays_at_rest()  # although the first page still holds all
+
+
+@claim("Keys 1 to 3 choose on any tab how far arrows push the stick: a fourth, half, whole; shown")
+def test_a_key_lets_the_robot_drive_at_a_fourth_and_a_button_at_half(world, page):
+    keys = Keys(page)
+    speeds = {}
+
+    def settled():
+        """Return the speed once it is constant for a second."""
+        speeds_now = [moment.v for moment in world.odometry[-50:]]
+        return speeds_now[-1] and max(speeds_now) - min(speeds_now) < 1e-4 and speeds_now[-1]
+
+    def measure(name):
+        wait_for(lambda: page.one("#reach-now").text == f"keys: {name}", name)
+        assert page.ask(PRESSED) == [name]
+        keys.drive(world, until=lambda: speeds.update({name: settled()}) or speeds[name])
+
+    keys.drive(world)
+    measure("whole")
+    page.click("half")
+    measure("half")
+    page.tab("Doctor")
+    for kind in ("rawKeyDown", "keyUp"):
+        page.key(kind, "Digit1")
+    measure("a fourth")
+    keys.release()
+    world.wait_for_rest()
+    shares = {name: round(speed / speeds["whole"], 3) for name, speed in speeds.items()}
+    assert shares == {"whole": 1, "half": 0.5, "a fourth": 0.25}
+    page.click("Stop")
+    wait_for(lambda: not page.one("#reach-now").is_displayed(), "nothing about keys")

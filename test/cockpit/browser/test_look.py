@@ -6,7 +6,9 @@ from tutorial_testing.claims import claim
 from tutorial_testing.cockpit.accessibility import violations
 from tutorial_testing.waiting import wait_for
 
-TABS = ("robot", "graph", "topics", "bag", "plot", "log", "doctor")
+TABS = (
+    "[...document.querySelectorAll('[role=tab]')].map((tab) => tab.getAttribute('aria-controls'))"
+)
 # What to choose in a tab, and what it then shows.
 CHOSEN = {
     "graph": [("#graph .topic", "#graph-details dd")],
@@ -24,7 +26,7 @@ WIDEST = """Math.max(document.documentElement.scrollWidth,
 
 @claim(
     "At 400 % nothing is scrolled in two directions, and Stop stays in sight; axe finds nothing on "
-    "six tabs"
+    "any tab"
 )
 @pytest.mark.parametrize("view", VIEWS)
 def test_axe_finds_nothing_and_no_tab_is_scrolled_in_two_directions(world, shared_browser, view):
@@ -34,7 +36,7 @@ def test_axe_finds_nothing_and_no_tab_is_scrolled_in_two_directions(world, share
     page.resize(*VIEWS[view])
     page.open(world.address)
     assert len(page.all("h1")) == 1
-    for name in TABS:
+    for name in page.ask(TABS):
         page.press(f"#tab-{name}")
         for first, shown in CHOSEN.get(name, ()):
             wait_for(lambda css=first: page.all(css), first)
