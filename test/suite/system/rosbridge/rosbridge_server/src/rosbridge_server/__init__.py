@@ -1,0 +1,1 @@
+from .handler import Clients  # noqa: F401  for the script
