@@ -1,0 +1,1 @@
+"""The reference clients of npm for a foxglove_bridge."""
