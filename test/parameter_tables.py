@@ -12,7 +12,8 @@ from pathlib import Path
 REPOSITORY = Path(__file__).resolve().parents[1]
 SOURCES = [
     "common/node_kit/src", "common/gamepad/src", "common/kobuki_protocol/src",
-    "common/stand_ins/kobuki_node/src", "fake_turtlebot_sim/src", "joy2twist/src",
+    "common/stand_ins/kobuki_node/src", "common/stand_ins/foxglove_bridge/src",
+    "fake_turtlebot_sim/src", "joy2twist/src",
 ]  # fmt: skip
 TABLES = [  # README, dataclass, prefix of each name
     ("joy2twist/README.md", "joy_to_twist.parameters.Parameters", "~"),
@@ -30,6 +31,11 @@ TABLES = [  # README, dataclass, prefix of each name
         "~",
     ),
     ("common/stand_ins/kobuki_node/README.md", "kobuki_driver.parameters.KobukiParameters", "~"),
+    (
+        "common/stand_ins/foxglove_bridge/README.md",
+        "foxglove_bridge_server.parameters.BridgeParameters",
+        "~",
+    ),
     ("common/gamepad/README.md", "gamepad.driver.parameters.DriverParameters", "~"),
 ]
 

@@ -32,6 +32,9 @@ ARGUMENTS = {
     "turtlebot_bringup/includes/kobuki/mobile_base.launch.xml": "serialport",
     "turtlebot_bringup/includes/robot.launch.xml": "base stacks 3d_sensor",
     "kobuki_node/minimal.launch": f"kobuki_publish_tf serialport simulation {PLACE}",
+    "foxglove_bridge/foxglove_bridge.launch": """port address tls certfile keyfile topic_whitelist
+        param_whitelist service_whitelist client_topic_whitelist max_update_ms send_buffer_limit
+        nodelet_manager num_threads capabilities""",
     "rbx1_bringup/fake_turtlebot.launch": f"urdf_file {PLACE}",
     "fake_turtlebot_sim/fake_turtlebot.launch": PLACE,
     "fake_turtlebot_sim/minimal.launch": PLACE,

@@ -52,11 +52,12 @@ SCRIPTS = [path for path in SCRIPTS if path.is_file()]
 # Import name -> the name in package.xml, where they differ.
 DEBIAN = {
     "cockpit_server": "cockpit", "joy_to_twist": "joy2twist", "kobuki_driver": "kobuki_node",
+    "foxglove_bridge_server": "foxglove_bridge",
     "PIL": "python3-pil",
     **{name: f"python3-{name}" for name in (
         "evdev", "matplotlib", "serial", "numpy", "rospkg", "tornado", "tqdm", "yaml")},
 }  # fmt: skip
-UNDECLARED = {"rosbags", "rclpy"}  # PyPI's, which package.xml cannot name
+UNDECLARED = {"rosbags", "rclpy", "foxglove"}  # PyPI's, which package.xml cannot name
 
 
 @claim("Package versions, launch ...", because="imports")

@@ -33,6 +33,13 @@ from launch_kit.kinds import (
 )
 from node_kit.parameters.declaration import Allowed, number, whole_number
 
+BRIDGE = "foxglove_bridge_server.parameters:BridgeParameters"
+OF_BRIDGE = (
+    "address", "asset_uri_allowlist", "capabilities", "client_topic_whitelist", "max_update_ms",
+    "nodelet_manager", "num_threads", "param_whitelist", "send_buffer_limit",
+    "service_type_retrieval_timeout_ms", "service_whitelist", "tls", "topic_whitelist",
+    "use_compression",
+)  # fmt: skip
 SIMULATOR = "fake_turtlebot_sim.simulator.parameters:SimulatorParameters"
 
 true_or_false = matching("true or false", "(?i:true|false)|1|0")
@@ -53,8 +60,10 @@ def recording(value: str) -> None:
 
 # The default of a launch file is allowed, too, such as none or an empty text.
 RULES: dict[str, Rule] = {
+    **{name: of_parameter(BRIDGE, name, yaml.safe_load) for name in OF_BRIDGE},
     "axis_deadman": of_number(whole_number(0), "the index of a button, from 0"),
     "bag": recording,
+    "certfile": elsewhere(file),
     "cmd_vel": topic,
     "cockpit": Allowed(
         "true, false or auto", lambda value: value == "auto" or true_or_false.fits(value)
@@ -68,6 +77,7 @@ RULES: dict[str, Rule] = {
     "joy_timeout": of_number(number(0, 60), "a number up to 60 s, or 0 for off"),
     "joystick": choice("gamepad", "browser"),
     "kobuki_publish_tf": parameter_switch,
+    "keyfile": elsewhere(file),
     "lan": true_or_false,
     "log_rate": of_number(number(0, 1000), "a number up to 1000 lines a second, or 0 for none"),
     "loop": true_or_false,

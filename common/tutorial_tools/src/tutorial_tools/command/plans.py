@@ -10,6 +10,7 @@ from typing import Callable, Dict, List
 
 from node_kit.ros2_python import installed
 from tutorial_tools.command import ros2_programs, subcommands
+from tutorial_tools.command.downloads import FOXGLOVE, ROS2, Download
 from tutorial_tools.command.subcommands import HELP, OWN_PARSER, fail, parser_of
 from tutorial_tools.paths import REPOSITORY
 
@@ -19,8 +20,8 @@ PROGRAMS["cockpit"] = str(REPOSITORY / "common" / "cockpit" / "scripts" / "cockp
 PYPI = "python:test/requirements.txt"
 CLUSTER = "--cluster"  # option of check --all
 Plan = Dict[str, List[str]]  # sections of packages, builds, student and the command
-# Asks whether to install ROS 2, unless the argument says so; raises ValueError if not.
-Confirm = Callable[[bool], None]
+# Asks whether to install a download, unless the argument says so; raises ValueError if not.
+Confirm = Callable[[Download, bool], None]
 BENCHES = {"check": "tutorial_check", "two_hosts": "suite"}  # former names
 
 
@@ -58,13 +59,15 @@ def command_of_run(command: list[str]) -> list[str]:
 def plan_of_test(kind: str, rest: list[str]) -> Plan:
     """Return the plan for a kind of tests, for all (""), or for lint, docs and bench."""
     made = {"sections": ["demo", "more", "test"], "builds": ["workspace", f"pypi={PYPI}"]}
+    if kind not in ("lint", "docs", "mutation"):
+        made["builds"].append(FOXGLOVE.build)
     if kind in ("browser", "containers"):
         made["sections"].append("browser")
     if kind in ("lint", "docs"):
         made["builds"].append(f"pypi={kind}:test/requirements-{kind}.txt")
         return {**made, "command": [str(REPOSITORY / "test" / kind), *rest]}
     if kind == "ros2" and not installed():
-        made["builds"].append(ros2_programs.BUILD)
+        made["builds"].append(ROS2.build)
     if kind == "mutation":
         made["builds"].append("pypi=mutation:test/suite/mutation/requirements.txt")
     return {**made, "command": [str(REPOSITORY / "test/run.py"), *filter(None, [kind]), *rest]}
@@ -96,11 +99,24 @@ def plan_of_ros2(workspace: Path, arguments: list[str], confirm: Confirm) -> Pla
     options = parser_of("ros2").parse_args(arguments)
     try:
         command = ros2_programs.command_of(workspace, options.program, options.rest)
-        confirm(options.yes)
+        if not installed():
+            confirm(ROS2, options.yes)
     except ValueError as error:
         fail(f"ros2: {error}")
-    needed = [] if installed() else [ros2_programs.BUILD]
+    needed = [] if installed() else [ROS2.build]
     return {"sections": ["demo", "more"], "builds": ["workspace", *needed], "command": command}
+
+
+def plan_of_foxglove(arguments: list[str], confirm: Confirm) -> Plan:
+    """Return the plan for the bridge to Foxglove and Lichtblick."""
+    options = parser_of("foxglove").parse_args(arguments)
+    try:
+        confirm(FOXGLOVE, options.yes)
+    except ValueError as error:
+        fail(f"foxglove: {error}")
+    launch = ["roslaunch", "foxglove_bridge", "foxglove_bridge.launch", *options.arguments]
+    builds = ["workspace", FOXGLOVE.build]
+    return {"sections": ["demo", "more"], "builds": builds, "command": launch}
 
 
 def plan_of_program(word: str, arguments: list[str]) -> Plan:
@@ -174,4 +190,6 @@ def read(workspace: Path, typed: list[str], confirm: Confirm) -> Plan | None:
         fail(f"{word}: has no --in; shell, run, doctor and check do")
     if word == "ros2":
         return plan_of_ros2(workspace, arguments, confirm)
+    if word == "foxglove":
+        return plan_of_foxglove(arguments, confirm)
     return plan(word, arguments)

@@ -11,6 +11,7 @@ from typing import NoReturn, TextIO
 
 from node_kit.parameters.arguments import Parser, above_zero
 from tutorial_tools.command import ros2_programs
+from tutorial_tools.command.downloads import FOXGLOVE, ROS2
 from tutorial_tools.paths import REPOSITORY
 
 SUBCOMMANDS = {  # name: (arguments as the help shows them, what it does)
@@ -20,6 +21,7 @@ SUBCOMMANDS = {  # name: (arguments as the help shows them, what it does)
         "which exercises are done in your workspace; --course wiki, or FOLDER: others",
     ),
     "ros2": ("[--yes] [PROGRAM ...]", "a Python program with ROS 2, beside ROS 1"),
+    "foxglove": ("[--yes] [NAME:=VALUE ...]", "connect Foxglove or Lichtblick to the robots"),
     "scheduler": ("[--host HOST]", "distribute what check --all --cluster is to check"),
     "worker": ("ADDRESS [--jobs N]", "check for such a scheduler"),
     "test": ("[KIND|PACKAGE|PATH] [ARGUMENT ...]", "run the tests: all, or some of them"),
@@ -52,6 +54,7 @@ KINDS = {  # kinds of tests
 MORE_OF_TEST = """\
 PACKAGE, such as joy2twist: its tests of the first four kinds, without those marked long or night.
 PATH: a folder or file of test/PACKAGE/KIND. More arguments go to pytest, such as -k EXPRESSION."""
+WITHOUT_ASKING = "install what is missing ({} from PyPI) without asking"
 HELP = {"-h", "--help"}
 WITH_IN = ("shell", "run", "doctor", "check")  # subcommands that have --in
 OWN_PARSER = {  # programs with parsers of their own: their options, for completion
@@ -109,11 +112,13 @@ def parser_of(word: str) -> Parser:
     elif word == "run":
         add("rest", nargs=argparse.REMAINDER, metavar="COMMAND")
     elif word == "ros2":
-        text = f"install what is missing ({ros2_programs.SIZE} from PyPI) without asking"
-        add("--yes", action="store_true", help=text)
+        add("--yes", action="store_true", help=WITHOUT_ASKING.format(ROS2.size))
         text = f"a file, or one of ours: {', '.join(ros2_programs.programs())}; default: python"
         add("program", nargs="?", metavar="PROGRAM", help=text)
         add("rest", nargs=argparse.REMAINDER, metavar="ARGUMENT")
+    elif word == "foxglove":
+        add("--yes", action="store_true", help=WITHOUT_ASKING.format(FOXGLOVE.size))
+        add("arguments", nargs="*", metavar="NAME:=VALUE", help="for foxglove_bridge.launch")
     elif word == "docs":
         add("folder", nargs="?", metavar="FOLDER", help="default: in the suite's cache")
     else:

@@ -8,6 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+from tutorial_tools.command.downloads import FOXGLOVE
 from tutorial_tools.io.command.build import is_over_prefix, made_over
 from tutorial_tools.paths import PREFIX, REPOSITORY
 
@@ -20,7 +21,8 @@ def environment_of(workspace: Path, word: str, student: str) -> dict[str, str]:
     given = _given()
     lower, etc = workspace / "lower" / "devel", str(REPOSITORY / "common/node_kit/etc/ros")
     own = {"TUTORIAL_UNDERLAY": f"{lower}/setup.bash"}
-    from_pypi = [str(path) for path in workspace.glob("python/lib/python3*/site-packages")]
+    places = (f"{name}/lib/python3*/site-packages" for name in ("python", FOXGLOVE.name))
+    from_pypi = [str(path) for place in places for path in workspace.glob(place)]
     if word in ("check", "worker", "scheduler"):
         libraries = ":".join([f"{lower}/lib/python3/dist-packages", *from_pypi])
         return {**given, **own, "PYTHONPATH": libraries, "ROS_ETC_DIR": etc}

