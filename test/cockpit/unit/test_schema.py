@@ -78,6 +78,7 @@ WHOLE, UP_TO = "must be a whole number from 0", "must be a number from"
          "must be a text of at most 200 characters"),
         ("watch topic", [None, "/", "/" + "x" * 199], ["", "odom"], "must begin with /"),
         ("watch fields", [("/a/x",) * 20], [["/a/x"] * 21], "must be a list of at most 20"),
+        ("watch frames", [None, (), ("odom", "a/b")], [["x"] * 3], "must be a list of at most 2"),
         ("watch log", [True], [1], "must be true or false"),
         ("drive mode", ["D", "X"], ["d", "", "DX"], "must be D, X"),
     ],

@@ -20,6 +20,7 @@ GOOD = {
     "watch": {
         "robots": True, "look": None, "graph": False, "topic": "/odom",
         "fields": ["/odom/pose/pose/position/x"], "field_list": False, "log": True, "bag": False,
+        "frames": ["odom", "base_link"],
     },
     "drive": {"robot": "", "mode": "D"},
     "stop": {},

@@ -9,6 +9,7 @@ from cockpit_server.errors import RefusedError
 
 Column = Dict[str, FrozenSet[str]]
 ODOMETRY, JOY, POSE = "nav_msgs/Odometry", "sensor_msgs/Joy", "turtlesim/Pose"
+TF, TF_STATIC = "/tf", "/tf_static"
 
 
 @dataclass(frozen=True)

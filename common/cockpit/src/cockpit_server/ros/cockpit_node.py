@@ -31,6 +31,7 @@ from cockpit_server.ros.tabs.plots import Plots
 from cockpit_server.ros.tabs.recorder import Recorder
 from cockpit_server.ros.tabs.turtles import Turtles
 from cockpit_server.ros.transforms import Transforms
+from cockpit_server.tabs.frames import Frames
 from cockpit_server.tabs.logs import Logs
 from cockpit_server.tabs.map_and_scan import MapAndScan
 from cockpit_server.tabs.publishing import Publishing
@@ -64,6 +65,8 @@ class Cockpit:
         log = Log()
         feeds = Feeds(log.warn)
         transforms = Transforms(feeds, graphs)
+        frames = Frames(transforms, graphs, rospy.get_time)
+        transforms.listeners = (frames,)
         pages: dict[int, Page] = {}
         robots, reports = Robots(feeds, graphs), Joy2TwistReports(feeds)
         joysticks = Joysticks(feeds, graphs, name)
@@ -72,7 +75,7 @@ class Cockpit:
             robots, joysticks, driving, graphs, Topics(feeds, graphs), Plots(feeds, graphs),
             Forms(driving, self._soon, graphs), Publishing(driving, graphs, Outlets()), Logs(feeds),
             Doctor(), Bags(driving, self._soon), Recorder(), MapAndScan(feeds, graphs),
-            Turtles(graphs),
+            Turtles(graphs), frames,
         )  # fmt: skip
         self._hub = Hub(pages, driving, sources, log.warn, time)
         page = Path(rospkg.RosPack().get_path("cockpit"), "page")

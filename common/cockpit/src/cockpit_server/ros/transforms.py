@@ -11,7 +11,7 @@ import rospy
 from geometry_msgs.msg import Transform, TransformStamped
 from tf2_msgs.msg import TFMessage
 
-from cockpit_server.graph import GraphWatcher
+from cockpit_server.graph import TF, TF_STATIC, GraphWatcher
 from cockpit_server.messages import ReceivedMessage, Subscriptions, decoded
 
 tf2_py: Any
@@ -20,7 +20,6 @@ try:
 except ImportError:  # It belongs to [more] of etc/packages, which a machine may lack.
     tf2_py = None
 
-TF, TF_STATIC = "/tf", "/tf_static"
 KEPT_S = 10.0  # how far back lookups reach: tf2's default
 MOST_FRAMES, LONGEST_NAME = 2_000, 200  # in all; characters
 LONGEST_MESSAGE = 1_000_000  # bytes
