@@ -103,8 +103,8 @@ export class FramesTab {
   }
 
   #newLine(frame) {
-    const line = row("", "", "", "");
-    line.cells[0].append(frame, element("strong", { className: "problem" }));
+    const line = row(frame, "", "", "");
+    line.cells[0].append(element("strong", { className: "problem" }));
     line.onclick = () => this.#choose(1, frame);
     line.onfocus = () => {
       for (const other of byId("frames-rows").rows) other.tabIndex = other === line ? 0 : -1;

@@ -11,6 +11,7 @@ TABS = (
 )
 # What to choose in a tab, and what it then shows.
 CHOSEN = {
+    "frames": [("#frames-rows tr:nth-child(2)", "#frames-transform:not(:empty)")],
     "graph": [("#graph .topic", "#graph-details dd")],
     "topics": [("#topics-rows tr", "#topics-fields input")],
     "plot": [("#plot-fields li:nth-child(10) input", "#plot-values span")],
