@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 from math import hypot, isfinite
-from typing import Any, Hashable, Protocol, Sequence
+from typing import Hashable, Protocol, Sequence
 
 import genpy
 import rospy
@@ -14,7 +14,6 @@ from tf2_msgs.msg import TFMessage
 from cockpit_server.graph import TF, TF_STATIC, GraphWatcher
 from cockpit_server.messages import ReceivedMessage, Subscriptions, decoded
 
-tf2_py: Any
 try:
     import tf2_py
 except ImportError:  # It belongs to [more] of etc/packages, which a machine may lack.
