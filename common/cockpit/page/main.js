@@ -1,6 +1,7 @@
 /** The cockpit's page: one connection, the tabs, and what the server is asked to send for them. */
 
 import { BagTab } from "./bag_tab.js";
+import { DiagnosticsTab } from "./diagnostics_tab.js";
 import { byId, element, say } from "./dom.js";
 import { DoctorTab } from "./doctor_tab.js";
 import { FramesTab } from "./frames_tab.js";
@@ -18,7 +19,7 @@ import { TopicsTab } from "./topics_tab.js";
  * address: place, a text that begins with / or ?, and go(path, query), which shows what an address names.
  * The robots' places are always watched, as they show that the server runs.
  */
-const TABS = [RobotTab, FramesTab, GraphTab, TopicsTab, BagTab, PlotTab, LogTab, DoctorTab];
+const TABS = [RobotTab, FramesTab, GraphTab, TopicsTab, BagTab, PlotTab, LogTab, DiagnosticsTab, DoctorTab];
 const NOTICE_MS = 8000;
 const BY_ITSELF = ["watch", "input", "release", "again", "publish_end"]; // sent without a person's action
 const WORDS = { open: "Connected", lost: "Connection lost – trying again", gone: "No cockpit – trying again" };

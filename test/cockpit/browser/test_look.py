@@ -14,6 +14,7 @@ CHOSEN = {
     "frames": [("#frames-rows tr:nth-child(2)", "#frames-transform:not(:empty)")],
     "graph": [("#graph .topic", "#graph-details dd")],
     "topics": [("#topics-rows tr", "#topics-fields input")],
+    "diagnostics": [("#diagnostics-tree details details > summary", "#diagnostics-tree td")],
     "plot": [("#plot-fields li:nth-child(10) input", "#plot-values span")],
 }
 NARROW = (320, 256)  # 1280 x 1024 at 400 %: WCAG 2.2, 1.4.10

@@ -24,7 +24,7 @@ ARGUMENTS = [
 # Key code -> (name of the key, its number in Windows).
 KEYS = {
     "ShiftLeft": ("Shift", 16), "ArrowUp": ("ArrowUp", 38), "ArrowRight": ("ArrowRight", 39),
-    "Tab": ("Tab", 9), "Escape": ("Escape", 27), "Digit1": ("1", 49), "Digit2": ("2", 50),
+    "Tab": ("Tab", 9), "Escape": ("Escape", 27), "Digit1": ("1", 49),
 }  # fmt: skip
 SHIFT = 8  # a modifier of the DevTools protocol
 

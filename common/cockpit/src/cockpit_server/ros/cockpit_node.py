@@ -31,6 +31,7 @@ from cockpit_server.ros.tabs.plots import Plots
 from cockpit_server.ros.tabs.recorder import Recorder
 from cockpit_server.ros.tabs.turtles import Turtles
 from cockpit_server.ros.transforms import Transforms
+from cockpit_server.tabs.diagnostics import Diagnostics
 from cockpit_server.tabs.frames import Frames
 from cockpit_server.tabs.logs import Logs
 from cockpit_server.tabs.map_and_scan import MapAndScan
@@ -53,7 +54,8 @@ class Cockpit:
         mobile_base/events/bumper, sensors/core, commands/led1, led2, sound (kobuki_msgs), any
         topic;
         /map (nav_msgs/OccupancyGrid), /tf, /tf_static (tf2_msgs/TFMessage),
-        /diagnostics (diagnostic_msgs/DiagnosticArray), /rosout (rosgraph_msgs/Log)
+        /diagnostics, /diagnostics_agg (diagnostic_msgs/DiagnosticArray),
+        /rosout (rosgraph_msgs/Log)
     Publishes: joy (sensor_msgs/Joy) of a robot that is driven; what a driver writes into a form
     Calls: services that end in /reset; what a driver writes into a form
     """
@@ -75,7 +77,7 @@ class Cockpit:
             robots, joysticks, driving, graphs, Topics(feeds, graphs), Plots(feeds, graphs),
             Forms(driving, self._soon, graphs), Publishing(driving, graphs, Outlets()), Logs(feeds),
             Doctor(), Bags(driving, self._soon), Recorder(), MapAndScan(feeds, graphs),
-            Turtles(graphs), frames,
+            Turtles(graphs), frames, Diagnostics(feeds),
         )  # fmt: skip
         self._hub = Hub(pages, driving, sources, log.warn, time)
         page = Path(rospkg.RosPack().get_path("cockpit"), "page")
