@@ -116,6 +116,22 @@ def test_edge_that_was_regular_has_a_gap_after_three_periods_but_not_in_a_paused
     assert tf.problems("base") == []
 
 
+def test_rate_is_that_of_the_last_seconds_and_a_single_transform_has_none(tf):
+    tf.publish_for(5.0, ("odom", "base"), hz=20)
+    tf.publish("odom", "arm")
+    tf.publish_for(5.5, ("odom", "base"), hz=4)
+    assert (tf.rows["base"]["rate"], tf.rows["arm"]["rate"]) == (4.0, 0)
+    assert tf.problems("arm") == [], "it may be slow"
+    tf.now += 10.0
+    assert tf.problems("arm") == ["nothing for 15.5 s"]
+
+
+def test_node_that_the_master_does_not_know_yet_has_not_exited(tf):
+    tf.graphs.graph = Graph()
+    tf.publish("odom", "base")
+    assert tf.problems("base") == []
+
+
 @pytest.mark.parametrize(
     ("how", "why"),
     [({"late_s": 0.9}, []), ({"late_s": -0.9}, []),
@@ -128,6 +144,8 @@ def test_edge_that_was_regular_has_a_gap_after_three_periods_but_not_in_a_paused
 def test_wrong_stamps_and_refused_transforms_are_problems(tf, how, why):
     tf.publish("odom", "base", **how)
     assert tf.problems("base") == why
+    tf.publish_for(5.5, ("odom", "base"), topic=how.get("topic", TF))
+    assert tf.problems("base") == []
 
 
 def test_static_frame_that_its_node_moves_has_only_the_new_parent(tf):
@@ -135,6 +153,7 @@ def test_static_frame_that_its_node_moves_has_only_the_new_parent(tf):
     tf.publish("arm", "laser", topic=TF_STATIC)
     assert (tf.problems("laser"), tf.rows["laser"]["parent"]) == ([], "arm")
     tf.now += 3600.0
+    assert tf.problems("laser") == []
     tf.publish("arm", "laser", node=OTHER, topic=TF_STATIC)
     assert tf.problems("laser") == ["2 nodes publish it: /other, /sim"]
 
@@ -158,12 +177,14 @@ def test_frames_are_bounded_and_needed_only_while_a_page_watches_them(tf):
     frames = tf.look()["frames"]
     assert frames["full"] and len(frames["rows"]) <= 2 * MOST_EDGES
     assert all(len(row["frame"]) <= 200 for row in frames["rows"])
+    assert "(no name)" in tf.rows
     assert tf.problems("many")[1].startswith("4 parents: ")
     assert tf.needed[-1] is True
     tf.frames.on_clear()
     assert tf.look()["frames"] == {"rows": [], "published": True, "full": False}
     assert [list(tf.look(0.1)) for _ in range(10)].count(["frames"]) in (1, 2, 3)
-    tf.client.watch.frames = None
+    tf.publish("odom", "base")
+    tf.client.watch.frames, tf.now = None, None  # Without a page the time is not needed.
     assert (tf.look(), tf.needed[-1]) == ({}, False)
 
 

@@ -16,7 +16,7 @@ from cockpit_server.tabs.topics import SILENT_PERIODS, SILENT_S, WINDOW_S
 from node_kit.rules.throttle import Throttle
 
 RATE = 2.0  # how often pages receive the tree [1/s]
-MOST_EDGES = 500
+MOST_EDGES = 300
 MOST_ARRIVALS = 250  # that are counted: 50 Hz in the window
 MOST_PUBLISHERS = 4  # of an edge
 WRONG_STAMP_S = 1.0  # amcl and others set stamps some tenths of a second in the future
@@ -155,7 +155,7 @@ class Frames(TabSource):
         edge = self._edges.get(child) or Edge()
         publisher = Publisher(message.topic, message.sender, parent)
         edge.add(publisher, stamped.header.stamp.to_sec(), refusal, now)
-        if child in self._edges or len(self._edges) < MOST_EDGES:
+        if len(self._edges) < MOST_EDGES:
             self._edges[child] = edge
 
     def on_clear(self) -> None:
