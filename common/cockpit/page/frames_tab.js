@@ -92,7 +92,7 @@ export class FramesTab {
   /** The row of a frame, with its newest values. A root has only a name. */
   #line({ frame, depth, nodes, rate, age, static: isStatic, problems = [] }) {
     const line = this.#rows.get(frame) ?? this.#newLine(frame);
-    line.ariaLevel = String(depth + 1);
+    line.setAttribute("aria-level", depth + 1);
     line.style.setProperty("--depth", Math.min(depth, DEEPEST));
     const [name, ...cells] = line.cells;
     const values = isStatic ? ["static", ""] : [number(rate, 1), `${number(age)} s`];

@@ -165,6 +165,8 @@ def test_frames_in_a_loop_are_shown_and_unconnected_trees_begin_with_their_roots
         "map": 0, "odom": 1, "a": 0, "b": 1, "c": 2, "self": 0,
     }  # fmt: skip
     assert tf.problems("a") == tf.problems("self") == ["its parents form a loop"]
+    robots = {name: "map" for name in ("robot_10", "robot_2", "robot")}
+    assert list(tree(robots)) == ["map", "robot", "robot_2", "robot_10"]
     chain = {f"f{n}": f"f{n + 1}" for n in range(5000)}
     assert tree(chain)["f0"] == 5000
 

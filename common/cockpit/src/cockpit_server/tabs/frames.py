@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import defaultdict, deque
 from math import asin, atan2, degrees, inf
 from typing import Any, Callable, ClassVar, Hashable, Mapping, NamedTuple, Protocol, Sequence
@@ -97,10 +98,11 @@ def tree(parents: Mapping[str, str]) -> dict[str, int]:
     A loop has no root: its first frame has depth 0.
     """
     children: dict[str, list[str]] = defaultdict(list)
-    for frame in sorted(parents, reverse=True):
+    for frame in sorted(parents, key=by_number, reverse=True):
         children[parents[frame]].append(frame)
     depths: dict[str, int] = {}
-    for start in (*sorted({*children} - {*parents}), *sorted(parents)):
+    roots = sorted({*children} - {*parents}, key=by_number)
+    for start in (*roots, *sorted(parents)):
         waiting = [(start, 0)]
         while waiting:
             frame, depth = waiting.pop()
@@ -108,6 +110,11 @@ def tree(parents: Mapping[str, str]) -> dict[str, int]:
                 depths[frame] = depth
                 waiting += [(child, depth + 1) for child in children[frame]]
     return depths
+
+
+def by_number(name: str) -> list[Any]:
+    """Return the key by which sorted() puts robot_2 before robot_10."""
+    return [int(part) if part.isdecimal() else part for part in re.split(r"(\d+)", name)]
 
 
 def text_of(transform: Transform) -> str:
