@@ -42,6 +42,12 @@ export function say(target, text) {
   if (target.textContent !== text) target.textContent = text;
 }
 
+/** A function that says whether a text matches a search: it has all words of it, and none that follows a minus. */
+export function matcher(search) {
+  const words = search.toLowerCase().split(/\s+/).filter((word) => word !== "-");
+  return (text) => words.every((word) => word.startsWith("-") !== text.toLowerCase().includes(word.replace(/^-/, "")));
+}
+
 /** Append to a list, drop its oldest rows, and keep showing its end if that was visible. */
 export function appendBelow(list, parts, most, scroll = list) {
   const atEnd = scroll.scrollHeight - scroll.scrollTop - scroll.clientHeight < 40;

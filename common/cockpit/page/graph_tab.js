@@ -1,19 +1,11 @@
 /** The tab Graph: the nodes and their topics, live. */
 
-import { brief, byId, byName, element, say } from "./dom.js";
-import { layout, neighbours } from "./graph_layout.js";
+import { brief, byId, byName, element, matcher, save, say } from "./dom.js";
+import { dotOf, framesOf, itemsOf } from "./graph_items.js";
+import { itemBeside, layout, neighbours } from "./graph_layout.js";
+import { fileOf, pictureOf } from "./graph_picture.js";
 
-// Every node is connected to /rosout, which would hide the rest; draw_graph omits the same.
-const DEBUG = ["node /rosout", "topic /rosout", "topic /rosout_agg", "topic /statistics"];
 const READABLE = 0.7; // The picture shrinks to this scale by itself; then it scrolls.
-const SVG = "http://www.w3.org/2000/svg";
-
-function svg(tag, attributes = {}, ...children) {
-  const made = document.createElementNS(SVG, tag);
-  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
-  made.append(...children);
-  return made;
-}
 
 export class GraphTab {
   static title = "Graph";
@@ -24,32 +16,60 @@ export class GraphTab {
     <button id="graph-fit">Fit</button>
     <label>Find <input type="search" id="graph-search" placeholder="name, then Enter" autocomplete="off"></label>
     <span id="graph-found" class="hint" role="status"></span>
-    <label class="hint"><input type="checkbox" id="graph-all"> Show all: also /rosout, and topics without a publisher</label>
+    <span role="group" class="row hint" id="graph-switches" aria-label="Picture">Hide:
+      <label title="topics without a subscriber"><input type="checkbox" value="sinks"> Dead sinks</label>
+      <label title="topics without a publisher"><input type="checkbox" value="sources" checked> Dead sources</label>
+      <label title="such as /rosout, /clock, /diagnostics, rqt, RViz, rosbag record"><input type="checkbox" value="debug"
+        checked> Debug</label> Group:
+      <label><input type="checkbox" value="namespaces" checked> Namespaces</label></span>
+    <button id="graph-svg">Save SVG</button>
+    <button id="graph-dot">Save DOT</button>
   </div>
   <div class="wide" id="graph-picture" role="region" tabindex="0" aria-label="Nodes and topics"></div>
   <div class="panel">
     <div class="card"><h2 id="graph-title" aria-live="polite"></h2>
-      <div id="graph-details"><p class="hint">Choose a node or a topic.</p></div></div>
+      <div id="graph-details"><p class="hint">Choose a node or a topic; arrow keys go to the next one.</p></div></div>
   </div>`;
   static watches = { graph: false };
 
   #chosen = null; // "node /a" or "topic /b"
   #drawn = "";
+  #layout = layout([], []);
   #scale = () => Math.min(1, Math.max(READABLE, this.#fits[0])); // until a person chooses another scale
-  #size = { width: 1, height: 1 }; // of the picture in its own units
   #graph = { nodes: [], topics: [], edges: [] };
 
-  constructor(link, watch) {
+  constructor(link, watch, page) {
     this.watch = watch;
     this.picture = byId("graph-picture");
     link.on("graph", (graph) => this.#draw((this.#graph = graph)));
-    byId("graph-all").onchange = () => this.#draw(this.#graph);
+    this.switches = [...byId("graph-switches").querySelectorAll("input")];
+    byId("graph-switches").onchange = () => {
+      this.#draw(this.#graph);
+      page.moved();
+    };
+    byId("graph-svg").onclick = () => save(fileOf(this.picture.querySelector("svg")), "graph.svg");
+    byId("graph-dot").onclick = () => save(new Blob([dotOf(this.#layout)]), "graph.dot");
+    this.picture.onclick = ({ target }) => {
+      const box = target.closest("[data-item]");
+      if (box) this.#choose(box.dataset.item);
+    };
+    this.picture.onkeydown = (event) => this.#press(event);
     byId("graph-in").onclick = () => this.#zoom(1.25);
     byId("graph-out").onclick = () => this.#zoom(0.8);
     byId("graph-fit").onclick = () => this.#resize(() => Math.min(1, ...this.#fits));
     byId("graph-search").oninput = () => this.#find(false);
     byId("graph-search").addEventListener("keydown", ({ key }) => key === "Enter" && this.#find(true));
     new ResizeObserver(() => this.#resize()).observe(this.picture);
+  }
+
+  get place() {
+    const switched = this.switches.filter(({ checked, defaultChecked }) => checked !== defaultChecked);
+    return switched.length ? `?switch=${switched.map(({ value }) => value)}` : "";
+  }
+
+  go(_path, query) {
+    const switched = query.get("switch")?.split(",") ?? [];
+    for (const box of this.switches) box.checked = box.defaultChecked !== switched.includes(box.value);
   }
 
   show(on) {
@@ -59,6 +79,7 @@ export class GraphTab {
 
   #choose(item) {
     this.#chosen = item;
+    this.#stopAt(item);
     say(byId("graph-title"), item.replace(/^./, (letter) => letter.toUpperCase()));
     this.#mark();
     this.#showDetails();
@@ -75,7 +96,7 @@ export class GraphTab {
 
   /** The scales at which the picture is as wide, and as high, as the space for it. */
   get #fits() {
-    return [this.picture.clientWidth / this.#size.width, this.picture.clientHeight / this.#size.height];
+    return [this.picture.clientWidth / this.#layout.width, this.picture.clientHeight / this.#layout.height];
   }
 
   #zoom(factor) {
@@ -90,20 +111,21 @@ export class GraphTab {
     if (!drawn || !this.picture.clientWidth) return; // another tab is shown
     const { scrollLeft, scrollTop, clientWidth, clientHeight } = this.picture;
     const now = this.#scale();
-    const grown = (this.#size.width * now) / drawn.width.baseVal.value;
-    for (const side of ["width", "height"]) drawn.setAttribute(side, this.#size[side] * now);
+    const grown = (this.#layout.width * now) / drawn.width.baseVal.value;
+    for (const side of ["width", "height"]) drawn.setAttribute(side, this.#layout[side] * now);
     const scrolled = (start, size) => (start + size / 2) * grown - size / 2;
     this.picture.scrollTo(scrolled(scrollLeft, clientWidth), scrolled(scrollTop, clientHeight));
   }
 
-  /** The boxes that have all words of the search in their names; the others are dimmed. */
+  /** The boxes that match the search; the others are dimmed. */
   #search() {
-    const words = byId("graph-search").value.toLowerCase().split(/\s+/).filter(Boolean);
+    const search = byId("graph-search").value.trim();
+    const matches = matcher(search);
+    const isFound = ({ dataset: { item } }) => matches(item);
     const boxes = [...this.picture.querySelectorAll("[data-item]")];
-    const isFound = ({ dataset: { item } }) => words.every((word) => item.toLowerCase().includes(word));
     for (const box of boxes) box.classList.toggle("other", !isFound(box));
-    const found = words.length ? boxes.filter(isFound) : [];
-    say(byId("graph-found"), words.length ? `${found.length} of ${boxes.length}` : "");
+    const found = search ? boxes.filter(isFound) : [];
+    say(byId("graph-found"), search ? `${found.length} of ${boxes.length}` : "");
     return found;
   }
 
@@ -120,54 +142,42 @@ export class GraphTab {
 
   #draw(graph) {
     if (byId("graph").hidden) return; // The tab Topics has asked for it.
-    const items = this.#items(graph);
-    const wanted = JSON.stringify([items, graph.edges]);
+    const on = this.switches.filter(({ checked }) => checked).map(({ value }) => value);
+    const items = itemsOf(graph, on);
+    const frames = on.includes("namespaces") ? framesOf(items) : {};
+    const wanted = JSON.stringify([items, graph.edges, frames]);
     if (wanted === this.#drawn) return;
     this.#drawn = wanted;
-    const focused = this.picture.querySelector(":focus")?.dataset.item;
-    const { width, height, boxes, arrows } = layout(items, graph.edges);
+    const hasFocus = this.picture.querySelector(":focus") !== null;
+    const stop = this.picture.querySelector("[tabindex='0']")?.dataset.item;
     const scrolled = [this.picture.scrollLeft, this.picture.scrollTop];
-    this.#size = { width, height };
-    const tip = (id) => svg("marker", { id, viewBox: "0 0 8 8", refX: 7, refY: 4, orient: "auto",
-      markerUnits: "userSpaceOnUse", markerWidth: 10, markerHeight: 10 }, svg("path", { d: "M0 0 L8 4 L0 8 Z" }));
-    const picture = svg("svg", { width, height, viewBox: `0 0 ${width} ${height}`, role: "group" },
-      svg("defs", {}, tip("tip"), tip("chosen-tip")),
-      ...arrows.map(({ from, to, path }) =>
-        svg("path", { d: path, class: "arrow", "data-from": from, "data-to": to })),
-      ...items.map((item) => this.#box(item, boxes[item])));
+    this.#layout = layout(items, graph.edges, frames);
+    const picture = pictureOf(this.#layout);
     this.picture.replaceChildren(items.length ? picture : element("p", { className: "hint" }, "No node is running."));
     this.#resize();
     this.picture.scrollTo(...scrolled);
     this.#mark();
     this.#search();
     if (this.#chosen) this.#showDetails();
-    if (focused) this.picture.querySelector(`[data-item="${CSS.escape(focused)}"]`)?.focus();
+    const box = this.#stopAt(stop);
+    if (hasFocus) box?.focus();
   }
 
-  /** What is drawn: everything, or everything except /rosout and topics without a publisher. */
-  #items({ nodes, topics, edges }) {
-    const items = [...nodes.map(({ name }) => `node ${name}`), ...topics.map(({ name }) => `topic ${name}`)];
-    if (byId("graph-all").checked) return items;
-    const published = new Set(edges.map(({ to }) => to));
-    return items.filter((item) =>
-      !DEBUG.includes(item) && (item.startsWith("node ") || published.has(item)));
+  /** Let Tab reach the box of an item, or else the first one, and no other. */
+  #stopAt(item = "") {
+    const boxes = [...this.picture.querySelectorAll("[data-item]")];
+    const stop = boxes.find((box) => box.dataset.item === item) ?? boxes[0];
+    for (const box of boxes) box.setAttribute("tabindex", box === stop ? 0 : -1);
+    return stop;
   }
 
-  #box(item, { x, y, w, h }) {
-    const [kind, name] = item.split(" ");
-    const [cx, cy] = [x + w / 2, y + h / 2];
-    const shape = kind === "node"
-      ? svg("ellipse", { cx, cy, rx: w / 2, ry: h / 2 })
-      : svg("rect", { x, y, width: w, height: h, rx: 3 });
-    const box = svg("g", { class: kind, "data-item": item, role: "button", tabindex: 0, "aria-label": item },
-      shape, svg("text", { x: cx, y: cy + 5 }, brief(name)), svg("title", {}, name));
-    box.onclick = () => this.#choose(item);
-    box.onkeydown = (event) => {
-      if (event.key !== "Enter" && event.key !== " ") return;
-      event.preventDefault();
-      this.#choose(item);
-    };
-    return box;
+  #press(event) {
+    const { item } = event.target.dataset;
+    const next = item && itemBeside(this.#layout.boxes, item, event.key);
+    if (next) this.#stopAt(next).focus();
+    else if (item && ["Enter", " "].includes(event.key)) this.#choose(item);
+    else return;
+    event.preventDefault();
   }
 
   /** What is known of the chosen node or topic. */

@@ -17,7 +17,7 @@ from cockpit_server.schema import switch
 
 KEPT = 1000  # lines, as many as a page keeps
 AT_ONCE = 50  # lines in a message to a page: many long ones would delay the driver
-LONGEST_LINE = 2000  # characters
+LONGEST_LINE, LONGEST_NAME = 2000, 300  # characters
 LEVELS = {getattr(Log, name): name for name in ("DEBUG", "INFO", "WARN", "ERROR", "FATAL")}
 
 
@@ -36,10 +36,12 @@ def shown(data: bytes) -> dict[str, Any] | None:
     log = decoded(Log, data)
     if log is None:
         return None
+    place = f"{log.file[:LONGEST_NAME]}:{log.line}({log.function[:LONGEST_NAME]})"
     return {
         "time": round(log.header.stamp.to_sec(), 3),
         "level": LEVELS.get(log.level, str(log.level)),
-        "node": log.name,
+        "node": log.name[:LONGEST_NAME],
+        "place": without_folders(place) if log.file else "",
         "text": without_folders(log.msg[:LONGEST_LINE]),
     }
 

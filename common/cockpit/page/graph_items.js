@@ -1,0 +1,38 @@
+/** What the tab Graph draws of a graph, in which frames, and the same in DOT, the language of graphviz. */
+
+// What serves debugging, by and large as in rqt_graph: all nodes are connected to it, which would hide the rest.
+const DEBUG = /\/(rosout(_agg)?|statistics|clock|diagnostics(_agg)?|parameter_(updates|descriptions)|(rqt|rviz)\w*|record_\d+)$/;
+
+/** The items "node /a" and "topic /b"; hidden: "debug", "sinks" (topics without a subscriber), "sources". */
+export function itemsOf({ nodes, topics, edges }, hidden) {
+  const isDebug = (item) => hidden.includes("debug") && DEBUG.test(item);
+  const drawn = edges.filter(({ from, to }) => !isDebug(from) && !isDebug(to));
+  const subscribed = new Set(drawn.map(({ from }) => from));
+  const published = new Set(drawn.map(({ to }) => to));
+  const isWhole = (topic) => (subscribed.has(topic) || !hidden.includes("sinks"))
+    && (published.has(topic) || !hidden.includes("sources"));
+  const items = topics.map(({ name }) => `topic ${name}`).filter(isWhole);
+  return [...nodes.map(({ name }) => `node ${name}`), ...items].filter((item) => !isDebug(item));
+}
+
+/** {item: its frame}, the first part of its name, if another item has that, too. */
+export function framesOf(items) {
+  const inside = {};
+  for (const item of items) (inside[`/${item.split("/")[1]}`] ??= []).push(item);
+  const frames = Object.entries(inside).filter(([, own]) => own.length > 1);
+  return Object.fromEntries(frames.flatMap(([frame, own]) => own.map((item) => [item, frame])));
+}
+
+/** boxes, arrows and frames as layout() returns them. */
+export function dotOf({ boxes, arrows, frames }) {
+  const quoted = (text) => JSON.stringify(text);
+  const isNode = (item) => item.startsWith("node ");
+  const lines = [
+    ...Object.keys(boxes).map((item) =>
+      `${quoted(item)} [label=${quoted(item.slice(item.indexOf(" ") + 1))} shape=${isNode(item) ? "ellipse" : "box"}]`),
+    ...frames.map(({ name, items }) =>
+      `subgraph ${quoted(`cluster ${name}`)} { label=${quoted(name)} ${items.map(quoted).join(" ")} }`),
+    ...arrows.map(({ from, to }) => `${quoted(from)} -> ${quoted(to)}`),
+  ];
+  return `digraph ros {\n  rankdir=LR\n${lines.map((line) => `  ${line}\n`).join("")}}\n`;
+}
