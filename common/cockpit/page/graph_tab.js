@@ -16,7 +16,7 @@ export class GraphTab {
     <button id="graph-fit">Fit</button>
     <label>Find <input type="search" id="graph-search" placeholder="name, then Enter" autocomplete="off"></label>
     <span id="graph-found" class="hint" role="status"></span>
-    <span role="group" class="row hint" id="graph-switches" aria-label="Picture">Hide:
+    <span role="group" class="row hint" id="graph-switches" aria-label="What is drawn">Hide:
       <label title="topics without a subscriber"><input type="checkbox" value="sinks"> Dead sinks</label>
       <label title="topics without a publisher"><input type="checkbox" value="sources" checked> Dead sources</label>
       <label title="such as /rosout, /clock, /diagnostics, rqt, RViz, rosbag record"><input type="checkbox" value="debug"
@@ -154,6 +154,7 @@ export class GraphTab {
     this.#layout = layout(items, graph.edges, frames);
     const picture = pictureOf(this.#layout);
     this.picture.replaceChildren(items.length ? picture : element("p", { className: "hint" }, "No node is running."));
+    byId("graph-svg").disabled = byId("graph-dot").disabled = !items.length;
     this.#resize();
     this.picture.scrollTo(...scrolled);
     this.#mark();
