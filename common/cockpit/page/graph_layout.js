@@ -47,9 +47,9 @@ export function layout(items, edges, frames = {}) {
 
 /** The items of each band. */
 function byBand(items, bands) {
-  const found = Array.from({ length: 1 + Math.max(...bands.values()) }, () => []);
-  for (const item of items) found[bands.get(item)].push(item);
-  return found;
+  const parts = Array.from({ length: 1 + Math.max(...bands.values()) }, () => []);
+  for (const item of items) parts[bands.get(item)].push(item);
+  return parts;
 }
 
 /** Each layer as columns in which a band has about the same number of rows, by name. */

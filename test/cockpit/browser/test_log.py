@@ -70,10 +70,13 @@ def test_log_shows_the_line_of_a_program_excludes_pauses_and_saves(world, page, 
         saved = tmp_path / "rosout.log"
         lines = wait_for(lambda: saved.exists() and saved.read_text(), "file").splitlines()
     at = r"\d+\.\d{3}"
-    for line, wanted in zip(lines, (
-        rf"{at} WARN /student \[student\.py:3\(work\)\] battery is low",
-        rf"{at} INFO /student \[student\.py:7\(<module>\)\] later",
-    )):
+    for line, wanted in zip(
+        lines,
+        (
+            rf"{at} WARN /student \[student\.py:3\(work\)\] battery is low",
+            rf"{at} INFO /student \[student\.py:7\(<module>\)\] later",
+        ),
+    ):
         assert re.fullmatch(wanted, line)
     assert len(lines) == 2
 
