@@ -81,7 +81,7 @@ def test_log_shows_the_line_of_a_program_excludes_pauses_and_saves(world, page, 
     assert len(lines) == 2
 
 
-@claim("Tab Log: ...", because="a phone")
+@claim("Tab Log: one click ...", because="a phone")
 def test_a_phone_shows_places_without_a_scroll_to_the_side(world, shared_browser):
     page = shared_browser
     with page.tab_of(360, 740, touch=True):
