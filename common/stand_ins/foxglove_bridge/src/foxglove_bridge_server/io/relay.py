@@ -11,13 +11,13 @@ import contextlib
 import re
 import socket
 import ssl
-import threading
 
 OLD, NEW = b"foxglove.websocket.v1", b"foxglove.sdk.v1"
 HEAD_S = 10.0  # for a request and its answer; asyncio limits each to 64 kB
 _END = b"\r\n\r\n"
 _NAMES = re.compile(rb"(?im)^sec-websocket-protocol:.*$")
 _CHUNK = 1 << 18  # bytes
+_ENDS = (OSError, EOFError, asyncio.TimeoutError, asyncio.LimitOverrunError)
 
 
 def renamed(head: bytes, old: bytes, new: bytes) -> bytes:
@@ -31,50 +31,41 @@ def is_old(request: bytes) -> bool:
     return OLD in offered and NEW not in offered
 
 
-class Relay:
-    """Relays in a thread of its own; tls, if any, ends here.
+async def serve(
+    listener: socket.socket, server_port: int, limit: int, tls: ssl.SSLContext | None
+) -> None:
+    """Relay what connects to a listener, until cancelled.
 
-    send_buffer_limit: the bytes that it keeps for a client that does not read; then it reads no
-    more from the SDK, which drops the oldest messages.
+    limit: the bytes kept for a client that does not read. Then no more is read from the SDK, which
+    drops the oldest messages. tls: ends here.
     """
 
-    def __init__(
-        self, listener: socket.socket, server_port: int, limit: int, tls: ssl.SSLContext | None
-    ) -> None:
-        self._listener, self._server_port, self._limit, self._tls = (
-            listener,
-            server_port,
-            limit,
-            tls,
-        )
-        threading.Thread(target=lambda: asyncio.run(self._serve()), daemon=True).start()
-
-    async def _serve(self) -> None:
-        # What is wrong with a connection, such as its TLS, concerns that client alone.
-        asyncio.get_running_loop().set_exception_handler(lambda *_: None)
-        server = await asyncio.start_server(self._relay, sock=self._listener, ssl=self._tls)
-        await server.serve_forever()
-
-    async def _relay(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-        with contextlib.closing(writer), contextlib.suppress(
-            OSError, EOFError, asyncio.TimeoutError, asyncio.LimitOverrunError
-        ):
-            writer.transport.set_write_buffer_limits(self._limit)
+    async def relay(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        with contextlib.suppress(*_ENDS), contextlib.closing(writer):
+            writer.transport.set_write_buffer_limits(limit)
             request = await asyncio.wait_for(reader.readuntil(_END), HEAD_S)
-            from_sdk, to_sdk = await asyncio.open_connection("127.0.0.1", self._server_port)
+            from_sdk, to_sdk = await asyncio.open_connection("127.0.0.1", server_port)
             with contextlib.closing(to_sdk):
                 to_sdk.write(renamed(request, OLD, NEW) if is_old(request) else request)
                 answer = await asyncio.wait_for(from_sdk.readuntil(_END), HEAD_S)
                 writer.write(renamed(answer, NEW, OLD) if is_old(request) else answer)
-                ways = _pass_on(reader, to_sdk), _pass_on(from_sdk, writer)
+                ways = [_pass_on(reader, to_sdk), _pass_on(from_sdk, writer)]
                 tasks = [asyncio.ensure_future(way) for way in ways]
                 await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
                 for task in tasks:
                     task.cancel()
 
+    # What is wrong with a connection, such as its TLS, concerns that client alone.
+    asyncio.get_running_loop().set_exception_handler(lambda *_: None)
+    server = await asyncio.start_server(relay, sock=listener, ssl=tls)
+    await server.serve_forever()
+
 
 async def _pass_on(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
     with contextlib.suppress(OSError):
-        while data := await reader.read(_CHUNK):
+        while True:
+            data = await reader.read(_CHUNK)
+            if not data:
+                return
             writer.write(data)
             await writer.drain()

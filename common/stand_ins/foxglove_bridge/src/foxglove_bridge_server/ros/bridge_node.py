@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import asyncio
 import socket
 import ssl
 import sys
 import threading
 import time
-from io import BytesIO
-from typing import Any, Callable
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import foxglove
 import rosgraph
@@ -17,11 +19,11 @@ import rospy
 from foxglove.websocket import Capability, StatusLevel
 from rosgraph_msgs.msg import Clock
 
-from foxglove_bridge_server.assets import read_asset
-from foxglove_bridge_server.io.relay import Relay
-from foxglove_bridge_server.parameters import BridgeParameters, ignored, is_allowed
+from foxglove_bridge_server.io.relay import serve
+from foxglove_bridge_server.messages import serialised
+from foxglove_bridge_server.parameters import BridgeParameters, is_allowed
 from foxglove_bridge_server.ros.client_topics import ClientTopics
-from foxglove_bridge_server.ros.master_parameters import MasterParameters, as_parameters
+from foxglove_bridge_server.ros.master_parameters import MasterParameters
 from foxglove_bridge_server.ros.services import Services
 from foxglove_bridge_server.ros.topic_channels import ENCODING, TopicChannels
 from node_kit.ros.graph.ros_api import call
@@ -32,7 +34,7 @@ from node_kit.rules.answer import Answer
 LONGEST_LOOK_S = 1.0  # between two looks at the master
 BACKLOG = 1024  # messages that the SDK keeps for a client; then it drops the oldest
 SWITCH_S = 0.0005  # how long a thread may keep the others waiting
-CLOCK = "/clock"
+CLOCK, PACKAGE = "/clock", "package://"
 SDK_NAMES = {
     "clientPublish": Capability.ClientPublish,
     "parameters": Capability.Parameters,
@@ -55,45 +57,52 @@ class Bridge:
     def __init__(
         self, parameters: BridgeParameters, listener: socket.socket, tls: ssl.SSLContext | None
     ) -> None:
-        self._parameters, self._log = parameters, Log()
+        self._parameters, self._socket, self._tls = parameters, listener, tls
+        self._log, self._state = Log(), None
+        self._master_pid, self._has_lost_master = _ask("getPid")[1], False
         is_simulated = bool(rospy.get_param("/use_sim_time", False))
-        self._state: Any = None
-        self._master_pid = _ask("getPid")[1]
-        self.has_lost_master = False
-        self._publishing = ClientTopics(parameters.client_topic_whitelist, self._warn)
-        self._values = MasterParameters(parameters.param_whitelist)
-        context = foxglove.Context()
-        self._topics = TopicChannels(context, CLOCK if is_simulated else None)
         words = {*parameters.capabilities, *(["time"] if is_simulated else [])}
-        self._has_graph = "connectionGraph" in words
+        self._client_topics = ClientTopics(parameters.client_topic_whitelist, self._warn)
+        self._values = MasterParameters(parameters.param_whitelist, self._warn)
+        context = foxglove.Context()
+        self._topics = TopicChannels(context, CLOCK if is_simulated else "")
         self._server = foxglove.start_server(
             name="foxglove_bridge",
             port=0,
             capabilities=[SDK_NAMES[word] for word in words & set(SDK_NAMES)],
-            server_listener=_Listener(self._topics, self._publishing, self._values, self._warn),
+            server_listener=_listener(self._topics, self._client_topics, self._values, self),
             supported_encodings=[ENCODING],
             asset_handler=self._asset if "assets" in words else None,
             context=context,
             message_backlog_size=BACKLOG,
         )
         self._services = Services(self._server, self._warn) if "services" in words else None
-        self._listener, self._tls = listener, tls
+        self._has_graph = "connectionGraph" in words
         if is_simulated:  # rospy itself subscribes to it, too, and makes one connection
             rospy.Subscriber(CLOCK, Clock, self._on_clock)
 
     def run(self) -> None:
         """Serve until the node is shut down."""
         sys.setswitchinterval(SWITCH_S)
-        for line in ignored(self._parameters):
+        for line in self._parameters.ignored():
             self._log.warn(line)
         self._look()
-        threading.Thread(target=self._watch, daemon=True).start()
-        Relay(self._listener, self._server.port, self._parameters.send_buffer_limit, self._tls)
-        host, port = self._listener.getsockname()[:2]
+        limit = self._parameters.send_buffer_limit
+        relay = serve(self._socket, self._server.port, limit, self._tls)
+        for work in (self._watch, lambda: asyncio.run(relay)):
+            threading.Thread(target=work, daemon=True).start()
+        host, port = self._socket.getsockname()[:2]
         self._log.info(f"foxglove_bridge: ws{'s' if self._tls else ''}://{host}:{port}")
-        rospy.on_shutdown(self._publishing.end)
-        self._publishing.run()
+        rospy.on_shutdown(self._client_topics.end)
+        self._client_topics.run()
         self._server.stop()
+        if self._has_lost_master:
+            sys.exit("foxglove_bridge: the ROS master has exited")
+
+    def on_connection_graph_subscribe(self) -> None:
+        """Leave it to the SDK, which sends the last graph."""
+
+    on_connection_graph_unsubscribe = on_connection_graph_subscribe
 
     def _warn(self, line: str) -> None:
         """Show a warning here and in all clients: the SDK cannot address one alone."""
@@ -101,14 +110,15 @@ class Bridge:
         self._server.publish_status(line, StatusLevel.Warning)
 
     def _asset(self, uri: str) -> bytes | None:
-        folder_of = rospkg.RosPack().get_path
-        return read_asset(uri, self._parameters.asset_uri_allowlist, folder_of)
+        package, _, name = uri[len(PACKAGE) :].partition("/")
+        is_inside = uri.startswith(PACKAGE) and ".." not in name
+        if not is_inside or not is_allowed(uri, self._parameters.asset_uri_allowlist):
+            return None
+        return Path(rospkg.RosPack().get_path(package), name).read_bytes()
 
     def _on_clock(self, message: Clock) -> None:
         self._server.broadcast_time(message.clock.to_nsec())
-        buffer = BytesIO()
-        message.serialize(buffer)
-        self._topics.pass_on(CLOCK, buffer.getvalue())
+        self._topics.pass_on_clock(serialised(message))
 
     def _watch(self) -> None:
         period_s = min(self._parameters.max_update_ms / 1000, LONGEST_LOOK_S)
@@ -116,23 +126,21 @@ class Bridge:
             time.sleep(period_s)
             answer, pid = _ask("getPid")
             if answer is Answer.REFUSED or pid not in (None, self._master_pid):
-                self.has_lost_master = True
+                self._has_lost_master = True
                 rospy.signal_shutdown("the master has gone")
                 return
             self._look()
-            changes = self._values.changes()
-            if changes:
-                self._server.publish_parameter_values(as_parameters(changes))
+            self._server.publish_parameter_values(self._values.changes())
 
     def _look(self) -> None:
         """Ask the master what there is, and show it."""
         (answer, state), (typed, types) = _ask("getSystemState"), _ask("getTopicTypes")
         if {answer, typed} != {Answer.WELL}:
             return
-        allowed, own = self._parameters, rospy.get_name()
+        allowed, own = self._parameters, {rospy.get_name()}
         published, subscribed, services = state
         topics = {topic for topic, _ in published}
-        topics |= {topic for topic, nodes in subscribed if set(nodes) - {own}}
+        topics |= {topic for topic, nodes in subscribed if set(nodes) - own}
         topics = {topic for topic in topics if is_allowed(topic, allowed.topic_whitelist)}
         self._topics.show({topic: kind for topic, kind in types if topic in topics and kind != "*"})
         if self._services:
@@ -143,38 +151,10 @@ class Bridge:
         self._state = state
 
 
-class _Listener:
-    """Takes the calls of the SDK, in its threads."""
-
-    def __init__(
-        self, topics: TopicChannels, publishing: ClientTopics, values: MasterParameters,
-        warn: Callable[[str], object],
-    ) -> None:  # fmt: skip
-        self._values, self._warn = values, warn
-        self.on_subscribe, self.on_unsubscribe = topics.on_subscribe, topics.on_unsubscribe
-        self.on_client_advertise = publishing.on_client_advertise
-        self.on_client_unadvertise = publishing.on_client_unadvertise
-        self.on_message_data = publishing.on_message_data
-        self.on_parameters_subscribe = values.watch
-        self.on_parameters_unsubscribe = values.unwatch
-
-    def on_get_parameters(
-        self, _client: Any, names: list[str], request_id: str | None = None
-    ) -> list[foxglove.Parameter]:
-        return as_parameters(self._values.read(names))
-
-    def on_set_parameters(
-        self, _client: Any, parameters: list[foxglove.Parameter], request_id: str | None = None
-    ) -> list[foxglove.Parameter]:
-        refused = self._values.write(parameters)
-        if refused:
-            self._warn(f"param_whitelist does not have {', '.join(refused)}")
-        return as_parameters(self._values.read([parameter.name for parameter in parameters]))
-
-    def on_connection_graph_subscribe(self) -> None:
-        """Leave it to the SDK, which sends the last graph."""
-
-    on_connection_graph_unsubscribe = on_connection_graph_subscribe
+def _listener(*parts: Any) -> SimpleNamespace:
+    """Return an object with the methods of all parts that the SDK calls, in its threads."""
+    methods = {n: getattr(p, n) for p in parts for n in dir(p) if n.startswith("on_")}
+    return SimpleNamespace(**methods)
 
 
 def _ask(method: str) -> tuple[Answer, Any]:

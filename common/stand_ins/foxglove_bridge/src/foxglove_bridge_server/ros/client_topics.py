@@ -11,6 +11,7 @@ from typing import Any, Callable, Iterable, Pattern, Tuple
 import rospy
 from rosgraph.names import is_legal_name
 
+from foxglove_bridge_server.messages import fits
 from foxglove_bridge_server.parameters import is_allowed
 from foxglove_bridge_server.ros.topic_channels import ENCODING
 from foxglove_bridge_server.velocities import KINDS, VelocityTopic
@@ -26,46 +27,36 @@ User = Tuple[int, int]  # a client, and its number for the topic
 
 
 class _Outlet:
-    """A topic on which clients publish."""
+    """A topic on which clients publish. Only that of a velocity is watched, and gets zeros."""
 
     def __init__(self, topic: str, kind: Any) -> None:
         self.topic, self.kind = topic, kind
-        self.users: set[User] = set()
-        self._publisher = PromptPublisher(topic, kind)
-        self.velocity = VelocityTopic() if kind._type in KINDS else None
-        self._others = subscribe(topic, self._hear, 10) if self.velocity else None
+        self._publisher, self._velocity = PromptPublisher(topic, kind), VelocityTopic()
+        self._others = subscribe(topic, self._hear, 10) if kind._type in KINDS else None
 
     def _hear(self, message: RawMessage) -> None:
-        if self.velocity and message.sender != rospy.get_name():
-            self.velocity.hear(message.sender, time.monotonic())
+        if message.sender != rospy.get_name():
+            self._velocity.hear(message.sender, time.monotonic())
 
-    def refusal(self, user: User, data: bytes) -> str:
-        """Return why a message is not published, or ""."""
-        try:
-            self.kind().deserialize(data)
-        except Exception:  # malformed bytes may raise anything
+    def send(self, user: User, data: bytes) -> str:
+        """Publish a message, or return why not."""
+        if not fits(data, self.kind):
             return f"not a {self.kind._type}"
-        return self.velocity.refusal(user, time.monotonic()) if self.velocity else ""
+        now = time.monotonic()
+        refusal = self._velocity.refusal(user, now)
+        if not refusal:
+            self._publisher.send(struct.pack("<I", len(data)) + data)
+            if self._others:
+                self._velocity.command(user, data, now)
+        return refusal
 
-    def send(self, user: User, data: bytes) -> None:
-        self._publisher.send(struct.pack("<I", len(data)) + data)
-        if self.velocity:
-            self.velocity.command(user, data, time.monotonic())
-
-    def leave(self, user: User) -> None:
-        self.users.discard(user)
-        if self.velocity and self.velocity.end(user):
-            self._send_zero()
-
-    def expire(self) -> None:
-        if self.velocity and self.velocity.expire(time.monotonic()):
-            self._send_zero()
-
-    def _send_zero(self) -> None:
-        zero = self.kind()
-        if hasattr(zero, "header"):
-            zero.header.stamp = rospy.Time.now()
-        self._publisher.publish(zero)
+    def end_motion(self, gone: User | None = None) -> None:
+        """Publish a zero, if one is due."""
+        if self._velocity.is_zero_due(time.monotonic(), gone):
+            zero = self.kind()
+            if hasattr(zero, "header"):
+                zero.header.stamp = rospy.get_rostime()
+            self._publisher.publish(zero)
 
     def close(self) -> None:
         if self._others:
@@ -79,8 +70,7 @@ class ClientTopics:
     def __init__(self, whitelist: Iterable[Pattern[str]], warn: Callable[[str], object]) -> None:
         self._whitelist, self._warn = whitelist, warn
         self._jobs: queue.SimpleQueue[tuple[Any, ...]] = queue.SimpleQueue()
-        self._outlets: dict[str, _Outlet] = {}
-        self._users: dict[User, _Outlet] = {}
+        self._outlets: dict[User, _Outlet] = {}
         self._refusals: dict[User, str] = {}
         self._has_ended = threading.Event()
 
@@ -103,8 +93,8 @@ class ClientTopics:
                 job(*arguments)
             except queue.Empty:
                 pass
-            for outlet in self._outlets.values():
-                outlet.expire()
+            for outlet in set(self._outlets.values()):
+                outlet.end_motion()
 
     def end(self) -> None:
         """End all motions, and wait until the zeros have arrived."""
@@ -113,12 +103,13 @@ class ClientTopics:
             threading.Event().wait(DELIVERY_S)
 
     def _close_all(self) -> None:
-        for user in list(self._users):
-            self._close(user)
+        for user, outlet in self._outlets.items():
+            outlet.end_motion(user)
         self._has_ended.set()
 
     def _open(self, user: User, topic: str, kind_name: str, encoding: str) -> None:
         kind = message_class(kind_name)
+        known = {outlet.topic: outlet for outlet in self._outlets.values()}.get(topic)
         refusal = ""
         if encoding != ENCODING:
             refusal = f"the encoding must be {ENCODING}, not {encoding}"
@@ -126,31 +117,24 @@ class ClientTopics:
             refusal = "client_topic_whitelist does not have it"
         elif kind is None:
             refusal = f"{kind_name} is not installed here"
-        elif topic in self._outlets and self._outlets[topic].kind is not kind:
-            refusal = f"another client publishes {self._outlets[topic].kind._type} there"
+        elif known and known.kind is not kind:
+            refusal = f"another client publishes {known.kind._type} there"
         if refusal:
             self._warn(f"{topic} cannot be published: {refusal}")
             return
-        outlet = self._outlets.get(topic) or _Outlet(topic, kind)
-        self._outlets[topic] = self._users[user] = outlet
-        outlet.users.add(user)
+        self._outlets[user] = known or _Outlet(topic, kind)
 
     def _send(self, user: User, data: bytes) -> None:
-        outlet = self._users.get(user)
-        if outlet is None:
-            return
-        refusal = outlet.refusal(user, data)
-        if not refusal:
-            outlet.send(user, data)
-        elif refusal != self._refusals.get(user):
-            self._warn(f"{outlet.topic}: a message is refused: {refusal}")
-        self._refusals[user] = refusal
+        if user in self._outlets:
+            refusal = self._outlets[user].send(user, data)
+            if refusal and refusal != self._refusals.get(user):
+                self._warn(f"{self._outlets[user].topic}: a message is refused: {refusal}")
+            self._refusals[user] = refusal
 
     def _close(self, user: User) -> None:
         self._refusals.pop(user, None)
-        outlet = self._users.pop(user, None)
-        if outlet is None:
-            return
-        outlet.leave(user)
-        if not outlet.users:
-            self._outlets.pop(outlet.topic).close()
+        outlet = self._outlets.pop(user, None)
+        if outlet:
+            outlet.end_motion(user)
+            if outlet not in self._outlets.values():
+                outlet.close()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from contextlib import suppress
-from typing import Any, Iterable, Iterator, Mapping, Pattern
+from typing import Any, Callable, Iterable, Iterator, Pattern
 
 import rosgraph
 import rospy
@@ -11,64 +11,65 @@ from foxglove import Parameter
 
 from foxglove_bridge_server.parameters import is_allowed
 from node_kit.ros.graph.ros_api import call
-from node_kit.rules.answer import Answer
 
 
 class MasterParameters:
     """Reads, sets and watches the parameters that a whitelist allows."""
 
-    def __init__(self, whitelist: Iterable[Pattern[str]]) -> None:
-        self._whitelist = whitelist
+    def __init__(self, whitelist: Iterable[Pattern[str]], warn: Callable[[str], object]) -> None:
+        self._whitelist, self._warn = whitelist, warn
         self._watched: dict[str, Any] = {}  # with the last value
 
-    def read(self, names: Iterable[str] = ()) -> dict[str, Any]:
-        """Return {name: value} of these parameters, or of all."""
-        answer, tree = _call("getParam", "/")
-        if answer is not Answer.WELL:
-            return {}
-        values = {name: _at(tree, name) for name in names} if names else dict(_leaves("", tree))
-        allowed = {name for name in values if is_allowed(name, self._whitelist)}
-        return {name: values[name] for name in allowed if values[name] is not None}
+    def on_get_parameters(
+        self, _client: Any, names: list[str], request_id: str | None = None
+    ) -> list[Parameter]:
+        return _as_parameters(self._read(names))
 
-    def write(self, parameters: Iterable[Parameter]) -> list[str]:
-        """Set parameters, or delete those without a value; return the names that are refused."""
-        refused = []
+    def on_set_parameters(
+        self, _client: Any, parameters: list[Parameter], request_id: str | None = None
+    ) -> list[Parameter]:
         for parameter in parameters:
             value = parameter.get_value()
             if not is_allowed(parameter.name, self._whitelist):
-                refused.append(parameter.name)
+                self._warn(f"{parameter.name} is not set: param_whitelist does not have it")
             elif value is None:
-                _call("deleteParam", parameter.name)
+                _call_master("deleteParam", parameter.name)
             else:
-                _call("setParam", parameter.name, value)
-        return refused
+                _call_master("setParam", parameter.name, value)
+        return _as_parameters(self._read([parameter.name for parameter in parameters]))
 
-    def watch(self, names: Iterable[str]) -> None:
-        self._watched.update(self.read(names))
+    def on_parameters_subscribe(self, names: list[str]) -> None:
+        self._watched.update(self._read(names))
 
-    def unwatch(self, names: Iterable[str]) -> None:
+    def on_parameters_unsubscribe(self, names: list[str]) -> None:
         for name in names:
             self._watched.pop(name, None)
 
-    def changes(self) -> dict[str, Any]:
-        """Return the watched parameters that have changed since the last call."""
-        now = self.read(list(self._watched)) if self._watched else {}
-        changed = {name: value for name, value in now.items() if value != self._watched[name]}
+    def changes(self) -> list[Parameter]:
+        """Return the subscribed parameters that have changed since the last call."""
+        before = dict(self._watched)
+        now = self._read(list(before)) if before else {}
+        changed = {name: value for name, value in now.items() if value != before[name]}
         self._watched.update(changed)
-        return changed
+        return _as_parameters(changed)
+
+    def _read(self, names: list[str]) -> dict[str, Any]:
+        """Return {name: value} of these parameters, or of all without names."""
+        tree = _call_master("getParam", "/") or {}
+        pairs = [(name, _at(tree, name)) for name in names] if names else _leaves("", tree)
+        return {n: v for n, v in pairs if v is not None and is_allowed(n, self._whitelist)}
 
 
-def as_parameters(values: Mapping[str, Any]) -> list[Parameter]:
-    """Return them for the SDK, without the few kinds of XML-RPC that it lacks."""
+def _call_master(method: str, *arguments: Any) -> Any:
+    return call(rosgraph.get_master_uri(), method, *arguments, caller=rospy.get_name())[1]
+
+
+def _as_parameters(values: dict[str, Any]) -> list[Parameter]:
     parameters = []
     for name, value in values.items():
-        with suppress(TypeError, ValueError, OverflowError):
+        with suppress(TypeError, ValueError, OverflowError):  # XML-RPC has more kinds of values
             parameters.append(Parameter(name, value=value))
     return parameters
-
-
-def _call(method: str, *arguments: Any) -> tuple[Answer, Any]:
-    return call(rosgraph.get_master_uri(), method, *arguments, caller=rospy.get_name())
 
 
 def _leaves(name: str, value: Any) -> Iterator[tuple[str, Any]]:

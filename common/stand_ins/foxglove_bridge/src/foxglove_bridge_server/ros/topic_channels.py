@@ -15,58 +15,52 @@ from node_kit.ros.graph.raw_messages import RawMessage, senders, subscribe
 from node_kit.ros.rospy_patches.connections import established
 
 ENCODING, SCHEMAS = "ros1", "ros1msg"
-DEPTH = 10_000  # messages that arrive while one is passed on
+DEPTH = 10_000  # messages that may arrive while one is passed on
 DEFINITION_S = 1.0  # for a publisher to send the definition of its type
 
 
 class _Feed:
-    """The channel of a topic, its clients and the newest message of each latched publisher."""
+    """The channel of a topic, and the newest message of each latched publisher."""
 
     def __init__(self, topic: str, kind: str, definition: str, context: Context) -> None:
         self.topic, self.kind = topic, kind
         schema = Schema(name=kind, encoding=SCHEMAS, data=definition.encode())
         self.channel = Channel(topic, message_encoding=ENCODING, schema=schema, context=context)
         self._lock = threading.Lock()  # each publisher has a thread
-        self._clients: set[int] = set()
         self._latched: dict[str, bytes] = {}  # by the name of the publisher
         self._subscriber: rospy.Subscriber | None = None
 
-    def add(self, client: int) -> None:
-        """Subscribe for a client. ROS sends latched messages once, so a late one gets them here."""
-        self._clients.add(client)
+    def send_to(self, client: int) -> None:
+        """Subscribe for a client. A later one gets latched messages here: ROS sends them once."""
         if self._subscriber is None:
-            self._subscriber = subscribe(self.topic, self._pass_on, DEPTH)
+            self._subscriber = subscribe(self.topic, self._receive, DEPTH)
             return
         connected = senders(self._subscriber)
         with self._lock:
             for sender in connected & set(self._latched):
                 self.log(self._latched[sender], client)
 
-    def end(self) -> None:
-        for client in list(self._clients):
-            self.remove(client)
-
-    def remove(self, client: int) -> None:
-        self._clients.discard(client)
-        if not self._clients and self._subscriber:
+    def rest(self) -> None:
+        """Unsubscribe, if no client is left."""
+        if self._subscriber and not self.channel.has_sinks():
             self._subscriber.unregister()
             self._subscriber = None
             self._latched.clear()
 
-    def _pass_on(self, message: RawMessage) -> None:
+    def log(self, data: bytes, client: int | None = None) -> None:
+        self.channel.log(data, log_time=rospy.get_rostime().to_nsec(), sink_id=client)
+
+    def _receive(self, message: RawMessage) -> None:
         with self._lock:
             if message.is_latched:
                 self._latched[message.sender] = message.data
             self.log(message.data)
 
-    def log(self, data: bytes, client: int | None = None) -> None:
-        self.channel.log(data, log_time=rospy.get_rostime().to_nsec(), sink_id=client)
-
 
 class TopicChannels:
-    """The channels of all topics; clock: the only one that the node itself subscribes."""
+    """The channels of all topics; clock: the only topic that the node itself subscribes."""
 
-    def __init__(self, context: Context, clock: str | None) -> None:
+    def __init__(self, context: Context, clock: str) -> None:
         self._context, self._clock = context, clock
         self._feeds: dict[str, _Feed] = {}
         self._worker = ThreadPoolExecutor(1)  # calls of the master may block
@@ -75,27 +69,27 @@ class TopicChannels:
         """Advertise exactly these topics; kinds: {topic: package/Name}."""
         for topic, feed in list(self._feeds.items()):
             if kinds.get(topic) != feed.kind:
+                del self._feeds[topic]
                 feed.channel.close()
-                self._worker.submit(self._feeds.pop(topic).end)
+                self._worker.submit(feed.rest)
         for topic in sorted(set(kinds) - set(self._feeds)):
             definition = _definition(topic, kinds[topic])
             if definition is not None:
                 self._feeds[topic] = _Feed(topic, kinds[topic], definition, self._context)
 
-    def pass_on(self, topic: str, data: bytes) -> None:
-        """Send a message that the node itself has received."""
-        if topic in self._feeds:
-            self._feeds[topic].log(data)
+    def pass_on_clock(self, data: bytes) -> None:
+        if self._clock in self._feeds:
+            self._feeds[self._clock].log(data)
 
     def on_subscribe(self, client: Any, channel: Any) -> None:
         feed = self._feeds.get(channel.topic)
         if feed and channel.topic != self._clock:
-            self._worker.submit(feed.add, client.id)
+            self._worker.submit(feed.send_to, client.id)
 
-    def on_unsubscribe(self, client: Any, channel: Any) -> None:
+    def on_unsubscribe(self, _client: Any, channel: Any) -> None:
         feed = self._feeds.get(channel.topic)
-        if feed and feed.channel.id() == channel.id:
-            self._worker.submit(feed.remove, client.id)
+        if feed:
+            self._worker.submit(feed.rest)
 
 
 def _definition(topic: str, kind: str) -> str | None:
