@@ -144,6 +144,7 @@ def test_node_that_the_master_does_not_know_yet_has_not_exited(tf):
 def test_wrong_stamps_and_refused_transforms_are_problems(tf, how, why):
     tf.publish("odom", "base", **how)
     assert tf.problems("base") == why
+    assert (tf.rows["base"]["age"] is None) == ("stamp" in how)
     tf.publish_for(5.5, ("odom", "base"), topic=how.get("topic", TF))
     assert tf.problems("base") == []
 

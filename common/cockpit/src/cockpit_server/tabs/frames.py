@@ -78,7 +78,7 @@ class Edge:
             "nodes": nodes,
             "static": is_static,
             "rate": round(1 / period, 1) if gaps and period and not is_silent else 0,
-            "age": round(now - self._stamp, 2),
+            "age": round(now - self._stamp, 2) if self._stamp else None,
             "problems": [problem for problem in problems if problem],
         }
 
