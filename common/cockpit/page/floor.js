@@ -1,6 +1,7 @@
 /** The floor from above: grid, map, trails, robots. x is to the right, y up, as on paper. */
 
 import { drawNames } from "./names.js";
+import { Overlays } from "./overlays.js";
 import { drawBumpers, Surroundings } from "./surroundings.js";
 
 const BODY_RADIUS_M = 0.177; // TurtleBot 2
@@ -12,6 +13,7 @@ const BODY = "M1 0 A1 1 0 0 1 -1 0 A1 1 0 0 1 1 0"; // of a robot, with the radi
 const ARROW = "M.85 0 L-.44 .41 L-.2 0 L-.44 -.41"; // on it, ahead
 const [body, arrow] = [BODY, ARROW].map((path) => new Path2D(path));
 const PAN = { ArrowLeft: [40, 0], ArrowRight: [-40, 0], ArrowUp: [0, 40], ArrowDown: [0, -40] };
+const STEP_PX = 20; // by which a key moves a pose
 const ZOOM = { "+": 1.25, "-": 0.8 };
 
 export class Floor {
@@ -22,6 +24,9 @@ export class Floor {
   #pointers = new Map();
   #due = false;
   around = new Surroundings(); // Changes are drawn with the robots' next places.
+  overlays = new Overlays();
+  /** @type {any} */
+  tools = null; // the PoseTools, once there are some
   #free = { left: 0, top: 0, right: 0, bottom: 0 }; // the part of the canvas that nothing covers [pixel]
 
   /** toolbar, glass: they cover the canvas at the top, and maybe at the bottom. Names are between them. */
@@ -55,9 +60,10 @@ export class Floor {
     this.#drawSoon();
   }
 
-  /** The scan's points stay in place while the robot drives on. */
-  showScan(scan) {
-    this.around.showScan(scan, this.#robots[scan.robot]);
+  /** overlay: its points stay in place while the robot drives on. */
+  showOverlay(overlay) {
+    this.overlays.show(overlay, this.#robots);
+    this.#drawSoon();
   }
 
   clearTrails() {
@@ -88,7 +94,7 @@ export class Floor {
   /** Move and zoom until every robot and trail is visible. */
   showAll() {
     const robots = Object.values(this.#robots).map(({ x, y }) => [x, y]);
-    const points = [...[...this.#trails.values()].flat(), ...robots, ...this.around.corners()];
+    const points = [...[...this.#trails.values()].flat(), ...robots, ...this.around.corners(), ...this.overlays.points];
     if (points.length === 0) return;
     // A loop: there are more points than a function takes as arguments.
     const range = (i) => points.reduce(
@@ -111,6 +117,11 @@ export class Floor {
     this.#free = { left: 0, top, right, bottom: Math.min(height, edge) };
   }
 
+  /** [x, y] [m] in the middle. */
+  get centre() {
+    return this.#centre;
+  }
+
   /** @returns {any} [x, y] [pixel] */
   #middle() {
     const { left, top, right, bottom } = this.#free;
@@ -129,6 +140,7 @@ export class Floor {
 
   #listen() {
     const { canvas } = this;
+    /** @returns {any} */
     const at = (event) => [event.offsetX, event.offsetY];
     canvas.onwheel = (event) => {
       event.preventDefault();
@@ -136,9 +148,14 @@ export class Floor {
     };
     canvas.onpointerdown = (event) => {
       canvas.setPointerCapture(event.pointerId);
-      this.#pointers.set(event.pointerId, at(event));
+      if (this.tools.isOn) this.tools.press(this.#toFloor(at(event)));
+      else this.#pointers.set(event.pointerId, at(event));
     };
     canvas.onpointermove = (event) => {
+      if (this.tools.isOn) {
+        this.tools.drag(this.#toFloor(at(event)));
+        this.#drawSoon();
+      }
       const before = this.#pointers.get(event.pointerId);
       if (!before) return;
       const now = at(event);
@@ -151,9 +168,12 @@ export class Floor {
       }
       this.#pointers.set(event.pointerId, now);
     };
+    canvas.onpointerup = () => this.tools.release();
+    canvas.onpointercancel = () => this.tools.cancel();
     canvas.onlostpointercapture = (event) => this.#pointers.delete(event.pointerId); // also for a lifted pointer
     canvas.onkeydown = (event) => {
-      if (event.key in PAN) this.pan(...PAN[event.key]);
+      if (this.tools.key(event.key, STEP_PX / this.#scale)) this.#drawSoon();
+      else if (event.key in PAN) this.pan(...PAN[event.key]);
       else if (event.key in ZOOM) this.zoom(ZOOM[event.key]);
       else return;
       event.preventDefault();
@@ -182,16 +202,18 @@ export class Floor {
     const pen = canvas.getContext("2d");
     const colours = getComputedStyle(canvas);
     const colour = (name) => colours.getPropertyValue(name).trim();
-    const paper = { pen, colour, toPixels: (point) => this.#toPixels(point) };
+    const paper = { pen, colour, toPixels: (point) => this.#toPixels(point), scale: this.#scale };
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
     pen.fillStyle = colour("--floor");
     pen.fillRect(0, 0, width, height);
     this.#drawGrid(paper, width, height);
-    this.around.draw(paper, this.look);
+    this.around.draw(paper);
+    this.overlays.draw(paper);
     for (const [name, trail] of this.#trails) this.#drawTrail(paper, name, trail);
     const robots = Object.entries(this.#robots).map(([name, robot]) => this.#drawRobot(paper, name, robot));
     robots.sort((a, b) => Number(b.isChosen) - Number(a.isChosen)); // Its name gets the best place.
     drawNames(paper, robots, this.#free);
+    this.tools.draw(paper);
   }
 
   #drawGrid(paper, width, height) {

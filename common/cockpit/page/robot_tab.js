@@ -3,6 +3,7 @@
 import { byId, byName, element, number, offer, row, say } from "./dom.js";
 import { Floor } from "./floor.js";
 import { GamepadPicture } from "./gamepad_picture.js";
+import { PoseTools } from "./pose_tools.js";
 import { DriverSession, STALE_S } from "./driver_session.js";
 
 const ODOMETRY = [ // name, title, unit, digits
@@ -29,6 +30,9 @@ export class RobotTab {
       <button id="follow" aria-pressed="true">Follow</button>
       <button id="show-all">Show all</button>
       <button id="clear-trail">Clear trail</button>
+      <button id="set-pose" aria-pressed="false" hidden>Set pose</button>
+      <button id="set-goal" aria-pressed="false" hidden>Set goal</button>
+      <p id="tool" role="status"></p>
     </div>
     <div id="glass" role="group" aria-label="Joystick on glass" hidden>
       <div class="shoulders">
@@ -89,10 +93,12 @@ export class RobotTab {
     this.watch = watch;
     this.page = page;
     this.floor = new Floor(byId("floor"), document.querySelector(".toolbar"), byId("glass"));
+    this.floor.tools = new PoseTools(link, this.floor, page);
     this.picture = new GamepadPicture(byId("pad"));
     this.session = new DriverSession(link, page.notice, this);
     link.on("hello", ({ id }) => {
       say(byId("me"), `page ${id}`);
+      this.floor.overlays.clear(); // This server sends its own.
       if (this.#look !== null) this.lookAt(this.#look);
     });
     link.on("robots", ({ robots }) => this.#showRobots(robots));
@@ -102,7 +108,7 @@ export class RobotTab {
       this.floor.showAll();
       if (this.#names.length < 2) this.floor.setFollow(true);
     });
-    link.on("scan", (scan) => this.floor.showScan(scan));
+    link.on("overlay", (overlay) => this.floor.showOverlay(overlay));
     link.on("turtles", ({ pictures }) => this.#showTurtles(pictures));
     link.on("pad", (pad) => this.#showPad(pad));
     link.on("drives", () => this.#showTeleop()); // after the session has processed it

@@ -1,28 +1,19 @@
-/** What is around the robots: the map, the scan of one robot, pressed bumpers. */
+/** What is around the robots: the map, pressed bumpers. */
 
 const KINDS = [[1, "--wall"], [2, "--void"]]; // of the map's cells; 0 is free
 
 export class Surroundings {
   #map = null; // {x, y, yaw, cell, rows, columns} [m, rad] and its bytes, one for each cell, the lowest row first
   #pictures = new Map(); // colours -> canvas, a pixel for each cell
-  #scan = { name: null, points: [] }; // [m], of that robot
   #covered = ""; // the corners of the newest map
 
   /** map: without cells there is none. Returns whether it covers another part of the floor than before. */
   showMap(map) {
     this.#map = map.cells ? { ...map, bytes: Uint8Array.from(atob(map.cells), (c) => c.charCodeAt(0)) } : null;
-    this.#scan.name = null; // It is of another world, or of a server that has exited.
     this.#pictures.clear();
     const [before, corners] = [this.#covered, this.corners().join()];
     this.#covered = corners || before;
     return this.#covered !== before;
-  }
-
-  /** place: of the robot now; without it nothing is drawn. */
-  showScan({ robot: name, points }, place = { x: NaN }) {
-    const [c, s] = [Math.cos(place.yaw), Math.sin(place.yaw)];
-    const onFloor = ([x, y]) => [place.x + c * x - s * y, place.y + s * x + c * y];
-    this.#scan = { name, points: points.map(onFloor) };
   }
 
   /** A robot with its place in the map, if known, instead of that of its odometry. */
@@ -39,14 +30,9 @@ export class Surroundings {
     return sides.map(([column, row]) => [x + c * column - s * row, y + s * column + c * row]);
   }
 
-  /** paper: see Floor. name: of the robot whose scan is drawn. */
-  draw(paper, name) {
+  /** paper: see Floor. */
+  draw(paper) {
     if (this.#map) this.#drawMap(paper);
-    const points = this.#scan.name === name ? this.#scan.points.map(paper.toPixels) : [];
-    for (const { colour, size } of [{ colour: "--floor", size: 5 }, { colour: "--scan", size: 3 }]) { // with an edge, as on walls
-      paper.pen.fillStyle = paper.colour(colour);
-      for (const [x, y] of points) paper.pen.fillRect(Math.round(x - size / 2), Math.round(y - size / 2), size, size);
-    }
   }
 
   #drawMap({ pen, toPixels, colour }) {

@@ -4,6 +4,7 @@ import pytest
 from selenium.webdriver.common.keys import Keys as Key
 
 from tutorial_testing.claims import claim
+from tutorial_testing.cockpit.floor import drawn, settled
 from tutorial_testing.cockpit.hands import Thumbs
 from tutorial_testing.cockpit.world import World
 from tutorial_testing.nodes import node_path
@@ -11,24 +12,6 @@ from tutorial_testing.waiting import wait_for
 
 LEAST_TOUCH = 44  # pixel, of what a thumb holds; WCAG 2.5.5
 PHONES = {"upright": (360, 640), "on its side": (640, 360)}
-# How many pixels of the floor have about the colour of a variable of the style sheet, and where
-# their middle is on the page [pixel].
-DRAWN = """(() => {
-  const canvas = document.getElementById("floor"), box = canvas.getBoundingClientRect();
-  const hex = getComputedStyle(canvas).getPropertyValue(%r).trim().slice(1);
-  const wanted = [0, 2, 4].map((i) => parseInt(hex.slice(i, i + 2), 16));
-  const pen = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d");
-  pen.drawImage(canvas, 0, 0);
-  const { data } = pen.getImageData(0, 0, canvas.width, canvas.height);
-  let [count, x, y] = [0, 0, 0];
-  for (let i = 0; i < data.length; i += 4) {
-    if (wanted.some((value, k) => Math.abs(data[i + k] - value) >= 12)) continue;
-    count += 1;
-    x += (i / 4) %% canvas.width;
-    y += Math.floor(i / 4 / canvas.width);
-  }
-  return [count, box.left + x / count, box.top + y / count];
-})()"""
 
 
 @pytest.fixture(scope="module")
@@ -66,12 +49,6 @@ def test_a_phone_shows_the_driven_one_of_two_robots_beside_what_thumbs_hold(
         assert "auto" not in phone.ask(f"{every}.map((e) => getComputedStyle(e).touchAction)")
 
 
-def settled(browser, colour):
-    """Return where a colour is drawn, once it no longer changes."""
-    drawn = browser.ask(DRAWN % colour)
-    return drawn if drawn[0] and drawn == browser.ask(DRAWN % colour) else None
-
-
 @claim(
     "Floor: map, scan and bumpers as they are, until the world ends; a change of tab keeps the view"
 )
@@ -82,11 +59,11 @@ def test_a_change_of_tab_keeps_the_view_of_walls_scan_and_bumper(two, shared_bro
     with two.run("rosservice", "call", "/fake_turtlebot/reset") as reset:
         assert reset.wait() == 0, reset.output
     page.open(two.address)
-    wait_for(lambda: page.ask(DRAWN % "--wall")[0] > 500, "walls on the floor")
-    wait_for(lambda: page.ask(DRAWN % "--scan")[0] > 100, "scan")
+    wait_for(lambda: drawn(page, "--wall")[0] > 500, "walls on the floor")
+    wait_for(lambda: drawn(page, "--scan")[0] > 100, "scan")
     ahead = "{linear: {x: 0.7}}"
     with two.run("rostopic", "pub", "-r", "10", "/cmd_vel", "geometry_msgs/Twist", ahead):
-        wait_for(lambda: page.ask(DRAWN % "--bumper")[0] > 10, "bumper at a wall")
+        wait_for(lambda: drawn(page, "--bumper")[0] > 10, "bumper at a wall")
     two.wait_for_rest()
     page.click("Zoom in")
     page.one("#floor").send_keys(Key.ARROW_LEFT)
@@ -107,5 +84,5 @@ SCAN = """{header: {frame_id: base_link}, angle_min: -0.5, angle_increment: 0.1,
 def test_a_scan_without_a_map_is_on_the_floor_until_it_ends(world, page):
     """As a real TurtleBot shows before gmapping is started."""
     with world.run("rostopic", "pub", "-r", "10", "/scan", "sensor_msgs/LaserScan", SCAN):
-        wait_for(lambda: page.ask(DRAWN % "--scan")[0] > 50, "scan")
-    wait_for(lambda: page.ask(DRAWN % "--scan")[0] == 0, "end of the scan")
+        wait_for(lambda: drawn(page, "--scan")[0] > 50, "scan")
+    wait_for(lambda: drawn(page, "--scan")[0] == 0, "end of the scan")

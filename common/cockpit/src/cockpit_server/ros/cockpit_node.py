@@ -7,6 +7,7 @@ import socket
 import sys
 import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Callable
 
@@ -34,7 +35,8 @@ from cockpit_server.ros.transforms import Transforms
 from cockpit_server.tabs.diagnostics import Diagnostics
 from cockpit_server.tabs.frames import Frames
 from cockpit_server.tabs.logs import Logs
-from cockpit_server.tabs.map_and_scan import MapAndScan
+from cockpit_server.tabs.maps import Maps
+from cockpit_server.tabs.overlays import Overlays
 from cockpit_server.tabs.publishing import Publishing
 from cockpit_server.tabs.robots import Robots
 from cockpit_server.tabs.topics import Topics
@@ -50,7 +52,8 @@ class Cockpit:
     """The node that shows the robots of a master to browsers, and lets one page drive.
 
     Subscribes: what pages show: odom (nav_msgs/Odometry), joy (sensor_msgs/Joy), scan
-        (sensor_msgs/LaserScan), base_pose_ground_truth (nav_msgs/Odometry) and
+        (sensor_msgs/LaserScan), paths (nav_msgs/Path), markers (visualization_msgs/Marker,
+        MarkerArray), base_pose_ground_truth (nav_msgs/Odometry) and
         mobile_base/events/bumper, sensors/core, commands/led1, led2, sound (kobuki_msgs), any
         topic;
         /map (nav_msgs/OccupancyGrid), /tf, /tf_static (tf2_msgs/TFMessage),
@@ -71,13 +74,15 @@ class Cockpit:
         transforms.listeners = (frames,)
         pages: dict[int, Page] = {}
         robots, reports = Robots(feeds, graphs), Joy2TwistReports(feeds)
-        joysticks = Joysticks(feeds, graphs, name)
+        joysticks, maps = Joysticks(feeds, graphs, name), Maps(feeds, graphs)
+        drawer = ThreadPoolExecutor(1, thread_name_prefix="overlays")
         driving = self._driving = Driving(pages, graphs, joysticks, reports, robots.moves)
         sources = (
             robots, joysticks, driving, graphs, Topics(feeds, graphs), Plots(feeds, graphs),
             Forms(driving, self._soon, graphs), Publishing(driving, graphs, Outlets()), Logs(feeds),
-            Doctor(), Bags(driving, self._soon), Recorder(), MapAndScan(feeds, graphs),
-            Turtles(graphs), frames, Diagnostics(feeds),
+            Doctor(), Bags(driving, self._soon), Recorder(), maps,
+            Overlays(feeds, graphs, transforms, robots, maps, drawer.submit), Turtles(graphs),
+            frames, Diagnostics(feeds),
         )  # fmt: skip
         self._hub = Hub(pages, driving, sources, log.warn, time)
         page = Path(rospkg.RosPack().get_path("cockpit"), "page")

@@ -137,10 +137,12 @@ def fixed(digits: int, *numbers: float) -> str:
 
 
 class Tf(Protocol):
-    """What this tab uses of ros/transforms.py."""
+    """What tabs use of ros/transforms.py."""
 
     def set_needed(self, owner: Hashable, is_needed: bool) -> None: ...
-    def lookup(self, target: str, source: str) -> tuple[Transform | None, str]: ...
+    def lookup(
+        self, target: str, source: str, stamp: Any = None
+    ) -> tuple[Transform | None, str]: ...
 
 
 class Frames(TabSource):

@@ -42,6 +42,7 @@ class Robots(TabSource):
         self._newest: dict[str, tuple[bytes, float]] = {}  # topic -> (bytes, their arrival [s])
         # robot -> (Motion, its arrival [s], distance covered [m], Motion in the map)
         self._states: dict[str, tuple[Motion, float, float, Motion | None]] = {}
+        self.frames: dict[str, str] = {}  # robot -> the frame of its odometry
         self._text = ""  # all robots, as pages receive them
         self._names: list[str] = []
         self._speeds: dict[str, dict[str, Any]] = {}  # robot -> v, w, age
@@ -65,7 +66,7 @@ class Robots(TabSource):
             sensors = {robot: self._core(topic, now) for robot, topic in cores.items()}
             self._write(known, sensors, now)
         else:
-            self._states, self._text = {}, ""
+            self._states, self._text, self.frames = {}, "", {}
 
     def _collect_kobukis(self) -> None:
         """Subscribe to Kobukis' parts even if no page shows them, as an LED keeps its colour."""
@@ -136,6 +137,7 @@ class Robots(TabSource):
         truth = decoded(Odometry, self._newest.get(topic_of(robot, TRUTH), (b"", 0.0))[0])
         in_map = truth and motion(truth)
         self._states[robot] = (new, arrived, covered(last, new, so_far), in_map)
+        self.frames[robot] = odometry.header.frame_id.lstrip("/")
 
 
 def place(state: Motion) -> dict[str, float]:
