@@ -144,7 +144,7 @@ function untangle(columns, near, bands) {
   for (let turn = 0; turn < 6; turn += 1) {
     for (const column of columns) {
       const means = Object.fromEntries(column.map((item) => [item, mean(item)]));
-      column.sort((a, b) => bands.get(a) - bands.get(b) || means[a] - means[b]);
+      column.sort((a, b) => means[a] - means[b]);
       note(column);
     }
   }

@@ -28,7 +28,7 @@ test("a topic without a subscriber, one without a publisher, and debugging can b
   assert.ok(drawn("sinks").includes("/recorded"));
 });
 
-/** A class: two topics and two nodes of each robot, a joystick for all, and nodes without a namespace. */
+/** A class: two topics and two nodes of each robot, with an arrow over two columns; nodes without a namespace. */
 function room(robots) {
   const items = ["node /joy_node", "node /watch"];
   const edges = [];
@@ -36,23 +36,29 @@ function room(robots) {
     const [joy, odom] = ["joy", "odom"].map((name) => `topic /robot_${i}/${name}`);
     const [teleop, sim] = ["teleop", "sim"].map((name) => `node /robot_${i}/${name}`);
     items.push(joy, odom, teleop, sim);
-    edges.push(...to("node /joy_node", joy), ...to(joy, teleop), ...to(teleop, odom), ...to(odom, sim, "node /watch"));
+    edges.push(...to("node /joy_node", joy), ...to(joy, teleop, sim), ...to(teleop, odom), ...to(odom, sim, "node /watch"));
   }
   return layout(items, edges, framesOf(items));
 }
 
 for (const robots of [0, 1, 3, 30]) {
   test(`${robots} robots: each frame has the boxes of its namespace; nothing overlaps`, () => {
-    const { boxes, frames, width, height } = room(robots);
+    const { boxes, frames, arrows, width, height } = room(robots);
     assert.equal(frames.length, robots);
     const isInside = (a, b) => a.x >= b.x && a.y >= b.y && a.x + a.w <= b.x + b.w && a.y + a.h <= b.y + b.h;
     const overlap = (a, b) => a.x < b.x + b.w && b.x < a.x + a.w && a.y < b.y + b.h && b.y < a.y + a.h;
     for (const frame of frames) {
       assert.ok(isInside(frame, { x: 0, y: 0, w: width, h: height }));
+      const title = { x: frame.x, y: frame.y, w: frame.w, h: 20 };
       for (const [item, box] of Object.entries(boxes)) {
         const isOwn = item.split(" ")[1].startsWith(`${frame.name}/`);
         assert.equal(frame.items.includes(item), isOwn);
         assert.ok(isOwn ? isInside(box, frame) : !overlap(box, frame), `${item} and ${frame.name}`);
+        assert.ok(!overlap(box, title));
+      }
+      for (const { path } of arrows.filter(({ from, to: end }) => [from, end].every((item) => frame.items.includes(item)))) {
+        const rows = [...path.matchAll(/[\d.]+ ([\d.]+)/g)].map(([, y]) => Number(y));
+        assert.ok(rows.every((y) => y > frame.y && y < frame.y + frame.h), `${path} is in ${frame.name}`);
       }
     }
     for (const all of [frames, Object.values(boxes)]) {
@@ -60,6 +66,13 @@ for (const robots of [0, 1, 3, 30]) {
     }
   });
 }
+
+test("what a frame above is connected to comes first", () => {
+  const items = ["a/x", "a/y", "b/talker", "c/x", "c/y"].map((name) => `node /${name}`).concat("topic /b/p", "topic /b/q");
+  const edges = [...to("node /b/talker", "topic /b/p", "topic /b/q"), ...to("topic /b/p", "node /c/x"), ...to("topic /b/q", "node /a/x")];
+  const { boxes } = layout(items, edges, framesOf(items));
+  assert.ok(boxes["topic /b/q"].y < boxes["topic /b/p"].y);
+});
 
 test("a node is in the frame of its private topics; a name without others has no frame", () => {
   assert.deepEqual(framesOf(["node /base", "topic /base/power", "node /base_2", "topic /chatter", "node bare"]),
