@@ -15,11 +15,12 @@ export function itemsOf({ nodes, topics, edges }, hidden) {
   return [...nodes.map(({ name }) => `node ${name}`), ...items].filter((item) => !isDebug(item));
 }
 
-/** {item: its frame}, the first part of its name, if another item has that, too. */
+/** {item: its frame}, the first part of its name, if that is a namespace that another item has, too. */
 export function framesOf(items) {
   const inside = {};
   for (const item of items) (inside[`/${item.split("/")[1]}`] ??= []).push(item);
-  const frames = Object.entries(inside).filter(([, own]) => own.length > 1);
+  const isDeep = (item) => item.split("/").length > 2;
+  const frames = Object.entries(inside).filter(([, own]) => own.length > 1 && own.some(isDeep));
   return Object.fromEntries(frames.flatMap(([frame, own]) => own.map((item) => [item, frame])));
 }
 

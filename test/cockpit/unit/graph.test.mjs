@@ -74,8 +74,8 @@ test("what a frame above is connected to comes first", () => {
   assert.ok(boxes["topic /b/q"].y < boxes["topic /b/p"].y);
 });
 
-test("a node is in the frame of its private topics; a name without others has no frame", () => {
-  assert.deepEqual(framesOf(["node /base", "topic /base/power", "node /base_2", "topic /chatter", "node bare"]),
+test("a node is in the frame of its private topics; without a namespace there is no frame", () => {
+  assert.deepEqual(framesOf(["node /base", "topic /base/power", "node /base_2", "node /rosout", "topic /rosout", "node bare"]),
     { "node /base": "/base", "topic /base/power": "/base" });
 });
 
