@@ -130,22 +130,25 @@ class Bridge:
                 rospy.signal_shutdown("the master has gone")
                 return
             self._look()
-            self._server.publish_parameter_values(self._values.changes())
+            changes = self._values.changes()
+            if changes:
+                self._server.publish_parameter_values(changes)
 
     def _look(self) -> None:
         """Ask the master what there is, and show it."""
         (answer, state), (typed, types) = _ask("getSystemState"), _ask("getTopicTypes")
         if {answer, typed} != {Answer.WELL}:
             return
-        allowed, own = self._parameters, {rospy.get_name()}
-        published, subscribed, services = state
-        topics = {topic for topic, _ in published}
-        topics |= {topic for topic, nodes in subscribed if set(nodes) - own}
-        topics = {topic for topic in topics if is_allowed(topic, allowed.topic_whitelist)}
-        self._topics.show({topic: kind for topic, kind in types if topic in topics and kind != "*"})
+        own, patterns = {rospy.get_name()}, self._parameters
+        published = {topic for topic, _ in state[0]}
+        topics = published | {topic for topic, nodes in state[1] if set(nodes) - own}
+        topics = {topic for topic in topics if is_allowed(topic, patterns.topic_whitelist)}
+        kinds = {topic: kind for topic, kind in types if topic in topics and kind != "*"}
+        self._topics.show(kinds, published)
         if self._services:
-            names = {name for name, _ in services if is_allowed(name, allowed.service_whitelist)}
-            self._services.show(names)
+            services = {name for name, _ in state[2]}
+            services = {name for name in services if is_allowed(name, patterns.service_whitelist)}
+            self._services.show(services)
         if self._has_graph and state != self._state:
             self._server.publish_connection_graph(_graph_of(state))
         self._state = state

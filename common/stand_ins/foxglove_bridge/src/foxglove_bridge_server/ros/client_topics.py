@@ -108,12 +108,14 @@ class ClientTopics:
         self._has_ended.set()
 
     def _open(self, user: User, topic: str, kind_name: str, encoding: str) -> None:
+        is_legal = bool(topic) and is_legal_name(topic)
+        topic = rospy.resolve_name(topic) if is_legal else topic
         kind = message_class(kind_name)
         known = {outlet.topic: outlet for outlet in self._outlets.values()}.get(topic)
         refusal = ""
         if encoding != ENCODING:
             refusal = f"the encoding must be {ENCODING}, not {encoding}"
-        elif not is_legal_name(topic) or not is_allowed(topic, self._whitelist):
+        elif not is_legal or not is_allowed(topic, self._whitelist):
             refusal = "client_topic_whitelist does not have it"
         elif kind is None:
             refusal = f"{kind_name} is not installed here"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any, Mapping
+from typing import Any, Callable, Container, Mapping
 
 import rospy
 from foxglove import Channel, Context, Schema
@@ -58,45 +58,58 @@ class _Feed:
 
 
 class TopicChannels:
-    """The channels of all topics; clock: the only topic that the node itself subscribes."""
+    """The channels of all topics; clock: the only topic that the node itself subscribes.
+
+    One thread changes them and calls the master, which may block.
+    """
 
     def __init__(self, context: Context, clock: str) -> None:
         self._context, self._clock = context, clock
         self._feeds: dict[str, _Feed] = {}
-        self._worker = ThreadPoolExecutor(1)  # calls of the master may block
+        self._worker = ThreadPoolExecutor(1)
 
-    def show(self, kinds: Mapping[str, str]) -> None:
+    def show(self, kinds: Mapping[str, str], published: Container[str]) -> None:
         """Advertise exactly these topics; kinds: {topic: package/Name}."""
         for topic, feed in list(self._feeds.items()):
             if kinds.get(topic) != feed.kind:
-                del self._feeds[topic]
-                feed.channel.close()
-                self._worker.submit(feed.rest)
+                self._worker.submit(self._remove, topic)
         for topic in sorted(set(kinds) - set(self._feeds)):
-            definition = _definition(topic, kinds[topic])
+            definition = _definition(topic, kinds[topic], topic in published)
             if definition is not None:
-                self._feeds[topic] = _Feed(topic, kinds[topic], definition, self._context)
+                self._worker.submit(self._add, topic, kinds[topic], definition)
 
     def pass_on_clock(self, data: bytes) -> None:
-        if self._clock in self._feeds:
-            self._feeds[self._clock].log(data)
+        feed = self._feeds.get(self._clock)
+        if feed:
+            feed.log(data)
 
     def on_subscribe(self, client: Any, channel: Any) -> None:
-        feed = self._feeds.get(channel.topic)
-        if feed and channel.topic != self._clock:
-            self._worker.submit(feed.send_to, client.id)
+        if channel.topic != self._clock:
+            self._worker.submit(self._change, channel.topic, _Feed.send_to, client.id)
 
     def on_unsubscribe(self, _client: Any, channel: Any) -> None:
-        feed = self._feeds.get(channel.topic)
+        self._worker.submit(self._change, channel.topic, _Feed.rest)
+
+    def _change(self, topic: str, change: Callable[..., None], *arguments: int) -> None:
+        if topic in self._feeds:
+            change(self._feeds[topic], *arguments)
+
+    def _add(self, topic: str, kind: str, definition: str) -> None:
+        if topic not in self._feeds:
+            self._feeds[topic] = _Feed(topic, kind, definition, self._context)
+
+    def _remove(self, topic: str) -> None:
+        feed = self._feeds.pop(topic, None)
         if feed:
-            self._worker.submit(feed.rest)
+            feed.channel.close()
+            feed.rest()
 
 
-def _definition(topic: str, kind: str) -> str | None:
+def _definition(topic: str, kind: str, is_published: bool) -> str | None:
     """Return the definition of a type, from a publisher if it is not installed here."""
     known = message_class(kind)
-    if known:
-        return str(known._full_text)
+    if known or not is_published:
+        return str(known._full_text) if known else None
     subscriber, deadline = rospy.Subscriber(topic, rospy.AnyMsg), time.monotonic() + DEFINITION_S
     try:
         while time.monotonic() < deadline:
