@@ -66,6 +66,7 @@ export class FramesTab {
       offer(select, [...new Set([...names, this.#pair[i]])].map((name) => [name]));
       select.value = this.#pair[i];
     });
+    if (!this.#pair.every(Boolean)) say(byId("frames-transform"), "");
     this.watch({ frames: this.#isShown ? this.#pair.filter(Boolean) : null });
   }
 
