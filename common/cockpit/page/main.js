@@ -73,10 +73,10 @@ link.on("refused", ({ what, why }) => {
 link.on("sent", (kind) => { // A second refusal is shown again.
   if (!BY_ITSELF.includes(kind) && byId("notice").textContent === refusal) notice("");
 });
-page.moved = makeTabs(tablist, {
-  onChoose(name) {
-    for (const [other, tab] of Object.entries(tabs)) if (other !== name) tab.show?.(false);
-    tabs[name].show?.(true);
+page.moved = makeTabs(tablist, byId("beside"), {
+  onChoose(names) {
+    for (const [name, tab] of Object.entries(tabs)) if (!names.includes(name)) tab.show?.(false);
+    for (const name of names) tabs[name].show?.(true);
   },
   go(name, path, query) {
     tabs.robot.goTo(new URLSearchParams(location.search).get("robot"));
