@@ -6,6 +6,7 @@ import json
 import re
 from typing import Any, Iterable, Mapping, Sequence
 
+from cockpit_server.expressions import value_of
 from cockpit_server.fields import form_fields
 from node_kit.parameters.declaration import Allowed
 
@@ -13,6 +14,7 @@ MOST_VALUES, SHORT = 1000, 60  # parameters in a list, and characters of the val
 MOST_FIELDS = 60  # fields in a form
 LONGEST_VALUE = 2000  # characters
 LONGEST_ANSWER, LONGEST_LINE = 4000, 200  # characters
+_NUMBERS = re.compile(r"(u?int\d+|float\d+|byte|char|bool)(\[\d*\])?")
 
 TEXTS = Allowed(
     f"at most {MOST_FIELDS} texts of at most {LONGEST_VALUE} characters",
@@ -33,10 +35,10 @@ def form(
     return {"kind": "form", "name": name, "numbers": numbers, **content}
 
 
-def field_values(kind: Any, texts: Mapping[str, str]) -> dict[str, Any]:
+def field_values(kind: Any, texts: Mapping[str, str], i: int, now_s: float) -> dict[str, Any]:
     """Return the values of a form by field, nested as in a message of this class.
 
-    Raises ValueError, one line.
+    i, now_s: number and time of the message, for expressions. Raises ValueError, one line.
     """
     types = dict(form_fields(kind))
     tree: dict[str, Any] = {}
@@ -47,20 +49,26 @@ def field_values(kind: Any, texts: Mapping[str, str]) -> dict[str, Any]:
         *above, last = name.split("/")
         for step in above:
             part = part.setdefault(step, {})
-        part[last] = field_value(name, types[name], text)
+        part[last] = field_value(name, types[name], text, i, now_s)
     return tree
 
 
-def field_value(name: str, slot_type: str, text: str) -> Any:
+def field_value(name: str, slot_type: str, text: str, i: int, now_s: float) -> Any:
     """Return the value of a field as genpy fills it in. Raises ValueError, one line."""
     if slot_type == "string" or text == "now":
         return text
     try:
         return json.loads(text)
     except (ValueError, RecursionError):
-        is_number = re.fullmatch(r"(u?int|float)\d+|byte|char", slot_type)
-        wanted = "a number" if is_number else "JSON, as 0.5, true or [1, 2]"
-        raise ValueError(f"{name}: {slot_type} must be {wanted}") from None
+        if not _NUMBERS.fullmatch(slot_type):
+            wanted = "JSON, as 0.5, true or [1, 2]"
+            raise ValueError(f"{name}: {slot_type} must be {wanted}") from None
+    try:
+        return value_of(text, float if slot_type.startswith("float") else int, i, now_s)
+    except Exception as error:  # whatever Python says about a hostile text
+        wanted = f"{name}: {slot_type} must be a number, or an expression as sin(i / 10)"
+        why = getattr(error, "msg", "") or one_line(error)  # without a SyntaxError's line
+        raise ValueError(f"{wanted}: {why}") from None
 
 
 def parameter_value(text: str) -> Any:

@@ -12,7 +12,7 @@ from genpy.message import fill_message_args
 
 from cockpit_server.driving.who_drives import Driving
 from cockpit_server.errors import RefusedError
-from cockpit_server.fields import definition, form_fields, numbers_of
+from cockpit_server.fields import definition, form_fields, installed_types, numbers_of
 from cockpit_server.graph import GraphWatcher
 from cockpit_server.pages import Page, Soon, TabSource
 from cockpit_server.schema import full_name, one_of, text
@@ -25,16 +25,18 @@ from node_kit.ros.graph.services import call_service, kind_of
 CALL_S, RESET_S = 30.0, 5.0  # timeouts of services
 MOST_CALLS = 100  # calls that wait for an answer, with a thread each
 MASTER = "the master"  # as what has not answered yet
+DESCRIBED = "message", "service", "parameter", "values", "types"
 
 
-def filled(kind: Any, texts: Mapping[str, str]) -> Any:
+def filled(kind: Any, texts: Mapping[str, str], i: int = 1) -> Any:
     """Return the message of a form; a field without a text is zero or empty.
 
-    Raises ValueError, one line.
+    i: its number. Raises ValueError, one line.
     """
-    message, values = kind(), form_values.field_values(kind, texts)
+    now = rospy.Time.now()
+    message, values = kind(), form_values.field_values(kind, texts, i, now.to_sec())
     try:
-        fill_message_args(message, [values], {"now": rospy.Time.now()})
+        fill_message_args(message, [values], {"now": now})
         message.serialize(BytesIO())
     except Exception as error:  # genpy raises many kinds
         raise ValueError(one_line(error)) from None
@@ -45,7 +47,7 @@ class Forms(TabSource):
     """Services and parameters for pages that may drive, unless another page does."""
 
     messages: ClassVar = {
-        "describe": {"what": one_of("message", "service", "parameter", "values"), "name": text},
+        "describe": {"what": one_of(*DESCRIBED), "name": text},
         "call": {"service": full_name, "values": TEXTS},
         "set": {"parameter": full_name, "values": TEXTS},
         "reset": {"robot": text},
@@ -62,8 +64,11 @@ class Forms(TabSource):
             self._ask(page, MASTER, lambda: describe_parameter(name))
         elif what == "values":
             self._ask(page, MASTER, lambda: parameter_values(rospy.get_param("/", {})))
-        # Only names in the graph, as message_class() keeps every name in memory.
-        elif name in self._graphs.graph.types.values() and message_class(name):
+        elif what == "types":
+            page.must_drive()
+            self._ask(page, "the list of types", lambda: {"kind": what, "types": installed_types()})
+        # For viewers only names in the graph, as message_class() keeps names in memory.
+        elif (page.drives or name in self._graphs.graph.types.values()) and message_class(name):
             kind = message_class(name)
             page.send(**form(name, definition(kind), form_fields(kind), numbers_of(name)))
         else:
