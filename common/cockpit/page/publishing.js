@@ -1,57 +1,77 @@
-/** What the form of the tab Topics publishes, and the signs of life that the server requires meanwhile. */
+/** What this page publishes by forms: its list, and the signs of life that the server requires meanwhile. */
 
-const SIGN_MS = 50; // between two signs, while this page publishes repeatedly or drives by its form
+import { byId, element, row, say } from "./dom.js";
+
+const SIGN_MS = 50; // between two signs, whatever is published
 
 export class Publishing {
-  #timer = 0; // of signs of life, or 0
-  #moves = false; // whether this page drives by its form, as the server says
+  static panel = `
+    <div class="card" id="topics-running" hidden><h2 id="topics-running-title" aria-live="polite"></h2>
+      <table><thead><tr><th>Topic</th><th>Hz</th><th>Messages</th><td></td></tr></thead>
+        <tbody id="topics-running-rows"></tbody></table>
+      <button id="topics-stop-all">Stop all</button></div>`;
+
+  #kept = new Map(); // topic -> { period [s], line: its row, timer: of the signs that make the server publish }
+  #signs = 0; // timer of the others
   #n = 0; // of the newest sign
   #beat = 0; // the newest of the server
-  repeats = false; // whether a message is published repeatedly
+  #mayRun = false; // whether anything was published
 
-  /** onRest(): called when publishing has ended. */
-  constructor(link, onRest) {
+  constructor(link) {
     this.link = link;
-    this.onRest = onRest;
     link.on("beat", ({ n }) => (this.#beat = n));
-    link.on("session", ({ yours, topic }) => this.#drive(yours && Boolean(topic)));
-    link.on("refused", ({ what }) => ["publish", "again"].includes(what) && this.rest());
-    document.addEventListener("visibilitychange", () => this.rest());
+    link.on("running", ({ topics }) => this.#show(topics));
+    byId("topics-stop-all").onclick = () => this.end();
+    document.addEventListener("visibilitychange", () => this.end());
   }
 
   /** fields: of the message "publish"; with a period [s] it repeats. Returns whether it was sent. */
   begin(fields) {
-    const isSent = this.link.send("publish", fields);
-    if (isSent && fields.period) {
-      this.repeats = true;
-      this.#sendSigns(1000 * fields.period);
+    this.#mayRun = true;
+    return this.link.send("publish", fields);
+  }
+
+  /** Stop all: a page that is hidden or not connected publishes and moves nothing. */
+  end() {
+    if (!this.#mayRun) return;
+    this.link.send("publish_end", { topic: null });
+    this.#show([]);
+  }
+
+  /** topics: what the server publishes for this page; a motion that was published once has no period. */
+  #show(topics) {
+    if (document.hidden && topics.length) return this.end(); // They began while the page was being hidden.
+    const hasFocus = byId("topics-running").contains(document.activeElement);
+    for (const [topic, { period, line, timer }] of this.#kept) {
+      if (topics.some((now) => now.topic === topic && now.period === period)) continue;
+      clearInterval(timer);
+      this.#kept.delete(topic);
+      line.remove();
     }
-    return isSent;
+    for (const { topic, type, period, count } of topics) {
+      if (!this.#kept.has(topic)) this.#kept.set(topic, this.#start(topic, type, period));
+      say(this.#kept.get(topic).line.cells[2], String(count));
+    }
+    if (!topics.length) clearInterval(this.#signs);
+    this.#signs = topics.length && (this.#signs || setInterval(() => this.#sign(null), SIGN_MS));
+    say(byId("topics-running-title"), `Publishing on ${topics.length} topic${topics.length === 1 ? "" : "s"}`);
+    say(byId("tab-topics"), topics.length ? `Topics (${topics.length})` : "Topics");
+    const hadFocus = hasFocus && !(topics.length && byId("topics-running").contains(document.activeElement));
+    byId("topics-running").hidden = !topics.length;
+    if (hadFocus) byId(topics.length ? "topics-stop-all" : "topics-send").focus();
   }
 
-  /** Some signs make the server publish. period: between two messages [ms]; Infinity: no sign does. */
-  #sendSigns(period = Infinity) {
-    clearInterval(this.#timer);
-    const steps = Math.ceil(period / SIGN_MS); // from one message to the next
-    let step = 0;
-    const sign = () => this.link.send("again",
-      { n: ++this.#n, t: performance.now(), beat: this.#beat, due: ++step % steps === 0 });
-    this.#timer = setInterval(sign, period < Infinity ? period / steps : SIGN_MS);
+  #start(topic, type, period) {
+    const stop = element("button", { "aria-label": `Stop ${topic}` }, "Stop");
+    stop.onclick = () => this.link.send("publish_end", { topic });
+    const name = element("span", {}, topic, element("br"), element("small", {}, type));
+    const line = row(name, period ? String(+(1 / period).toFixed(2)) : "once", "", stop);
+    byId("topics-running-rows").append(line);
+    return { period, line, timer: period ? setInterval(() => this.#sign(topic), 1000 * period) : 0 };
   }
 
-  #drive(on) {
-    if (on && !this.#timer) this.#sendSigns();
-    if (!on && this.#moves) this.rest();
-    this.#moves = on;
-  }
-
-  /** Stop publishing: a page that is hidden or not connected publishes and moves nothing. */
-  rest() {
-    if (!this.#timer) return;
-    clearInterval(this.#timer);
-    this.#timer = 0;
-    this.repeats = false;
-    this.link.send("publish_end");
-    this.onRest();
+  /** due: the topic on which the server publishes now, or null. */
+  #sign(due) {
+    this.link.send("again", { n: ++this.#n, t: performance.now(), beat: this.#beat, due });
   }
 }

@@ -1,23 +1,15 @@
-/**
- * The tab Topics: the rates of topics, the newest messages of one, and forms that publish a message once or repeatedly,
- * call a service, or set a parameter.
- */
+/** The tab Topics: the rates of topics, the newest messages of one, and a form for it (topic_form.js). */
 
 import { appendBelow, brief, byId, byName, element, offer, row, say } from "./dom.js";
 import { neighbours } from "./graph_layout.js";
 import { Publishing } from "./publishing.js";
+import { FORMS, TopicForm } from "./topic_form.js";
 
 const LISTED = 100; // of the matching names
 const MOST_RATES = 40, LONGEST_RATES = 3000; // topics, and characters of their names, as the server accepts them
 const LOOK_MS = 500; // between two checks of which topics are in sight
 const ECHOED = 100; // messages that are kept
 const SIGN_OF_COPY_MS = 2000;
-const LONGEST_VALUE = 2000; // characters of a field, as the server accepts it
-const FORMS = { // of each kind: what the server is asked to describe, and what the form does
-  topics: { what: "message", title: "Publish a message", act: "Publish" },
-  services: { what: "service", title: "Call this service", act: "Call" },
-  parameters: { what: "parameter", title: "Set this parameter", act: "Set" },
-};
 
 export class TopicsTab {
   static title = "Topics";
@@ -28,6 +20,10 @@ export class TopicsTab {
       <label class="grow">Search <input type="search" id="topics-search" placeholder="name or type" autocomplete="off"></label>
       <label><input type="checkbox" id="topics-measure" checked> Measure rates</label>
       <span id="topics-count" class="hint" role="status"></span>
+      <details id="topics-new"><summary>New topic</summary><form class="row">
+        <label>Name <input name="topic" required pattern="/?[A-Za-z]\\w*(/\\w+)*" placeholder="/chatter" autocomplete="off"></label>
+        <label>Type <input name="type" required list="topics-types" placeholder="std_msgs/String" autocomplete="off"></label>
+        <datalist id="topics-types"></datalist><button>Choose</button></form></details>
     </div>
     <div class="scroll" id="topics-scroll" role="region" tabindex="0" aria-label="Topics or services">
       <table><thead><tr><th>Name</th><th id="topics-type">Type</th><th>Publishers</th><th>Subscribers</th><th>Hz</th><th>bytes/s</th></tr></thead>
@@ -37,13 +33,7 @@ export class TopicsTab {
     <div class="card"><h2 id="topics-title" aria-live="polite">Choose a name.</h2>
       <p id="topics-about" class="hint"></p>
       <p class="row" id="topics-plots" hidden><label>Plot <select id="topics-plot"></select></label></p>
-      <details><summary>Definition</summary><pre id="topics-definition"></pre></details></div>
-    <form class="card" id="topics-form" hidden><h2 id="topics-do"></h2>
-      <div id="topics-fields"></div>
-      <p class="row"><button id="topics-send" class="primary"></button>
-        <label id="topics-repeat">at <input type="number" id="topics-rate" min="0.1" max="50" step="any"
-          placeholder="once"> Hz</label></p>
-      <pre id="topics-answer" role="status"></pre></form>
+      <details><summary>Definition</summary><pre id="topics-definition"></pre></details></div>${TopicForm.panel}${Publishing.panel}
     <div class="card" id="topics-echoes" hidden><h2>Messages <small>at most 12 in a second</small></h2>
       <div class="row"><button id="topics-pause" aria-pressed="false">Pause</button>
         <button id="topics-copy">Copy</button></div>
@@ -57,18 +47,25 @@ export class TopicsTab {
   #graph = { topics: [], services: [], parameters: [], edges: [] };
   #chosen = null; // the name
   #type = ""; // of the chosen topic
+  #newType = ""; // its type if nobody has it yet
   #rows = new Map(); // name -> its row
   #described = ""; // what the server was asked to describe last
   #values = {}; // of parameters: {name: text}
   #named = ""; // the parameters whose values were asked for
-  #sets = false; // whether the form of a parameter is the answer to Set
 
   constructor(link, watch, page) {
     this.link = link;
     this.watch = watch;
     this.page = page;
-    link.on("hello", ({ role }) => (this.#drives = role === "driver"));
-    this.publishing = new Publishing(link, () => say(byId("topics-send"), "Publish"));
+    link.on("hello", ({ role }) => {
+      this.#drives = role === "driver";
+      byId("topics-new").hidden = !this.#drives;
+    });
+    link.on("types", ({ types }) => byId("topics-types").replaceChildren(...types.map((type) => new Option(type))));
+    this.form = new TopicForm(link, () => {
+      this.#named = "";
+      this.#list();
+    });
     link.on("graph", (graph) => {
       this.#graph = graph;
       this.#list();
@@ -79,12 +76,6 @@ export class TopicsTab {
       appendBelow(byId("topics-echo"), echo.map(([, text]) => `${text}\n---\n`), ECHOED);
     });
     link.on("form", (form) => [this.#type, this.#chosen].includes(form.name) && this.#showForm(form));
-    link.on("answer", ({ name, text }) => {
-      if (name === this.#chosen) say(byId("topics-answer"), text || "(an empty answer)");
-    });
-    link.on("refused", ({ what, why }) => {
-      if (what === "call") say(byId("topics-answer"), why);
-    });
     link.on("values", ({ values }) => {
       this.#values = values;
       this.#list();
@@ -104,30 +95,34 @@ export class TopicsTab {
       say(byId("topics-copy"), isDone ? "Copied" : "Not copied");
       setTimeout(() => say(byId("topics-copy"), "Copy"), SIGN_OF_COPY_MS);
     };
-    byId("topics-form").onsubmit = (event) => this.#send(event);
+    byId("topics-new").ontoggle = ({ target }) => target.open && link.send("describe", { what: "types", name: "" });
+    byId("topics-new").onsubmit = (event) => {
+      event.preventDefault();
+      const { topic, type } = Object.fromEntries(new FormData(event.target));
+      location.hash = `#topics/${String(topic).replace(/^\//, "")}?type=${type}`;
+    };
     setInterval(() => this.#shown && this.watch({ rates: this.#inSight }), LOOK_MS);
   }
 
   get place() {
-    return `${this.#chosen ?? ""}${this.#isTopics ? "" : `?kind=${this.#kind}`}`;
+    const query = this.#isTopics ? this.#newType && `?type=${this.#newType}` : `?kind=${this.#kind}`;
+    return `${this.#chosen ?? ""}${query}`;
   }
 
   go(path, query) {
     byId("topics-kind").value = query.get("kind") in FORMS ? query.get("kind") : "topics";
-    this.#choose(/^\/[\w/]{1,199}$/.test(path) ? path : null); // as the server accepts it
+    this.#choose(/^\/[\w/]{1,199}$/.test(path) ? path : null, query.get("type") ?? ""); // as the server accepts it
   }
 
   show(on) {
     this.#shown = on;
     this.watch({ graph: on, rates: [], topic: on && this.#isTopics ? this.#chosen : null });
-    if (!on) return this.#leave();
-    this.#list();
+    if (on) this.#list();
   }
 
   connect() {
-    this.publishing.rest();
+    this.form.connect();
     this.#described = this.#named = "";
-    this.#sets = false;
     this.#describe();
   }
 
@@ -180,7 +175,7 @@ export class TopicsTab {
   /** What is known about the chosen topic, updated once it exists. */
   #showTopic(before, after) {
     const names = (nodes) => nodes[`topic ${this.#chosen}`]?.map((node) => brief(node.slice(5))).join(", ") ?? "none";
-    this.#type = this.#graph.topics.find(({ name }) => name === this.#chosen)?.type ?? "";
+    this.#type = this.#graph.topics.find(({ name }) => name === this.#chosen)?.type ?? this.#newType;
     say(byId("topics-about"), `${this.#type || "No such topic now"}. Publishers: ${names(before)}.`
       + ` Subscribers: ${names(after)}.`);
   }
@@ -205,16 +200,17 @@ export class TopicsTab {
     }
   }
 
-  #choose(name) {
-    this.#leave();
+  #choose(name, newType = "") {
     this.#chosen = name;
+    this.#newType = newType;
     this.#type = this.#described = "";
     byId("topics").dataset.kind = this.#kind;
     byId("topics-echo").replaceChildren();
     this.#pause(false);
     say(byId("topics-title"), name ?? "Choose a name.");
-    for (const part of ["about", "definition", "answer"]) say(byId(`topics-${part}`), "");
-    for (const part of ["plots", "form"]) byId(`topics-${part}`).hidden = true;
+    for (const part of ["about", "definition"]) say(byId(`topics-${part}`), "");
+    byId("topics-plots").hidden = true;
+    this.form.hide();
     byId("topics-echoes").hidden = !this.#isTopics || !name;
     if (this.#shown) this.watch({ topic: this.#isTopics ? name : null });
     this.#list();
@@ -235,45 +231,12 @@ export class TopicsTab {
     say(byId("topics-pause"), on ? "Resume" : "Pause");
   }
 
-  #showForm({ definition, fields, numbers }) {
-    say(byId("topics-definition"), definition);
-    byId("topics-plots").hidden = !numbers.length;
-    offer(byId("topics-plot"), [["", "choose a field"], ...numbers.map((field) => [`/${field}`])]);
-    const { what, title, act } = FORMS[this.#kind];
-    say(byId("topics-do"), title);
-    say(byId("topics-send"), act);
-    byId("topics-repeat").hidden = !this.#isTopics;
-    byId("topics-send").disabled = !this.#drives;
-    byId("topics-send").title = this.#drives ? "" : "This page may only look.";
-    byId("topics-fields").replaceChildren(...fields.map(([name, type]) =>
-      element("label", { className: "long" }, `${name} `, element("input", { name, placeholder: type, autocomplete: "off" }))));
-    if (what === "parameter" && definition.length <= LONGEST_VALUE) byId("topics-fields").querySelector("input").value = definition;
-    byId("topics-form").hidden = false;
-    if (this.#sets) {
-      this.#sets = false;
-      this.#named = "";
-      this.#list();
-      say(byId("topics-answer"), `Set to ${definition}`);
-    }
-  }
-
-  #send(event) {
-    event.preventDefault();
-    const values = Object.fromEntries([...new FormData(event.target)].filter(([, value]) => value !== ""));
-    const period = 1 / byId("topics-rate").valueAsNumber || null;
-    if (this.#kind === "services") this.link.send("call", { service: this.#chosen, values });
-    else if (this.#kind === "parameters") {
-      say(byId("topics-answer"), "");
-      this.#sets = this.link.send("set", { parameter: this.#chosen, values });
-    }
-    else if (this.publishing.repeats) this.publishing.rest();
-    else if (this.publishing.begin({ topic: this.#chosen, type: this.#type, values, period }) && period) {
-      say(byId("topics-send"), "Stop publishing");
-    }
-  }
-
-  /** For another tab or name: stop repeating a message; a motion continues, as Stop is above all tabs. */
-  #leave() {
-    if (this.publishing.repeats) this.publishing.rest();
+  #showForm(form) {
+    say(byId("topics-definition"), form.definition);
+    byId("topics-plots").hidden = !form.numbers.length;
+    offer(byId("topics-plot"), [["", "choose a field"], ...form.numbers.map((field) => [`/${field}`])]);
+    const isNew = byId("topics-new").contains(document.activeElement);
+    this.form.show(form, { kind: this.#kind, name: this.#chosen, type: this.#type }, this.#drives);
+    if (isNew) byId("topics-form").querySelector("input, button").focus();
   }
 }

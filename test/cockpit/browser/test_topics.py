@@ -4,20 +4,39 @@ import re
 import signal
 
 import pytest
+from selenium.webdriver.common.keys import Keys
 
 from tutorial_testing.claims import claim
+from tutorial_testing.cockpit.accessibility import violations
 from tutorial_testing.cockpit.chromium import Chromium
 from tutorial_testing.socket_page import SocketPage
 from tutorial_testing.waiting import tolerance, wait_for
 
 PERIOD_S, SILENCE_S = 0.05, 0.2  # between messages; the silence beyond it that ends publishing
+RUNNING = "#topics-running-rows tr"
 
 
 def publishes(page):
     """Return whether the page publishes; else start it, again where a busy machine ended it."""
-    if page.text("#topics-send") == "Publish":
+    if not page.all(RUNNING):
         page.press("#topics-send")
-    return page.text("#topics-send") != "Publish"
+    return bool(page.all(RUNNING))
+
+
+def type_on(page, *keys):
+    """Press keys on whatever has the focus."""
+    for key in keys:
+        page.driver.switch_to.active_element.send_keys(key)
+
+
+def choose_new(page, name, kind):
+    """Name a topic and its type, from the open *New topic* on, until its first field has focus."""
+    page.one("#topics-new summary").send_keys(Keys.TAB)
+    assert page.ask("document.activeElement.name") == "topic"
+    for text in (name, kind):
+        type_on(page, Keys.CONTROL + "a", text, Keys.TAB)
+    type_on(page, Keys.ENTER)  # Choose
+    wait_for(lambda: page.ask("document.activeElement.name") == "data", "its form")
 
 
 @claim("A link shows what it names, and the chosen robot; a reload keeps both, Back goes back")
@@ -69,7 +88,10 @@ def test_topics_shows_rates_and_messages_publishes_calls_and_sets(world, page, r
         line = wait_for(lambda: publishes(page) and re.search(rate, hz.output), "20 Hz")
         page.wait_for_text("#topics-about", "Publishers: /cockpit")
         page.tab("Log")
-        wait_for(lambda: "no new messages" in hz.output[line.end() :], "end with its tab")
+        wait_for(lambda: re.search(rate, hz.output[line.end() :]), "20 Hz beside another tab")
+        line, (front, _) = len(hz.output), page.hide()
+        wait_for(lambda: "no new messages" in hz.output[line:], "end while it is hidden")
+        page.show(front)
     page.driver.get(f"{world.address}#topics/probe/rate?kind=parameters")
     ros("rosparam", "set", "/probe/rate", "[1, 2]")
     page.wait_for_text("#topics-rows", "/probe/rate")
@@ -87,6 +109,61 @@ def test_topics_shows_rates_and_messages_publishes_calls_and_sets(world, page, r
     page.wait_for_text("#topics-definition", "roscpp/Logger[] loggers")
     page.click("Call")
     page.wait_for_text("#topics-answer", "ros.rosout")
+
+
+@claim(
+    "By keyboard alone a driver publishes to topics that nobody has, several at once, with "
+    "expressions, and stops each or all; a wrong field has its line beside it"
+)
+def test_new_topics_several_at_once_and_expressions_by_keyboard_alone(world, page):
+    rows = "[...document.querySelectorAll('#topics-running-rows tr')].map((row) => row.innerText)"
+    page.driver.get(f"{world.address}#topics")
+    page.wait_for_text("#topics-rows", "/odom")
+    page.one("#topics-measure").send_keys(Keys.TAB, Keys.ENTER)
+    wait_for(lambda: page.all("#topics-types option"), "types")
+    choose_new(page, "/probe/wave", "std_msgs/Float64")
+    type_on(page, "sin(i / 10", Keys.TAB, Keys.TAB, "10", Keys.ENTER)
+    page.wait_for_text("#topics-wrong", "data: float64 must be a number, or an expression")
+    wrong = page.one("#topics-fields input")
+    assert wrong.get_attribute("aria-describedby") == "topics-wrong"
+    wrong.send_keys(")", Keys.ENTER)
+    page.wait_for_text("#topics-running-rows", "/probe/wave")
+    assert not page.all("#topics-wrong, [aria-invalid]")
+    choose_new(page, "probe/words", "std_msgs/String")
+    type_on(page, "sin(i)", Keys.ENTER)
+    page.wait_for_text("#topics-running-title", "Publishing on 2 topics")
+    assert [row.split()[:3] for row in page.ask(rows)] == [
+        ["/probe/wave", "std_msgs/Float64", "10"], ["/probe/words", "std_msgs/String", "10"],
+    ]  # fmt: skip
+    wait_for(lambda: all(int(row.split()[3]) > 20 for row in page.ask(rows)), "messages of both")
+    page.wait_for_text("#topics-echo", 'data: "sin(i)"')
+    assert page.text("#tab-topics") == "Topics (2)"
+    page.one("[aria-label='Stop /probe/wave']").send_keys(Keys.ENTER)
+    page.wait_for_text("#topics-running-title", "Publishing on 1 topic")
+    assert page.ask("document.activeElement.id") == "topics-stop-all"
+    type_on(page, Keys.ENTER)
+    wait_for(lambda: not page.all(RUNNING) and page.text("#tab-topics") == "Topics", "end of all")
+    assert page.ask("document.activeElement.id") == "topics-send"
+
+
+@claim("By keyboard alone ...", because="axe, in light and dark")
+@pytest.mark.parametrize(("look", "width"), [("light", 360), ("dark", 1280)])
+def test_axe_finds_nothing_while_a_page_publishes(world, page, look, width):
+    features = [{"name": "prefers-color-scheme", "value": look}]
+    page.send("Emulation.setEmulatedMedia", features=features)
+    page.resize(width)
+    page.open(f"{world.address}#topics/probe?type=std_msgs/Float64")
+    wait_for(lambda: page.one("#topics-form").is_displayed(), "form")
+    page.one("[name='data']").send_keys("i")
+    page.one("#topics-rate").send_keys("1")
+    wait_for(lambda: publishes(page), "a row")
+    page.one("#topics-new summary").click()
+    page.one("[name='data']").send_keys("+", Keys.ENTER)
+    page.wait_for_text("#topics-wrong", "data: ")
+    page.one("#topics-running").click()  # which scrolls it into view
+    assert page.all(RUNNING) and violations(page) == []  # axe keeps the page silent
+    assert page.ask("document.documentElement.scrollWidth") <= width
+    page.resize()
 
 
 @claim("What a page publishes ...", because="end to end, a killed page")
@@ -124,12 +201,12 @@ def test_what_a_form_moves_is_named_and_ends_by_stop_of_another_page_esc_and_hid
         page.wait_for_text("#session", nobody)
         page.wait_for_text("#notice", "pressed Stop")
         world.wait_for_rest()
-        assert page.text("#topics-send") == "Publish" and world.stays_at_rest()
+        assert not page.all(RUNNING) and world.stays_at_rest()
         wait_for(drives, "motion")
         page.key("rawKeyDown", "Escape")
         page.wait_for_text("#session", nobody)
         world.wait_for_rest()
-        assert page.text("#topics-send") == "Publish" and world.stays_at_rest()
+        assert not page.all(RUNNING) and world.stays_at_rest()
         page.one("#topics-rate").clear()
         page.press("#topics-send")  # once: without a timeout a robot drives on until it is stopped
         page.wait_for_text("#session", mine)

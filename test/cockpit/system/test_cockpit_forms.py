@@ -4,6 +4,7 @@ This holds even for a robot without a timeout, as in launch_bag.launch.
 """
 
 import contextlib
+import math
 import signal
 import time
 
@@ -58,7 +59,7 @@ def moved(world, period):
 
         def hold():
             page.say("publish", **TWIST, values=CURVE, period=period)
-            page.signs = True
+            page.signs = (TWIST["topic"],)
 
         world.drive_by(hold)
         page.wait_for("session", lambda session: session["yours"] and session["topic"])
@@ -66,7 +67,7 @@ def moved(world, period):
 
 
 def fall_silent(_world, page):
-    page.signs = False
+    page.signs = ()
 
 
 def stop_elsewhere(world, _page):
@@ -86,9 +87,34 @@ PAGES = {
     "silent": fall_silent,
     "Stop": lambda _, page: page.say("stop"),
     "Stop elsewhere": stop_elsewhere,
-    "Stop publishing": lambda _, page: page.say("publish_end"),
+    "Stop publishing": lambda _, page: page.say("publish_end", topic=None),
 }
 SERVERS = {name: end(signal.Signals[f"SIG{name}"]) for name in ("INT", "TERM", "HUP")}
+
+
+@claim("A numeric field is ...", because="what arrives, on two topics that nobody had")
+def test_expressions_arrive_in_each_message_on_two_new_topics(world):
+    point, whole = {"x": "i", "y": "sin(i / 10)", "z": "time()"}, {"data": "i // 2"}
+    with SocketPage(world.port) as page, contextlib.ExitStack() as stack:
+        page.say("describe", what="types", name="")
+        types = page.wait_for("types")["types"]
+        for topic, kind, values in (
+            ("/wave", "geometry_msgs/Point", point),
+            ("/half", "std_msgs/Int32", whole),
+        ):
+            assert kind in types and "node_kit/Point" not in types
+            page.say("publish", topic=topic, type=kind, values=values, period=0.05)
+        page.signs = ("/wave", "/half")
+        echoes = [stack.enter_context(world.run("rostopic", "echo", "-p", t)) for t in page.signs]
+        wait_for(lambda: all(echo.output.count("\n") > 20 for echo in echoes), "20 of both")
+        waves, halves = [
+            [[float(cell) for cell in line.split(",")] for line in echo.output.splitlines()[1:20]]
+            for echo in echoes
+        ]
+    for at, i, sine, sent in waves:
+        assert sine == pytest.approx(math.sin(i / 10)) and abs(at / 1e9 - sent) < 1
+    for numbers in ([wave[1] for wave in waves], [half[1] for half in halves]):
+        assert numbers == sorted(map(int, numbers)) and len(set(numbers)) >= 9
 
 
 def judge(world, act, bound_s=BOUND_S):

@@ -8,84 +8,19 @@ import rospy
 from cockpit_server.errors import RefusedError
 from cockpit_server.graph import JOY
 from cockpit_server.ros.tabs import outlets
-from cockpit_server.ros.tabs.outlets import Outlet, Outlets
-from cockpit_server.tabs import publishing
-from cockpit_server.tabs.publishing import VELOCITY, Publishing
+from cockpit_server.ros.tabs.outlets import Outlet
+from cockpit_server.tabs.publishing import SILENT, VELOCITY
 from tutorial_testing.claims import claim
-from tutorial_testing.session_room import ANNA, BOB, Free, Graphs, look, page
+from tutorial_testing.form_desk import ONCE, TEXT, VALUES, Desk, Several, value_of
+from tutorial_testing.session_room import ANNA, BOB, look
 
 pytestmark = claim(
     "What a page publishes by a form ends when the page is silent, late, hidden, gone or must not; "
     "what moves a robot makes the page the driver, by name; Stop of any page that may drive ends "
     "that; each end publishes one zero within 0.6 s, at any rate and once"
 )
-TEXT = "std_msgs/String"
-VALUES = {VELOCITY: {"linear/x": "1"}, TEXT: {"data": "a"}, JOY: {"axes": "[1]", "buttons": "[1]"}}
-TICK_S, BEAT_S = 0.01, 0.05
 REST = {VELOCITY: 0.0, JOY: (0.0,)}
-LOST_S, ONCE = 0.6, 0.0  # The zero's deadline [s]; the period for a message that is published once.
-
-
-def value_of(message):
-    if message._type == JOY:
-        return tuple(message.axes)
-    return message.linear.x if message._type == VELOCITY else message.data
-
-
-class Desk:
-    """Anna's page, which publishes from 100 s on, Bob's page, and a clock that is a number."""
-
-    def __init__(self, kind=VELOCITY, period=0.1):
-        self.driving, self.now, self.published = Free(), 100.0, []
-        kept = Outlets()
-        self.repeats = Publishing(self.driving, Graphs(), kept)
-        publish = lambda message: self.published.append((self.now, value_of(message)))  # noqa: E731
-        kept._outlets["/cmd_vel", kind] = Outlet(99.0, 99.0, None, SimpleNamespace(publish=publish))
-        self.anna, self.bob = page(number=ANNA), page(number=BOB)
-        self.driving._pages.update({ANNA: self.anna[0], BOB: self.bob[0]})
-        self.kind, self.period, self.n, self.network_s = kind, period, 0, 0.0
-        self.is_silent = False
-        self.publish(VALUES[kind])
-
-    def publish(self, values):
-        self.step, self.steps = 0, max(1, round(self.period / BEAT_S))
-        self.sign_s = self.period / self.steps or BEAT_S
-        form = {"topic": "/cmd_vel", "type": self.kind, "values": values}
-        self.repeats.on_publish(self.anna[0], self.now, period=self.period or None, **form)
-
-    def pass_time(self, seconds):
-        """Let time pass for the server, while Anna's page sends its signs of life."""
-        for _ in range(round(seconds / TICK_S)):
-            self.now += TICK_S
-            self.driving.tick(self.now)
-            tick = round(self.now / TICK_S)
-            if tick % round(BEAT_S / TICK_S) == 0:
-                self.driving.beat(self.now)
-                self.repeats.collect(list(self.driving._pages.values()), self.now)
-            if tick % round(self.sign_s / TICK_S) == 0 and not self.is_silent:
-                self.sign()
-
-    def sign(self):
-        self.n, self.step = self.n + 1, self.step + 1
-        is_due = self.period > 0 and self.step % self.steps == 0
-        beat = next((said["n"] for said in self.anna[1][::-1] if said["kind"] == "beat"), 0)
-        t = 1000 * (self.now - self.network_s)
-        self.repeats.on_again(self.anna[0], self.now, n=self.n, t=t, beat=beat, due=is_due)
-
-    @property
-    def values(self):
-        return [value for _, value in self.published]
-
-    def close(self):
-        del self.driving._pages[ANNA]
-        self.is_silent = True
-        self.driving.gone(self.anna[0])
-
-    def fall_silent(self):
-        self.is_silent = True
-
-    def delay(self):
-        self.network_s = 0.5
+LOST_S = 0.6  # the zero's deadline [s]
 
 
 @pytest.fixture(autouse=True)
@@ -98,7 +33,7 @@ ENDS = {
     "page closed, or killed": Desk.close,
     "page frozen, or its cable cut": Desk.fall_silent,
     "network slow": Desk.delay,
-    "page hidden, or Stop publishing": lambda desk: desk.repeats.on_publish_end(desk.anna[0], 0.0),
+    "page hidden, or Stop all": lambda desk: desk.repeats.on_publish_end(desk.anna[0], 0.0, None),
     "its Stop": lambda desk: desk.driving.on_stop(desk.anna[0], desk.now),
     "Stop of another page": lambda desk: desk.driving.on_stop(desk.bob[0], desk.now),
     "server ended, or its master gone": lambda desk: desk.driving.session.end(),
@@ -128,6 +63,89 @@ def test_each_end_of_a_motion_publishes_one_zero_in_time_and_nothing_more(end, p
     assert len(desk.published) == count
 
 
+@pytest.mark.parametrize("end", ENDS)
+def test_each_end_of_the_page_ends_all_and_stop_ends_only_the_motion(end):
+    desk = Several()
+    desk.pass_time(2.0)
+    assert 19 <= desk.counts["/cmd_vel"] <= 21 and desk.counts["/a"] in (4, 5)
+    assert desk.counts["/b"] == len(desk.on("/b")) in (20, 21)
+    ENDS[end](desk)
+    desk.pass_time(LOST_S)
+    assert desk.on("/cmd_vel")[-1] == 0.0 and desk.on("/cmd_vel").count(0.0) == 1
+    desk.published.clear()
+    desk.is_silent, desk.network_s = False, 0.0
+    desk.pass_time(1.0)
+    goes_on = end in ("its Stop", "Stop of another page", "server ended, or its master gone")
+    assert {topic for topic, _ in desk.published} == ({"/a", "/b"} if goes_on else set())
+    assert list(desk.counts) == (["/a", "/b"] if goes_on else [])
+
+
+def test_each_topic_has_its_own_stop():
+    desk = Several()
+    desk.pass_time(0.3)
+    desk.repeats.on_publish_end(desk.anna[0], desk.now, "/b")
+    assert list(desk.counts) == ["/cmd_vel", "/a"] and desk.driving.session.topic == "/cmd_vel"
+    desk.repeats.on_publish_end(desk.anna[0], desk.now, "/cmd_vel")
+    assert list(desk.counts) == ["/a"] and desk.on("/cmd_vel")[-1] == 0.0
+    desk.repeats.on_publish_end(desk.anna[0], desk.now, "/nothing")
+    count = len(desk.on("/b"))
+    desk.pass_time(1.0)
+    assert len(desk.on("/b")) == count and desk.counts["/a"] > 2
+
+
+@pytest.mark.parametrize(
+    ("texts", "why"),
+    [
+        ("sqrt(4.5 - i)", "linear/x: .*domain error, in message 5 on /cmd_vel"),
+        ("1e308 * 10 ** (i - 4)", "linear/x: .*it is inf, in message 5 on /cmd_vel"),
+        ("1 / (i - 5)", "linear/x: .*division by zero, in message 5 on /cmd_vel"),
+    ],
+)
+def test_an_expression_that_fails_ends_its_motion_with_a_zero_and_nothing_else(texts, why):
+    desk = Several()
+    desk.add("/cmd_vel", VELOCITY, 0.1, **{"linear/x": texts})
+    desk.published.clear()
+    with pytest.raises(ValueError, match=why):
+        desk.pass_time(2.0)
+    desk.pass_time(1.0)
+    assert desk.on("/cmd_vel")[-1] == 0.0 and desk.on("/cmd_vel").count(0.0) == 1
+    assert desk.driving.session.driver is None and list(desk.counts) == ["/a", "/b"]
+    with pytest.raises(ValueError, match=r"linear/x: .*division by zero$"):  # at once: nothing ends
+        desk.add("/a", VELOCITY, 0.1, **{"linear/x": "1 / 0"})
+    assert list(desk.counts) == ["/a", "/b"]
+
+
+def test_a_page_publishes_on_eight_topics_and_a_hundred_messages_a_second_in_all():
+    desk = Several()
+    for number in range(5):
+        desk.add(f"/{number}", TEXT, 10.0)
+    for topic, period in (("/9", 10.0), ("/a", 0.0125)):
+        with pytest.raises(RefusedError, match="at most on 8 topics, 100 messages per second"):
+            desk.add(topic, TEXT, period)
+    desk.add("/a", TEXT, 0.02)
+    assert len(desk.counts) == 8
+    kept = desk.repeats._publishers._outlets["/4", TEXT]
+    desk.pass_time(9.0)  # between two messages of a topic its publisher stays open
+    assert kept.used_at > desk.now - 1 and desk.counts["/4"] == 1
+
+
+def test_a_page_that_publishes_nothing_is_sent_nothing_and_then_each_change():
+    desk = Desk(TEXT, ONCE)
+    client, said = desk.anna
+    for _ in range(2):
+        desk.repeats.send_to(client, desk.now)
+    assert said == []
+    desk.period = 0.1
+    desk.publish({})
+    its = {"topic": "/cmd_vel", "type": TEXT, "period": 0.1, "count": 1}
+    for _ in range(2):
+        desk.repeats.send_to(client, desk.now)
+    desk.repeats.on_publish_end(client, desk.now, None)
+    for _ in range(2):
+        desk.repeats.send_to(client, desk.now)
+    assert said == [{"kind": "running", "topics": [its]}, {"kind": "running", "topics": []}]
+
+
 def test_what_moves_nothing_ends_with_its_page_and_makes_no_driver():
     desk = Desk(TEXT)
     desk.pass_time(1.0)
@@ -135,7 +153,7 @@ def test_what_moves_nothing_ends_with_its_page_and_makes_no_driver():
     count = len(desk.published)
     desk.is_silent = True
     desk.pass_time(0.5)
-    assert (len(desk.published), desk.anna[1][-1]["why"]) == (count, publishing.SILENT)
+    assert (len(desk.published), desk.anna[1][-1]["why"]) == (count, f"/cmd_vel: {SILENT}")
     desk.is_silent = False
     desk.pass_time(0.5)
     assert len(desk.published) == count
@@ -177,10 +195,17 @@ def test_another_page_that_drives_ends_what_repeats():
     assert len(desk.published) == count
 
 
-def test_a_page_repeats_one_message():
+def test_a_page_has_one_motion_and_one_message_on_a_topic():
     desk = Desk()
     desk.publish({})
     assert desk.values == [1.0, 0.0, 0.0]  # the zero of the first one's end, then the second one
+    desk = Several()
+    desk.add("/b", TEXT, 0.1, data="c")
+    desk.pass_time(1.0)
+    assert "b" not in desk.on("/b")[1:] and desk.counts["/b"] in (10, 11)
+    desk.add("/other", VELOCITY, 0.1, **{"linear/x": "2"})
+    assert (desk.on("/cmd_vel")[-1], desk.driving.session.topic) == (0.0, "/other")
+    assert list(desk.counts) == ["/a", "/b", "/other"]
 
 
 def test_a_hand_that_drives_lets_go_for_the_form():

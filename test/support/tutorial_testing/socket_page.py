@@ -41,8 +41,8 @@ GOOD = {
     "publish": {"topic": "/x", "type": "std_msgs/String", "values": {"data": "a"}, "period": None},
     "call": {"service": "/x/reset", "values": {}},
     "set": {"parameter": "/x/rate", "values": {"value": "10"}},
-    "again": {"n": 1, "t": 12.5, "beat": 0, "due": True},
-    "publish_end": {},
+    "again": {"n": 1, "t": 12.5, "beat": 0, "due": "/x"},
+    "publish_end": {"topic": None},
 }  # fmt: skip
 
 
@@ -55,7 +55,7 @@ def page_request(port, token=None, **headers):
 
 class SocketPage(Started):
     """A context manager. While hand is not None, it sends that position as a page does; while signs
-    is true, also signs of life, as a page that publishes.
+    has topics, also signs of life, as a page that publishes on them.
     """
 
     def __init__(self, port, token=None, **headers):
@@ -63,7 +63,7 @@ class SocketPage(Started):
         self._request = page_request(port, token, **headers)
         self.messages = []  # all that arrived, except beats
         self.refusal = None  # HTTP status, where the WebSocket was refused
-        self.hand, self.signs = None, False
+        self.hand, self.signs = None, ()
         self._beat, self._n = 0, 0
         self._socket = None
         self._loop = asyncio.new_event_loop()
@@ -105,9 +105,9 @@ class SocketPage(Started):
         while True:
             if self.hand is not None:
                 self._write(self.input(*self.hand))
-            if self.signs:
+            for topic in self.signs:
                 self._n += 1
-                about = {"t": 1000 * time.monotonic(), "beat": self._beat, "due": True}
+                about = {"t": 1000 * time.monotonic(), "beat": self._beat, "due": topic}
                 self._write({"kind": "again", "n": self._n, **about})
             await asyncio.sleep(PERIOD_S)
 

@@ -57,25 +57,28 @@ class Outlets:
     def __init__(self) -> None:
         self._outlets: dict[tuple[str, str], Outlet] = {}  # by topic and type
 
-    def message(self, topic: str, type_name: str, values: Mapping[str, str]) -> Any:
-        """Return the message of a form. Raises RefusedError or ValueError."""
+    def message(self, topic: str, type_name: str, values: Mapping[str, str], i: int) -> Any:
+        """Return a message of a form. i: its number. Raises RefusedError or ValueError."""
         kind = message_class(type_name)
         if kind is None or not is_legal_name(topic):
             raise no_topic(topic, type_name)
         if len(self._outlets) >= MOST_PUBLISHERS and (topic, type_name) not in self._outlets:
             raise RefusedError(f"at most {MOST_PUBLISHERS} topics in {UNUSED_S:g} s")
-        return filled(kind, values)
+        return filled(kind, values, i)
 
-    def send(self, topic: str, message: Any, now: float, is_due: bool = True) -> None:
-        """Publish a message, by a new publisher if needed; if it is not due, keep that open."""
+    def send(self, topic: str, message: Any, now: float) -> None:
+        """Publish a message, by a new publisher if needed."""
         outlet = self._outlets.get((topic, message._type))
         if outlet:
             outlet.used_at = now
-            if is_due:
-                outlet.send(message)
+            outlet.send(message)
             return
         outlet = self._outlets[topic, message._type] = Outlet(now, now, message)
         later(outlet.open, topic, type(message))
+
+    def keep(self, topic: str, type_name: str, now: float) -> None:
+        """Keep the publisher of a form open until its next message."""
+        self._outlets[topic, type_name].used_at = now
 
     def send_rest(self, topic: str, message: Any) -> None:
         """Publish the message that ends a motion, with the time, by the same publisher."""
