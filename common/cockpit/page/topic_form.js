@@ -35,7 +35,7 @@ export class TopicForm {
     });
     link.on("refused", ({ what, why }) => {
       if (what === "call") say(byId("topics-answer"), why);
-      if (what === "publish" || why.endsWith(` on ${this.#about.name}`)) this.#refuse(why);
+      if (what === "publish" || why.endsWith(` on ${this.#about.name})`)) this.#refuse(why);
     });
     byId("topics-form").onsubmit = (event) => this.#send(event);
   }

@@ -96,16 +96,16 @@ def test_each_topic_has_its_own_stop():
 @pytest.mark.parametrize(
     ("texts", "why"),
     [
-        ("sqrt(4.5 - i)", "linear/x: .*domain error, in message 5 on /cmd_vel"),
-        ("1e308 * 10 ** (i - 4)", "linear/x: .*it is inf, in message 5 on /cmd_vel"),
-        ("1 / (i - 5)", "linear/x: .*division by zero, in message 5 on /cmd_vel"),
+        ("sqrt(4.5 - i)", "linear/x: .*domain error .message 5 on /cmd_vel"),
+        ("1e308 * 10 ** (i - 4)", "linear/x: .*it is inf .message 5 on /cmd_vel"),
+        ("1 / (i - 5)", "linear/x: .*division by zero .message 5 on /cmd_vel"),
     ],
 )
 def test_an_expression_that_fails_ends_its_motion_with_a_zero_and_nothing_else(texts, why):
     desk = Several()
     desk.add("/cmd_vel", VELOCITY, 0.1, **{"linear/x": texts})
     desk.published.clear()
-    with pytest.raises(ValueError, match=why):
+    with pytest.raises(RefusedError, match=why):
         desk.pass_time(2.0)
     desk.pass_time(1.0)
     assert desk.on("/cmd_vel")[-1] == 0.0 and desk.on("/cmd_vel").count(0.0) == 1

@@ -135,12 +135,9 @@ class Publishing(TabSource):
         topic, i = held.form["topic"], held.count + 1
         try:
             message = self._message(page, **held.form, i=i)
-        except RefusedError:
+        except (RefusedError, ValueError) as error:
             self._end(page, [topic])
-            raise
-        except ValueError as error:
-            self._end(page, [topic])
-            raise ValueError(f"{error}, in message {i} on {topic}") from None
+            raise RefusedError(f"{error} (message {i} on {topic})") from None
         held.count = i
         self._publishers.send(topic, message, now)
 
