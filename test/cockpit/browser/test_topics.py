@@ -152,7 +152,7 @@ def test_axe_finds_nothing_while_a_page_publishes(world, page, look, width):
     features = [{"name": "prefers-color-scheme", "value": look}]
     page.send("Emulation.setEmulatedMedia", features=features)
     page.resize(width)
-    page.open(f"{world.address}#topics/probe?type=std_msgs/Float64")
+    page.open(f"{world.address}#topics/probe/number?type=std_msgs/Float64")
     wait_for(lambda: page.one("#topics-form").is_displayed(), "form")
     page.one("[name='data']").send_keys("i")
     page.one("#topics-rate").send_keys("1")

@@ -90,7 +90,8 @@ def test_hostile_parameter_is_one_line_or_a_value(monkeypatch, written):
     ],
 )
 def test_who_may_publish_what(role, driver, topic, kind, why):
-    graph = Graph(services={"/x/reset": {"/x"}}, types={"/x": "std_msgs/String"})
+    types = {"/x": "std_msgs/String"}
+    graph = Graph({"/x": {"/x"}}, services={"/x/reset": {"/x"}}, types=types)
     (client, _), graphs, driving = page(role), Graphs(graph), Free(driver)
     source, publishing = forms.Forms(driving, None, graphs), Publishing(driving, graphs, Outlets())
     with pytest.raises(RefusedError, match=f"^{why}"):
@@ -100,6 +101,31 @@ def test_who_may_publish_what(role, driver, topic, kind, why):
             source.on_call(client, 0.0, "/x/reset", {})
         with pytest.raises(RefusedError, match=f"^{why}"):
             source.on_set(client, 0.0, "/rate", {"value": "1"})
+
+
+@claim("By keyboard alone ...", because="a name that once had another type")
+def test_a_topic_that_nobody_has_any_more_may_get_another_type(filled):
+    """The master keeps the type of each topic that it ever had."""
+    graphs = Graphs(Graph(types={"/x": "std_msgs/String"}))
+    publishing = Publishing(Free(), graphs, Outlets())
+    message = publishing._message(page()[0], "/x", "std_msgs/Int32", {"data": "7"})
+    assert message == filled("std_msgs/Int32", data="7")
+
+
+def test_types_are_listed_for_drivers_and_described_before_anybody_has_them(monkeypatch):
+    at_once = lambda target, daemon: SimpleNamespace(start=target)  # noqa: E731
+    monkeypatch.setattr(forms.threading, "Thread", at_once)
+    source = forms.Forms(Free(), lambda act: act(), Graphs())
+    (driver, said), (viewer, _) = page(), page("viewer")
+    source.on_describe(driver, 0.0, "types", "")
+    types = said[-1]["types"]
+    assert types == sorted(types) and {"std_msgs/Int32", "geometry_msgs/Twist"} <= set(types)
+    assert all(forms.message_class(name) for name in types)
+    source.on_describe(driver, 0.0, "message", "std_msgs/Int32")
+    assert said[-1]["fields"] == [["data", "int32"]]
+    for what, name in (("types", ""), ("message", "std_msgs/Int32")):
+        with pytest.raises(RefusedError):
+            source.on_describe(viewer, 0.0, what, name)
 
 
 @claim(

@@ -155,7 +155,9 @@ class Publishing(TabSource):
     ) -> Any:
         """Return a message that may be published. Raises RefusedError or ValueError."""
         self._driving.must_be_free(page)
-        if self._graphs.graph.types.get(topic, type) != type:
+        graph = self._graphs.graph
+        is_used = topic in graph.publishers or topic in graph.subscribers  # types has old ones, too
+        if is_used and graph.types.get(topic, type) != type:
             raise no_topic(topic, type)
         if type == JOY and topic.endswith("/joy"):
             raise RefusedError("a joystick is moved in the tab Robot, where a loss stops the robot")
