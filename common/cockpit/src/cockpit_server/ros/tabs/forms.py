@@ -24,7 +24,7 @@ from node_kit.ros.graph.services import call_service, kind_of
 
 CALL_S, RESET_S = 30.0, 5.0  # timeouts of services
 MOST_CALLS = 100  # calls that wait for an answer, with a thread each
-MASTER = "the master"  # as what has not answered yet
+MASTER, VALUES, TYPES = "the master", "the list of values", "the list of types"  # not answered yet
 DESCRIBED = "message", "service", "parameter", "values", "types"
 
 
@@ -63,10 +63,10 @@ class Forms(TabSource):
         elif what == "parameter":
             self._ask(page, MASTER, lambda: describe_parameter(name))
         elif what == "values":
-            self._ask(page, MASTER, lambda: parameter_values(rospy.get_param("/", {})))
+            self._ask(page, VALUES, lambda: parameter_values(rospy.get_param("/", {})))
         elif what == "types":
             page.must_drive()
-            self._ask(page, "the list of types", lambda: {"kind": what, "types": installed_types()})
+            self._ask(page, TYPES, lambda: {"kind": what, "types": installed_types()})
         # For viewers only names in the graph, as message_class() keeps names in memory.
         elif (page.drives or name in self._graphs.graph.types.values()) and message_class(name):
             kind = message_class(name)
