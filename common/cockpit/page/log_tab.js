@@ -10,7 +10,7 @@ const NOTHING = `No line yet. What nodes log with rospy.loginfo() and the like c
 
 /** "talker.cpp:12 main()" of "~/ws/src/talker.cpp:12(int main(int, char**))". */
 export function briefPlace(place) {
-  const [, line = "", signature = ""] = /([^/]*:\d+)\((.*)\)$/.exec(place) ?? [];
+  const [, line = "", signature = ""] = /([^/]*:\d+)\((.*)\)$/s.exec(place) ?? [];
   const name = /([\w:~.]+)\(/.exec(signature)?.[1] ?? signature;
   return /^\w/.test(name) ? `${line} ${name}()` : line; // not <module>, a Python file itself
 }

@@ -15,6 +15,7 @@ for (const [place, brief] of [
     "a.cpp:7 Listener::hear()"],
   ["./a.cpp:9(main(int, char**)::<lambda(const std_msgs::String&)>)", "a.cpp:9 main()"],
   ["a.cpp:5()", "a.cpp:5"],
+  ["a.cpp:5(\n)", "a.cpp:5"],
   ["", ""],
 ]) test(`place ${place}`, () => assert.equal(briefPlace(place), brief));
 
