@@ -19,16 +19,16 @@ export function neighbours(edges) {
 }
 
 /**
- * items: names such as "node /a" and "topic /b". edges: [{from, to}]. frames: {item: the frame around it}.
- * Returns {width, height, boxes: {item: {x, y, w, h}}, arrows: [{from, to, path}], frames: [{name, items, x, y, w, h}]}
+ * items: names such as "node /a" and "topic /b". edges: [{from, to}]. groups: {item: the name of its group}.
+ * Returns {width, height, boxes: {item: {x, y, w, h}}, arrows: [{from, to, path}], groups: [{name, items, x, y, w, h}]}
  * in pixels.
  */
-export function layout(items, edges, frames = {}) {
+export function layout(items, edges, groups = {}) {
   const there = new Set(items);
   const known = edges.filter(({ from, to }) => there.has(from) && there.has(to));
-  // Band 0 has the items without a frame; each frame is a band of its own, across all columns.
-  const names = ["", ...[...new Set(Object.values(frames))].sort(byName)];
-  const bands = new Map(items.map((item) => [item, names.indexOf(frames[item] ?? "")]));
+  // Band 0 has the items without a group; each group is a band of its own, across all columns.
+  const names = ["", ...[...new Set(Object.values(groups))].sort(byName)];
+  const bands = new Map(items.map((item) => [item, names.indexOf(groups[item] ?? "")]));
   const columns = split(layers(items, known), bands);
   const columnOf = {};
   columns.forEach((column, i) => column.forEach((item) => (columnOf[item] = i)));
@@ -42,7 +42,7 @@ export function layout(items, edges, frames = {}) {
     return { ...edge, path: curve(ahead ? points : points.reverse(), ahead ? -3 : 3) };
   });
   return { width, height, boxes: Object.fromEntries(items.map((item) => [item, boxes[item]])), arrows,
-    frames: byBand(items, bands).slice(1).map((own, i) => frame(names[i + 1], own, boxes, tops[i + 1], tops[i + 2])) };
+    groups: byBand(items, bands).slice(1).map((own, i) => outline(names[i + 1], own, boxes, tops[i + 1], tops[i + 2])) };
 }
 
 /** The items of each band. */
@@ -55,12 +55,12 @@ function byBand(items, bands) {
 /** Each layer as columns in which a band has about the same number of rows, by name. */
 function split(layers, bands) {
   return layers.flatMap((layer) => {
-    const groups = byBand(layer.sort(byName), bands);
+    const parts = byBand(layer.sort(byName), bands);
     const countOf = ({ length }) => Math.ceil(length / Math.max(ROWS, Math.sqrt(4 * length)));
-    const count = Math.max(...groups.map(countOf));
-    return Array.from({ length: count }, (_, i) => groups.flatMap((group) => {
-      const rows = Math.ceil(group.length / count);
-      return group.slice(i * rows, (i + 1) * rows);
+    const count = Math.max(...parts.map(countOf));
+    return Array.from({ length: count }, (_, i) => parts.flatMap((part) => {
+      const rows = Math.ceil(part.length / count);
+      return part.slice(i * rows, (i + 1) * rows);
     }));
   });
 }
@@ -181,8 +181,8 @@ function place(columns, bands) {
   return { width, height: tops.at(-1) + SIZE.margin, boxes, sides, tops };
 }
 
-/** The frame around items, from the top of their band to that of the next one. */
-function frame(name, items, boxes, top, next) {
+/** The outline of a group, from the top of their band to that of the next one. */
+function outline(name, items, boxes, top, next) {
   const y = top + SIZE.between / 2;
   const x = Math.min(...items.map((item) => boxes[item].x)) - SIZE.tip;
   const right = Math.max(...items.map((item) => boxes[item].x + boxes[item].w)) + SIZE.tip;

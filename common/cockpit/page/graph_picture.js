@@ -12,12 +12,12 @@ function svg(tag, attributes = {}, ...children) {
 }
 
 /** The <svg> of what layout() returns. */
-export function pictureOf({ width, height, boxes, arrows, frames }) {
+export function pictureOf({ width, height, boxes, arrows, groups }) {
   const tip = (id) => svg("marker", { id, viewBox: "0 0 8 8", refX: 7, refY: 4, orient: "auto",
     markerUnits: "userSpaceOnUse", markerWidth: 10, markerHeight: 10 }, svg("path", { d: "M0 0 L8 4 L0 8 Z" }));
   return svg("svg", { width, height, viewBox: `0 0 ${width} ${height}`, role: "group" },
     svg("defs", {}, tip("tip"), tip("chosen-tip")),
-    ...frames.map(({ name, x, y, w, h }) => svg("g", { class: "frame" },
+    ...groups.map(({ name, x, y, w, h }) => svg("g", { class: "group" },
       svg("rect", { x, y, width: w, height: h, rx: 8 }), svg("text", { x: x + 8, y: y + 16 }, name))),
     ...arrows.map(({ from, to, path }) =>
       svg("path", { d: path, class: "arrow", "data-from": from, "data-to": to })),

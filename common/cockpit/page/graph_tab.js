@@ -1,7 +1,7 @@
 /** The tab Graph: the nodes and their topics, live. */
 
 import { brief, byId, byName, element, matcher, save, say } from "./dom.js";
-import { dotOf, framesOf, itemsOf } from "./graph_items.js";
+import { dotOf, groupsOf, itemsOf } from "./graph_items.js";
 import { itemBeside, layout, neighbours } from "./graph_layout.js";
 import { fileOf, pictureOf } from "./graph_picture.js";
 
@@ -144,14 +144,14 @@ export class GraphTab {
     if (byId("graph").hidden) return; // The tab Topics has asked for it.
     const on = this.switches.filter(({ checked }) => checked).map(({ value }) => value);
     const items = itemsOf(graph, on);
-    const frames = on.includes("namespaces") ? framesOf(items) : {};
-    const wanted = JSON.stringify([items, graph.edges, frames]);
+    const groups = on.includes("namespaces") ? groupsOf(items) : {};
+    const wanted = JSON.stringify([items, graph.edges, groups]);
     if (wanted === this.#drawn) return;
     this.#drawn = wanted;
     const hasFocus = this.picture.querySelector(":focus") !== null;
     const stop = this.picture.querySelector("[tabindex='0']")?.dataset.item;
     const scrolled = [this.picture.scrollLeft, this.picture.scrollTop];
-    this.#layout = layout(items, graph.edges, frames);
+    this.#layout = layout(items, graph.edges, groups);
     const picture = pictureOf(this.#layout);
     this.picture.replaceChildren(items.length ? picture : element("p", { className: "hint" }, "No node is running."));
     byId("graph-svg").disabled = byId("graph-dot").disabled = !items.length;
@@ -173,6 +173,7 @@ export class GraphTab {
   }
 
   #press(event) {
+    if (event.altKey || event.ctrlKey || event.metaKey) return; // such as Back
     const { item } = event.target.dataset;
     const next = item && itemBeside(this.#layout.boxes, item, event.key);
     if (next) this.#stopAt(next).focus();

@@ -1,4 +1,4 @@
-"""The picture of nodes and topics: Fit, zoom and Find; frames, keys, files, and what is hidden."""
+"""The picture of nodes and topics: Fit, zoom and Find; groups, keys, files, and what is hidden."""
 
 import re
 import subprocess
@@ -86,8 +86,8 @@ def room(robots):
     return {"nodes": named("node"), "topics": named("topic"), "edges": edges}
 
 
-# What is drawn: [class, text or "", left, top, right, bottom] of each box and frame.
-DRAWN = """[...document.querySelectorAll("%s g:is(.node, .topic, .frame)")].map((part) => {
+# What is drawn: [class, text or "", left, top, right, bottom] of each box and group.
+DRAWN = """[...document.querySelectorAll("%s g:is(.node, .topic, .group)")].map((part) => {
   const {left, top, right, bottom} = part.firstElementChild.getBoundingClientRect();
   const text = part.querySelector("text");
   return [part.getAttribute("class").split(" ")[0], text.textContent, left, top, right, bottom];
@@ -102,22 +102,22 @@ def press(page, *keys):
 
 
 @claim(
-    "Tab Graph: frames of namespaces, boxes are one stop for Tab and arrows lead to the next one; "
+    "Tab Graph: groups of namespaces, boxes are one stop for Tab and arrows lead to the next one; "
     "a file in SVG, light and as it looks, and one in DOT, which dot draws"
 )
-def test_a_class_is_framed_by_robot_walked_by_keys_and_saved(page, tmp_path):
+def test_a_class_is_grouped_by_robot_walked_by_keys_and_saved(page, tmp_path):
     dark = [{"name": "prefers-color-scheme", "value": "dark"}]
     page.send("Emulation.setEmulatedMedia", features=dark)
     page.send("Browser.setDownloadBehavior", behavior="allow", downloadPath=str(tmp_path))
     page.driver.execute_async_script(GRAPH, room(3))
     drawn = page.ask(DRAWN % "#graph")
-    assert [text for kind, text, *_ in drawn if kind == "frame"] == [
+    assert [text for kind, text, *_ in drawn if kind == "group"] == [
         f"/robot_{n}" for n in (1, 2, 3)
     ]
-    for _, frame, left, top, right, bottom in drawn[:3]:
+    for _, group, left, top, right, bottom in drawn[:3]:
         for kind, text, *box in drawn[3:]:
             inside = left < box[0] < box[2] < right and top < box[1] < box[3] < bottom
-            assert inside == text.startswith(f"{frame}/"), (frame, kind, text)
+            assert inside == text.startswith(f"{group}/"), (group, kind, text)
 
     page.one("#graph-dot").send_keys(Keys.ENTER)
     assert press(page, Keys.TAB) == "Nodes and topics"

@@ -1,9 +1,9 @@
 // What the graph draws, and where; the same in DOT.
-// claim: Graph: frames of namespaces have their boxes and no others; what is hidden; where arrow keys lead
+// claim: Graph: groups of namespaces have their boxes and no others; what is hidden; where arrow keys lead
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { dotOf, framesOf, itemsOf } from "../../../common/cockpit/page/graph_items.js";
+import { dotOf, groupsOf, itemsOf } from "../../../common/cockpit/page/graph_items.js";
 import { itemBeside, layout } from "../../../common/cockpit/page/graph_layout.js";
 
 const named = (...names) => names.map((name) => ({ name }));
@@ -38,44 +38,44 @@ function room(robots) {
     items.push(joy, odom, teleop, sim);
     edges.push(...to("node /joy_node", joy), ...to(joy, teleop, sim), ...to(teleop, odom), ...to(odom, sim, "node /watch"));
   }
-  return layout(items, edges, framesOf(items));
+  return layout(items, edges, groupsOf(items));
 }
 
 for (const robots of [0, 1, 3, 30]) {
-  test(`${robots} robots: each frame has the boxes of its namespace; nothing overlaps`, () => {
-    const { boxes, frames, arrows, width, height } = room(robots);
-    assert.equal(frames.length, robots);
+  test(`${robots} robots: each group has the boxes of its namespace; nothing overlaps`, () => {
+    const { boxes, groups, arrows, width, height } = room(robots);
+    assert.equal(groups.length, robots);
     const isInside = (a, b) => a.x >= b.x && a.y >= b.y && a.x + a.w <= b.x + b.w && a.y + a.h <= b.y + b.h;
     const overlap = (a, b) => a.x < b.x + b.w && b.x < a.x + a.w && a.y < b.y + b.h && b.y < a.y + a.h;
-    for (const frame of frames) {
-      assert.ok(isInside(frame, { x: 0, y: 0, w: width, h: height }));
-      const title = { x: frame.x, y: frame.y, w: frame.w, h: 20 };
+    for (const group of groups) {
+      assert.ok(isInside(group, { x: 0, y: 0, w: width, h: height }));
+      const title = { x: group.x, y: group.y, w: group.w, h: 20 };
       for (const [item, box] of Object.entries(boxes)) {
-        const isOwn = item.split(" ")[1].startsWith(`${frame.name}/`);
-        assert.equal(frame.items.includes(item), isOwn);
-        assert.ok(isOwn ? isInside(box, frame) : !overlap(box, frame), `${item} and ${frame.name}`);
+        const isOwn = item.split(" ")[1].startsWith(`${group.name}/`);
+        assert.equal(group.items.includes(item), isOwn);
+        assert.ok(isOwn ? isInside(box, group) : !overlap(box, group), `${item} and ${group.name}`);
         assert.ok(!overlap(box, title));
       }
-      for (const { path } of arrows.filter(({ from, to: end }) => [from, end].every((item) => frame.items.includes(item)))) {
+      for (const { path } of arrows.filter(({ from, to: end }) => [from, end].every((item) => group.items.includes(item)))) {
         const rows = [...path.matchAll(/[\d.]+ ([\d.]+)/g)].map(([, y]) => Number(y));
-        assert.ok(rows.every((y) => y > frame.y && y < frame.y + frame.h), `${path} is in ${frame.name}`);
+        assert.ok(rows.every((y) => y > group.y && y < group.y + group.h), `${path} is in ${group.name}`);
       }
     }
-    for (const all of [frames, Object.values(boxes)]) {
+    for (const all of [groups, Object.values(boxes)]) {
       all.forEach((a, i) => all.slice(0, i).forEach((b) => assert.ok(!overlap(a, b))));
     }
   });
 }
 
-test("what a frame above is connected to comes first", () => {
+test("what a group above is connected to comes first", () => {
   const items = ["a/x", "a/y", "b/talker", "c/x", "c/y"].map((name) => `node /${name}`).concat("topic /b/p", "topic /b/q");
   const edges = [...to("node /b/talker", "topic /b/p", "topic /b/q"), ...to("topic /b/p", "node /c/x"), ...to("topic /b/q", "node /a/x")];
-  const { boxes } = layout(items, edges, framesOf(items));
+  const { boxes } = layout(items, edges, groupsOf(items));
   assert.ok(boxes["topic /b/q"].y < boxes["topic /b/p"].y);
 });
 
-test("a node is in the frame of its private topics; without a namespace there is no frame", () => {
-  assert.deepEqual(framesOf(["node /base", "topic /base/power", "node /base_2", "node /rosout", "topic /rosout", "node bare"]),
+test("a node is in the group of its private topics; without a namespace there is no group", () => {
+  assert.deepEqual(groupsOf(["node /base", "topic /base/power", "node /base_2", "node /rosout", "topic /rosout", "node bare"]),
     { "node /base": "/base", "topic /base/power": "/base" });
 });
 
@@ -96,9 +96,9 @@ test("arrow keys reach every box, and stay in the column as long as it has one",
   assert.equal(reached.size, Object.keys(boxes).length);
 });
 
-test("DOT has boxes, arrows and frames, whatever the names", () => {
+test("DOT has boxes, arrows and groups, whatever the names", () => {
   const items = ['node /a"b\\', "topic /x/y", "topic /x/z"];
-  const lines = dotOf(layout(items, to(items[0], items[1]), framesOf(items))).split("\n").map((line) => line.trim());
+  const lines = dotOf(layout(items, to(items[0], items[1]), groupsOf(items))).split("\n").map((line) => line.trim());
   assert.deepEqual(lines.slice(2, -2), [
     String.raw`"node /a\"b\\" [label="/a\"b\\" shape=ellipse]`,
     '"topic /x/y" [label="/x/y" shape=box]',
