@@ -1,9 +1,11 @@
 """The bridge and clients in Python: what they see, what they drive, and how a motion ends."""
 
+import importlib.util
 import os
 import signal
 import socket
 import time
+import unittest
 
 import rospy
 from geometry_msgs.msg import Twist, TwistStamped
@@ -24,6 +26,9 @@ AHEAD, ZERO = Twist(), Twist()
 AHEAD.linear.x = 0.3
 
 
+@unittest.skipUnless(
+    importlib.util.find_spec("foxglove"), "PyPI has no foxglove-sdk for this Python"
+)
 class BridgeTest(RosTest):
     """A test case with a bridge."""
 
@@ -331,6 +336,10 @@ class ClientsTest(BridgeTest):
             ("_prot:=8765", "did you mean ~port?"),
         ):
             self.check_mistake(self.start(BRIDGE, parameter), words)
+        paths = os.environ["PYTHONPATH"].split(":")
+        without = ":".join(path for path in paths if "/foxglove/" not in path)
+        alone = self.start(BRIDGE, PYTHONPATH=without)
+        self.check_mistake(alone, "foxglove-sdk is missing; ./tutorial foxglove installs it")
         keys = "_tls:=true", "_certfile:=/none", "_keyfile:=/none"
         self.check_mistake(self.start(BRIDGE, *keys), "~certfile: '/none'", "No such file")
 

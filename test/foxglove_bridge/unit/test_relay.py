@@ -2,6 +2,7 @@
 
 import asyncio
 import contextlib
+import queue
 import socket
 import threading
 
@@ -24,13 +25,18 @@ LIMIT = 10_000  # bytes
 @pytest.fixture(name="relayed")
 def _relayed():
     """Return a function that connects a client through a relay: its socket, and the server's."""
-    loop = asyncio.new_event_loop()
-    thread = threading.Thread(target=loop.run_forever)
-    thread.start()
     listener, server = (socket.create_server(("127.0.0.1", 0)) for _ in range(2))
     server.settimeout(PATIENCE_S)
-    port = server.getsockname()[1]
-    task = asyncio.run_coroutine_threadsafe(serve(listener, port, LIMIT, None), loop)
+    started = queue.SimpleQueue()
+
+    async def run():
+        started.put((asyncio.get_running_loop(), asyncio.current_task()))
+        with contextlib.suppress(asyncio.CancelledError):
+            await serve(listener, server.getsockname()[1], LIMIT, None)
+
+    thread = threading.Thread(target=lambda: asyncio.run(run()))
+    thread.start()
+    loop, task = started.get()
     opened = []
 
     def connect(request):
@@ -42,13 +48,10 @@ def _relayed():
         return client, accepted
 
     yield connect
-    task.cancel()
     for end in (*opened, server):
         end.close()
-    loop.call_soon_threadsafe(loop.stop)
+    loop.call_soon_threadsafe(task.cancel)
     thread.join()
-    loop.run_until_complete(asyncio.sleep(0))
-    loop.close()
     listener.close()
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from tutorial_testing.claims import claim
+from tutorial_tools.command.downloads import FOXGLOVE, ROS2
 from tutorial_tools.command.plans import plan, read
 from tutorial_tools.command.subcommands import OWN_PARSER, candidates
 from tutorial_tools.io.command import build
@@ -43,6 +44,38 @@ def test_what_a_word_sets_up_and_starts(monkeypatch, line, sections, program, re
     assert (os.path.basename(first), others) == (program, rest.split())
     assert made["builds"][0] == "workspace"
     assert "student" not in made
+
+
+@claim("The bridge to Foxglove is installed after a question, and for tests; not by the set-up")
+def test_what_installs_the_bridge_to_foxglove(monkeypatch, capsys):
+    monkeypatch.setattr("platform.machine", lambda: "x86_64")
+    monkeypatch.setattr("sys.version_info", (3, 11))
+    asked = []
+    words = ["foxglove", "--yes", "port:=9000"]
+    made = read(Path("/w"), words, lambda *what: asked.append(what))
+    assert asked == [(FOXGLOVE, True)]
+    launch = ["roslaunch", "foxglove_bridge", "foxglove_bridge.launch", "port:=9000"]
+    assert (made["command"], made["builds"][-1]) == (launch, FOXGLOVE.build)
+    with pytest.raises(SystemExit):
+        read(Path("/w"), ["foxglove"], lambda *_: int("nothing was installed"))
+    assert "foxglove: " in capsys.readouterr().err
+    builds = {word: plan(word, [])["builds"] for word in ("test", "bench", "setup", "lint")}
+    with_it = {word for word in builds if FOXGLOVE.build in builds[word]}
+    assert with_it == {"test", "bench"}
+
+
+@claim("The bridge to Foxglove is installed ...", because="machines without wheels")
+@pytest.mark.parametrize(("download", "machine", "python", "why"), [
+    (FOXGLOVE, "aarch64", (3, 10), ""),
+    (FOXGLOVE, "x86_64", (3, 9), "PyPI has no foxglove-sdk for x86_64 with Python 3.9, only for "
+     "x86_64 and aarch64 with Python 3.10 to 3.14"),
+    (FOXGLOVE, "riscv64", (3, 11), "PyPI has no foxglove-sdk for riscv64"),
+    (ROS2, "aarch64", (3, 11), "with Python 3.10 to 3.14; or install ROS 2 itself"),
+])  # fmt: skip
+def test_where_pypi_has_no_wheels(download, machine, python, why):
+    said = download.why_no_wheels(machine, python)
+    assert bool(said) == bool(why)
+    assert why in said
 
 
 @claim("The help of check, cockpit, scheduler and worker is printed at once, with nothing built")

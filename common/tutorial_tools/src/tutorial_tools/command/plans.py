@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import os
+import platform
 import sys
 from pathlib import Path
 from typing import Callable, Dict, List
@@ -59,7 +60,8 @@ def command_of_run(command: list[str]) -> list[str]:
 def plan_of_test(kind: str, rest: list[str]) -> Plan:
     """Return the plan for a kind of tests, for all (""), or for lint, docs and bench."""
     made = {"sections": ["demo", "more", "test"], "builds": ["workspace", f"pypi={PYPI}"]}
-    if kind not in ("lint", "docs", "mutation"):
+    has_wheels = not FOXGLOVE.why_no_wheels(platform.machine(), sys.version_info[:2])
+    if has_wheels and kind not in ("setup", "lint", "docs", "mutation"):
         made["builds"].append(FOXGLOVE.build)
     if kind in ("browser", "containers"):
         made["sections"].append("browser")
@@ -156,7 +158,7 @@ def plan(word: str, arguments: list[str]) -> Plan:
     elif word in PROGRAMS:
         made["command"] = [PROGRAMS[word], *arguments]
     elif word in ("setup", "test"):
-        made = plan_of_test(*((options.kind or "", options.rest) if word == "test" else ("", [])))
+        made = plan_of_test(*((options.kind or "", options.rest) if word == "test" else (word, [])))
         if word == "setup":
             made["command"] = []
             made["sections"] = [] if options.part == "workspace" else made["sections"]
