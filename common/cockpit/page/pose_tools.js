@@ -23,7 +23,7 @@ export class PoseTools {
   #id = ""; // of the tool that is on
   #pose = [0, 0, 0]; // that it chooses: x, y [m], yaw [rad]
   #isHeld = false; // whether a pointer chooses the direction
-  #published = new Map(); // id -> the pose
+  #published = new Map(); // id -> the pose, and of which robot
   #server = { frame: "", heard: [] }; // says: the frame of the floor, and the topics with a subscriber
 
   /** page: see main.js. */
@@ -111,14 +111,15 @@ export class PoseTools {
     for (const [part, value] of Object.entries(numbers)) values[`${field}/${part}`] = String(value);
     this.#choose("");
     if (!this.link.send("publish", { topic: fullName, type, values, period: null })) return;
-    this.#published.set(id, [x, y, yaw]);
+    this.#published.set(id, [x, y, yaw, robot]);
     this.#announce("Published.", id);
     if (!this.#server.heard.includes(topic)) this.page.notice(`Nothing subscribes to ${fullName}: start a ${reader}.`);
   }
 
   /** paper: see Floor. */
   draw(paper) {
-    const poses = [...this.#published].filter(([id]) => id !== this.#id);
+    const isShown = ([id, [, , , robot]]) => id !== this.#id && robot === this.page.look();
+    const poses = [...this.#published].filter(isShown);
     if (this.isOn) poses.push([this.#id, this.#pose]);
     for (const [id, pose] of poses) drawPose(paper, pose, TOOLS[id]);
   }

@@ -10,6 +10,7 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 from cockpit_server.graph import ODOMETRY, Graph
 from cockpit_server.tabs import overlays
+from cockpit_server.tabs.robots import Robots
 from tutorial_testing.claims import claim
 from tutorial_testing.session_room import Graphs, Topics, page
 
@@ -50,7 +51,7 @@ class Floor(Topics):
     def __init__(self, types=TYPES, subscribers=()):
         super().__init__()
         self.tf, self.wants = Tf(), {}
-        self.robots, self.maps = SimpleNamespace(frames={}), SimpleNamespace(frame="")
+        self.robots, self.maps = Robots(self, Graphs()), SimpleNamespace(frame="")
         graph = Graph({t: {"/a"} for t in types}, {t: {"/b"} for t in subscribers}, types=types)
         self.graphs = Graphs(graph)
         self.source = overlays.Overlays(self, self.graphs, self.tf, self.robots, self.maps, at_once)
@@ -152,6 +153,22 @@ def test_shapes_are_placed_by_tf(floor):
     assert [shape["points"] for shape in shown["/mark"]] == [[[21.0, 0.0]]]
     floor.tf.places["odom"] = 30.0  # They stay where they were, as in RViz.
     assert floor.look(now=1.0) == {}
+
+
+@claim("Without a ground truth a robot is in the map where tf has its odometry")
+def test_tf_is_needed_for_a_robot_in_a_map(floor):
+    floor.maps.frame, floor.robots.frames["ada"] = "map", "odom"
+    floor.look()
+    assert floor.tf.is_needed
+    assert floor.robots.transform_to_map("odom") is None
+    floor.tf.places = {"map": 0.0, "odom": 3.0}
+    assert floor.robots.transform_to_map("odom").translation.x == 3.0
+    publishers = {**floor.graphs.graph.publishers, "/ada/base_pose_ground_truth": {"/sim"}}
+    floor.graphs.graph = Graph(publishers, types=TYPES)
+    floor.look()
+    assert not floor.tf.is_needed
+    floor.maps.frame = ""
+    assert floor.robots.transform_to_map("odom") is None
 
 
 def test_locked_marker_moves_with_its_frame(floor):

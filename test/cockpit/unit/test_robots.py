@@ -3,6 +3,7 @@
 from math import inf, nan
 
 import pytest
+from geometry_msgs.msg import Quaternion, Transform, Vector3
 from kobuki_msgs.msg import SensorState
 from nav_msgs.msg import Odometry
 
@@ -63,8 +64,9 @@ class Seen(Topics):
         [[newest]] = look(self.robots, self.page, now=now)
         return newest["robots"]
 
-    def place(self, topic, x):
+    def place(self, topic, x, frame=""):
         odometry = Odometry()
+        odometry.header.frame_id = frame
         odometry.pose.pose.position.x = x
         self.hear(topic, odometry)
 
@@ -92,6 +94,17 @@ def test_a_robot_has_its_place_in_the_map_and_its_pressed_bumpers():
     for data, pressed in [(b"\1\1", [1]), *malformed, (b"\0\1", [0, 1]), (b"\1\0", [0])]:
         seen.hear(bumper, data)
         assert seen.look()["ada"]["bumpers"] == pressed
+
+
+def test_place_in_the_map_is_that_of_tf_without_a_ground_truth():
+    """As gmapping and amcl publish it."""
+    seen = Seen(graph("ada"))
+    to_map = Transform(Vector3(5.0, 1.0, 0.0), Quaternion(0.0, 0.0, 1.0, 1.0))  # by 90 degrees
+    seen.robots.transform_to_map = {"ada/odom": to_map}.get
+    seen.place("/ada/odom", 2.0)
+    assert seen.look()["ada"]["truth"] == {}
+    seen.place("/ada/odom", 2.0, frame="/ada/odom")
+    assert seen.look()["ada"]["truth"] == {"x": 5.0, "y": 3.0, "yaw": 1.5708}
 
 
 CORE = "/ada/mobile_base/sensors/core"

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from math import atan2, hypot
-from typing import NamedTuple
+from math import atan2, cos, hypot, sin
+from typing import Any, NamedTuple
 
+from geometry_msgs.msg import Transform
 from nav_msgs.msg import Odometry
 
 LONGEST_STEP_M = 0.5  # within a period; beyond it the robot was carried, or odometry was missed
@@ -23,9 +24,22 @@ class Motion(NamedTuple):
 
 def motion(odometry: Odometry) -> Motion:
     """Return the Motion of an Odometry."""
-    at, q, twist = odometry.pose.pose.position, odometry.pose.pose.orientation, odometry.twist.twist
-    yaw = atan2(2 * (q.w * q.z + q.x * q.y), q.w * q.w + q.x * q.x - q.y * q.y - q.z * q.z)
-    return Motion(at.x, at.y, yaw, twist.linear.x, twist.angular.z)
+    pose, twist = odometry.pose.pose, odometry.twist.twist
+    yaw = yaw_of(pose.orientation)
+    return Motion(pose.position.x, pose.position.y, yaw, twist.linear.x, twist.angular.z)
+
+
+def yaw_of(q: Any) -> float:
+    """Return the rotation [rad] on the floor of a quaternion of any length."""
+    return atan2(2 * (q.w * q.z + q.x * q.y), q.w * q.w + q.x * q.x - q.y * q.y - q.z * q.z)
+
+
+def in_frame(state: Motion, transform: Transform) -> Motion:
+    """Return a Motion in another frame. transform: of points to it."""
+    place, yaw = transform.translation, yaw_of(transform.rotation)
+    x = place.x + cos(yaw) * state.x - sin(yaw) * state.y
+    y = place.y + sin(yaw) * state.x + cos(yaw) * state.y
+    return state._replace(x=x, y=y, yaw=state.yaw + yaw)
 
 
 def covered(last: Motion, new: Motion, so_far: float) -> float:

@@ -18,7 +18,7 @@ from cockpit_server.messages import ReceivedMessage, Subscriptions, decoded
 from cockpit_server.pages import Page, TabSource, encoded
 from cockpit_server.tabs.frames import Tf
 from cockpit_server.tabs.maps import Maps
-from cockpit_server.tabs.robots import Robots
+from cockpit_server.tabs.robots import TRUTH, Robots
 from cockpit_server.tabs.shapes import DIGITS, Shape, Shapes, update
 
 NEWEST = {kind._type: kind for kind in (LaserScan, Path)}  # of which only the newest counts
@@ -55,6 +55,7 @@ class Overlays(TabSource):
         """submit: calls a function in a thread, which the driver need not wait for."""
         self._subscriptions, self._graphs, self._tf = subscriptions, graphs, tf
         self._robots, self._maps = robots, maps
+        robots.transform_to_map = self._transform_to_map
         self._graph = Graph()
         self._looks: frozenset[str] = frozenset()  # the robots in sight
         self._topics: dict[str, Mapping[str, str]] = {}  # of each -> {topic: type}
@@ -87,7 +88,13 @@ class Overlays(TabSource):
         if jobs and self._drawn.done() and not self._budget.wait_s(now):
             last, self._drawn = self._drawn, self._submit(self._draw, jobs, now)
             last.result()  # The hub reports what failed.
-        self._tf.set_needed(self, any(layer.shapes for layer in self._layers.values()))
+        truths = {topic_of(robot, TRUTH) for robot in looks & self._robots.frames.keys()}
+        is_lost = bool(self._maps.frame) and bool(truths - self._graph.publishers.keys())
+        has_shapes = any(layer.shapes for layer in self._layers.values())
+        self._tf.set_needed(self, is_lost or has_shapes)
+
+    def _transform_to_map(self, frame: str) -> Transform | None:
+        return self._tf.lookup(self._maps.frame, frame)[0] if self._maps.frame else None
 
     def _on_message(self, message: ReceivedMessage) -> None:
         layer = self._layers.get(message.topic)

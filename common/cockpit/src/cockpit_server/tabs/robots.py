@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from math import isfinite
-from typing import Any, ClassVar, Sequence
+from typing import Any, Callable, ClassVar, Sequence
 
+from geometry_msgs.msg import Transform
 from kobuki_msgs.msg import SensorState
 from nav_msgs.msg import Odometry
 
@@ -13,7 +14,7 @@ from cockpit_server.messages import ReceivedMessage, Subscriptions, decoded
 from cockpit_server.pages import Page, TabSource, encoded
 from cockpit_server.schema import switch
 from cockpit_server.tabs.kobuki import core_shown
-from cockpit_server.tabs.motion import FARTHEST_M, Motion, covered, motion
+from cockpit_server.tabs.motion import FARTHEST_M, Motion, covered, in_frame, motion
 
 DIGITS = 4  # after the point [m]: a tenth of a millimetre
 KOBUKI = {  # type of a command -> what its values mean
@@ -43,6 +44,8 @@ class Robots(TabSource):
         # robot -> (Motion, its arrival [s], distance covered [m], Motion in the map)
         self._states: dict[str, tuple[Motion, float, float, Motion | None]] = {}
         self.frames: dict[str, str] = {}  # robot -> the frame of its odometry
+        # Of points in such a frame; None if it is unknown.
+        self.transform_to_map: Callable[[str], Transform | None] = lambda _: None
         self._text = ""  # all robots, as pages receive them
         self._names: list[str] = []
         self._speeds: dict[str, dict[str, Any]] = {}  # robot -> v, w, age
@@ -135,9 +138,10 @@ class Robots(TabSource):
         new = motion(odometry)
         last, _, so_far, _ = self._states.get(robot, (new, 0.0, 0.0, None))
         truth = decoded(Odometry, self._newest.get(topic_of(robot, TRUTH), (b"", 0.0))[0])
-        in_map = truth and motion(truth)
+        self.frames[robot] = frame = odometry.header.frame_id.lstrip("/")
+        to_map = None if truth else self.transform_to_map(frame)
+        in_map = motion(truth) if truth else to_map and in_frame(new, to_map)
         self._states[robot] = (new, arrived, covered(last, new, so_far), in_map)
-        self.frames[robot] = odometry.header.frame_id.lstrip("/")
 
 
 def place(state: Motion) -> dict[str, float]:
