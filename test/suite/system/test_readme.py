@@ -50,6 +50,7 @@ LEFT_OUT = {
 ELSEWHERE = {
     "Two machines": "test_two_hosts.py runs it on two hosts",
     "rosbridge": "test_rosbridge.py runs it on packages of ours",
+    "Start the bridge": "test/foxglove_bridge",
     **dict.fromkeys(("From here to ROS 2", "Both side by side", "With colcon"), "test/ros2_bridge"),
 }
 STUDENTS_SHELL = "./tutorial shell --in ~/catkin_ws"

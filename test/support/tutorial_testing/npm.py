@@ -11,14 +11,14 @@ import tempfile
 import urllib.request
 from pathlib import Path
 
-LOCK = Path(__file__).resolve().parents[2] / "locks/npm/package-lock.json"
+LOCKS = Path(__file__).resolve().parents[2] / "locks"
 REGISTRY = "https://registry.npmjs.org"
 TIMEOUT_S = 60
 
 
-def modules() -> Path:
+def modules(lock: str = "npm") -> Path:
     """Return the folder node_modules with the locked packages; fetch them the first time."""
-    text = LOCK.read_bytes()
+    text = (LOCKS / lock / "package-lock.json").read_bytes()
     results = Path(os.environ["TUTORIAL_RESULTS"])
     folder = results / f"npm-{hashlib.sha256(text).hexdigest()[:16]}"
     if not folder.exists():

@@ -32,12 +32,12 @@ SHIFT = 8  # a modifier of the DevTools protocol
 class Chromium(WebDriver):
     """A browser with one page. A context manager that leaves nothing behind."""
 
-    def __init__(self):
+    def __init__(self, *arguments):
         self._folder = tempfile.mkdtemp()
         self._modifiers = 0
         options = Options()
         options.binary_location = shutil.which("chromium")
-        for argument in (*ARGUMENTS, "--window-size=1280,800"):
+        for argument in (*ARGUMENTS, *arguments, "--window-size=1280,800"):
             options.add_argument(argument)
         options.add_argument(f"--user-data-dir={self._folder}")
         options.set_capability("goog:loggingPrefs", {"browser": "ALL"})

@@ -24,7 +24,9 @@ class Connection {
   #services = new Map();
   #published = new Map(); // topic: {id, writer}
   #calls = new Map(); // id: reader of its response
+  #count = 0; // of all messages that are not said
   #delays_ms = [];
+  #numbers = []; // of the same messages, which ROS counts up
 
   constructor(name, url, protocols) {
     this.#name = name;
@@ -49,7 +51,7 @@ class Connection {
       this.#say("fetchAssetResponse", { status, error, bytes: data?.byteLength }));
   }
 
-  /** then: "data" says each message, "delays" keeps the age of its header's stamp. */
+  /** then: "data" says each message, "delays" keeps the age of its stamp, "count" counts it. */
   subscribe({ topics, then = "data" }) {
     for (const topic of topics) {
       this.#wanted.set(topic, then);
@@ -93,11 +95,12 @@ class Connection {
     this.#client.fetchAsset(uri, 1);
   }
 
-  publish({ topic, schemaName, schema, messages }) {
-    if (!this.#published.has(topic)) {
-      const id = this.#client.advertise({ topic, encoding: "ros1", schemaName });
-      this.#published.set(topic, { id, writer: new MessageWriter(parse(schema)) });
-    }
+  advertise({ topic, schemaName, schema }) {
+    const id = this.#client.advertise({ topic, encoding: "ros1", schemaName });
+    this.#published.set(topic, { id, writer: new MessageWriter(parse(schema)) });
+  }
+
+  publish({ topic, messages }) {
     const { id, writer } = this.#published.get(topic);
     for (const message of messages) this.#client.sendMessage(id, writer.writeMessage(message));
   }
@@ -112,8 +115,9 @@ class Connection {
   }
 
   report() {
-    this.#say("report", { delays_ms: this.#delays_ms });
-    this.#delays_ms = [];
+    const content = { delays_ms: this.#delays_ms, numbers: this.#numbers, count: this.#count };
+    this.#say("report", content);
+    [this.#delays_ms, this.#numbers, this.#count] = [[], [], 0];
   }
 
   close() {
@@ -143,10 +147,13 @@ class Connection {
     const subscription = this.#subscriptions.get(subscriptionId);
     if (!subscription) return; // it has just ended
     const { topic, reader, writer, then } = subscription;
+    if (then !== "data") this.#count += 1;
+    if (then === "count") return;
     const message = reader.readMessage(data);
     if (then === "delays") {
-      const { sec, nsec } = message.header.stamp;
-      this.#delays_ms.push(now_ms() - (1e3 * sec + 1e-6 * nsec));
+      const { seq, stamp } = message.header;
+      this.#delays_ms.push(now_ms() - (1e3 * stamp.sec + 1e-6 * stamp.nsec));
+      this.#numbers.push(seq);
       return;
     }
     const bytes = Buffer.from(data.buffer, data.byteOffset, data.byteLength);
