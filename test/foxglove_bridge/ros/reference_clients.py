@@ -96,7 +96,7 @@ class ReferenceClientsTest(RosTest):
             messages = client.messages(topic)
             self.assertTrue(all(message["isSame"] for message in messages), topic)
             received = bytes_of(messages)
-            wait_for(lambda: set(received) <= set(reference[topic]), topic, 20)  # noqa: B023
+            wait_for(lambda: set(received) <= set(reference[topic]), topic)  # noqa: B023
             if topic not in (
                 "/tf",
                 "/tf_static",
