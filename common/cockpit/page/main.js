@@ -10,7 +10,7 @@ import { Link } from "./connection.js";
 import { LogTab } from "./log_tab.js";
 import { PlotTab } from "./plot_tab.js";
 import { RobotTab } from "./robot_tab.js";
-import { makeTabs } from "./tabs.js";
+import { Tabs } from "./tabs.js";
 import { TopicsTab } from "./topics_tab.js";
 
 /**
@@ -73,7 +73,7 @@ link.on("refused", ({ what, why }) => {
 link.on("sent", (kind) => { // A second refusal is shown again.
   if (!BY_ITSELF.includes(kind) && byId("notice").textContent === refusal) notice("");
 });
-page.moved = makeTabs(tablist, byId("beside"), {
+const views = new Tabs(tablist, byId("beside"), {
   onChoose(names) {
     for (const [name, tab] of Object.entries(tabs)) if (!names.includes(name)) tab.show?.(false);
     for (const name of names) tabs[name].show?.(true);
@@ -85,4 +85,5 @@ page.moved = makeTabs(tablist, byId("beside"), {
   placeOf: (name) => tabs[name].place ?? "",
   robot: () => tabs.robot.asked,
 });
+page.moved = (back) => views.moved(back);
 link.connect();

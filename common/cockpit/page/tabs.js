@@ -7,75 +7,82 @@
 const WIDE = matchMedia("(min-width: 1200px)");
 const nameOf = (tab) => tab.getAttribute("aria-controls");
 
-/**
- * beside: the button for the first tab beside another one. onChoose(names) is called with the names of the views that are
- * shown: "robot", "graph" ...; before it go(name, path, query) with what an address names. placeOf(name) returns what
- * follows the name there; robot() the value of ?robot=.
- * Returns moved(back), which writes the address after a change; back: whether Back returns to the view before.
- */
-export function makeTabs(tablist, beside, { onChoose, go, placeOf, robot }) {
-  const tabs = [...tablist.querySelectorAll("[role=tab]")];
-  const [first] = tabs;
-  let shown = first;
-  let other = tabs[1]; // the newest one that is not the first
-  let isWanted = false; // the first tab beside another one, where there is room
-  let handled = ""; // the address that is shown; null while it is being shown
+export class Tabs {
+  #tabs;
+  #shown; // the selected one
+  #other; // the newest one that is not the first
+  #isBeside = false; // whether the first one is beside others, where there is room
+  #handled = ""; // the address that is shown; null while it is being shown
 
-  function moved(back = false) {
-    if (handled === null) return;
-    const query = new URLSearchParams(location.search);
-    if (robot() !== null) query.set("robot", robot());
-    if (isWanted) query.set("beside", nameOf(first));
-    else query.delete("beside");
-    const address = `${String(query) && `?${query}`}#${nameOf(shown)}${placeOf(nameOf(shown))}`;
-    if (location.search + location.hash === address) return;
-    history[back ? "pushState" : "replaceState"](null, "", location.pathname + address);
-    handled = location.href;
+  /**
+   * beside: the button for the first tab beside another one. page.onChoose(names) is called with the names of the views
+   * that are shown: "robot", "graph" ...; before it page.go(name, path, query) with what an address names.
+   * page.placeOf(name) returns what follows the name there; page.robot() the value of ?robot=.
+   */
+  constructor(tablist, beside, page) {
+    this.beside = beside;
+    this.page = page;
+    const tabs = this.#tabs = [...tablist.querySelectorAll("[role=tab]")];
+    [this.#shown, this.#other] = tabs;
+    for (const tab of tabs) tab.onclick = () => this.#choose(tab, true);
+    tablist.addEventListener("keydown", (event) => {
+      const now = tabs.indexOf(document.activeElement);
+      const places = { ArrowRight: (now + 1) % tabs.length, ArrowLeft: now - 1, Home: 0, End: -1 };
+      if (!(event.key in places)) return;
+      const next = tabs.at(places[event.key]);
+      event.preventDefault();
+      this.#choose(next, true);
+      next.focus();
+    });
+    beside.onclick = () => {
+      this.#isBeside = beside.getAttribute("aria-pressed") === "false";
+      this.#choose(this.#isBeside ? this.#other : this.#shown, true);
+    };
+    WIDE.addEventListener("change", () => this.#choose(this.#shown, false));
+    addEventListener("popstate", () => this.#chooseByAddress()); // also for an address that is typed
+    this.#chooseByAddress();
   }
 
-  function choose(chosen, back) {
-    shown = chosen;
-    if (chosen !== first) other = chosen;
-    const isPair = isWanted && WIDE.matches && chosen !== first;
+  /** Write the address after a change. back: whether Back returns to the view before. */
+  moved(back = false) {
+    if (this.#handled === null) return;
+    const query = new URLSearchParams(location.search);
+    if (this.page.robot() !== null) query.set("robot", this.page.robot());
+    if (this.#isBeside) query.set("beside", nameOf(this.#tabs[0]));
+    else query.delete("beside");
+    const name = nameOf(this.#shown);
+    const address = `${String(query) && `?${query}`}#${name}${this.page.placeOf(name)}`;
+    if (location.search + location.hash === address) return;
+    history[back ? "pushState" : "replaceState"](null, "", location.pathname + address);
+    this.#handled = location.href;
+  }
+
+  #choose(chosen, back) {
+    const [first] = this.#tabs;
+    this.#shown = chosen;
+    if (chosen !== first) this.#other = chosen;
+    const isPair = this.#isBeside && WIDE.matches && chosen !== first;
     const visible = isPair ? [first, chosen] : [chosen];
     document.body.classList.toggle("pair", isPair);
-    beside.setAttribute("aria-pressed", isPair);
-    for (const tab of tabs) {
+    this.beside.setAttribute("aria-pressed", isPair);
+    for (const tab of this.#tabs) {
       tab.setAttribute("aria-selected", tab === chosen);
       tab.tabIndex = tab === chosen ? 0 : -1;
       document.getElementById(nameOf(tab)).hidden = !visible.includes(tab);
     }
     document.title = `${chosen.textContent} – Cockpit`;
-    onChoose(visible.map(nameOf));
-    moved(back);
+    this.page.onChoose(visible.map(nameOf));
+    this.moved(back);
   }
 
-  for (const tab of tabs) tab.onclick = () => choose(tab, true);
-  beside.onclick = () => {
-    isWanted = beside.getAttribute("aria-pressed") === "false";
-    choose(isWanted ? other : shown, true);
-  };
-  WIDE.addEventListener("change", () => choose(shown, false));
-  tablist.addEventListener("keydown", (event) => {
-    const now = tabs.indexOf(document.activeElement);
-    const places = { ArrowRight: (now + 1) % tabs.length, ArrowLeft: now - 1, Home: 0, End: -1 };
-    if (!(event.key in places)) return;
-    const next = tabs.at(places[event.key]);
-    event.preventDefault();
-    choose(next, true);
-    next.focus();
-  });
-  const chooseByAddress = () => {
-    if (location.href === handled) return;
+  #chooseByAddress() {
+    if (location.href === this.#handled) return;
     const [, name, path, query] = /^#?([^/?]*)([^?]*)\??(.*)$/.exec(location.hash);
-    const tab = tabs.find((one) => nameOf(one) === name.toLowerCase()) ?? tabs[0];
-    isWanted = new URLSearchParams(location.search).has("beside");
-    handled = null;
-    go(nameOf(tab), path, new URLSearchParams(query));
-    handled = location.href;
-    choose(tab, false);
-  };
-  addEventListener("popstate", chooseByAddress); // also for an address that is typed
-  chooseByAddress();
-  return moved;
+    const tab = this.#tabs.find((one) => nameOf(one) === name.toLowerCase()) ?? this.#tabs[0];
+    this.#isBeside = new URLSearchParams(location.search).has("beside");
+    this.#handled = null;
+    this.page.go(nameOf(tab), path, new URLSearchParams(query));
+    this.#handled = location.href;
+    this.#choose(tab, false);
+  }
 }
