@@ -2,11 +2,9 @@
 
 import { Chart } from "./chart.js";
 import { byId, element, offer, save, say } from "./dom.js";
+import { FieldList, fieldsOf, FIRST } from "./field_list.js";
 import { rowsAgainst, rowsOfArrays, Track, written } from "./samples.js";
 
-const MOST = 20; // fields at a time, as in the server
-const LISTED = 200; // of the matching fields
-const FIRST = 20; // entries of a chosen array that are offered without a search
 const MOST_ROWS = 4000; // against another field
 const KEEP_S = 600; // the longest window; shorter for a fast topic, see MOST in samples.js
 const DRAW_MS = 100;
@@ -43,9 +41,7 @@ export class PlotTab {
     <div class="legend" id="plot-values" role="group" aria-label="Values"></div>
   </div>
   <div class="panel">
-    <div class="card"><h2><label for="plot-search">Fields</label></h2>
-      <input type="search" id="plot-search" placeholder="Search, e.g. odom linear" autocomplete="off">
-      <ul id="plot-fields"></ul></div>
+    <div class="card">${FieldList.panel("plot")}</div>
   </div>`;
   static watches = { fields: [], field_list: false };
 
@@ -60,6 +56,12 @@ export class PlotTab {
     this.watch = watch;
     this.page = page;
     this.chart = new Chart(byId("plot-chart"), () => this.#showValues(this.chart.points));
+    this.list = new FieldList("plot", {
+      chosen: () => this.fields,
+      offered: (isSearch) => [...this.#entries(isSearch), ...this.#all],
+      choose: (field, on) => this.#choose(field, on),
+      nothing: "No published topic has",
+    });
     link.on("fields", ({ fields }) => {
       if (fields.join() === this.#all.join()) return; // The list is not rebuilt while it is in use.
       this.#all = fields;
@@ -71,7 +73,6 @@ export class PlotTab {
       this.#against();
       this.#showLast(byId("plot-window").value);
     };
-    byId("plot-search").oninput = () => this.#list();
     byId("plot-pause").onclick = () => this.#pause(this.#frozen === null);
     byId("plot-zoom").onclick = () => this.#showLast(KEEP_S);
     byId("plot-clear").onclick = () => this.#clear();
@@ -93,8 +94,8 @@ export class PlotTab {
   }
 
   go(_path, query) {
-    const fields = query.getAll("f").filter((field) => /^[!-~]{1,200}$/.test(field)); // as the server accepts it
-    const tracks = fields.slice(0, MOST).map((field) => [field, this.#samples[field] ?? new Track()]);
+    const fields = fieldsOf(query);
+    const tracks = fields.map((field) => [field, this.#samples[field] ?? new Track()]);
     this.#samples = Object.fromEntries(tracks);
     const last = Math.min(KEEP_S, Math.max(1, Math.round(Number(query.get("last")) || 30)));
     this.#list();
@@ -178,31 +179,20 @@ export class PlotTab {
     }));
   }
 
+  /** The entries of the chosen arrays. */
+  #entries(isSearch) {
+    return Object.entries(this.#samples).flatMap(([field, track]) =>
+      track.entries?.slice(0, isSearch ? undefined : FIRST).map((_, i) => `${field}[${i}]`) ?? []);
+  }
+
   #list() {
-    const words = byId("plot-search").value.toLowerCase().split(/\s+/).filter(Boolean);
-    const entries = Object.entries(this.#samples).flatMap(([field, track]) =>
-      track.entries?.slice(0, words.length ? LISTED : FIRST).map((_, i) => `${field}[${i}]`) ?? []);
-    const found = [...entries, ...this.#all].filter((field) => words.every((word) => field.toLowerCase().includes(word)));
-    const matching = [...new Set([...this.fields, ...found])]; // the chosen ones first
-    const listed = matching.slice(0, LISTED);
-    byId("plot-fields").replaceChildren(...listed.map((field) => {
-      const checked = field in this.#samples;
-      const box = element("input", { type: "checkbox", checked, value: field });
-      box.onchange = () => this.#choose(field, box.checked);
-      return element("li", {}, element("label", {}, box, ` ${field}`));
-    }));
-    const rest = matching.length - listed.length;
-    const hint = rest ? `… and ${rest} more: search by name.`
-      : found.length || !this.#all.length ? "" : `No published topic has ${byId("plot-search").value.trim()}.`;
-    if (hint) byId("plot-fields").append(element("li", { className: "hint" }, hint));
+    this.list.list();
     this.#limit();
   }
 
   #limit() {
     offer(byId("plot-x"), [["", "time"], ...this.fields.map((field) => [field])]);
-    for (const box of byId("plot-fields").querySelectorAll("input")) {
-      box.disabled = !box.checked && this.fields.length >= MOST;
-    }
+    this.list.limit();
     const known = new Set(this.#all.map(plain));
     const missing = known.size ? this.fields.filter((field) => !known.has(plain(field))) : []; // once the list is there
     say(byId("plot-missing"), missing.length

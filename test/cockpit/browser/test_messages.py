@@ -19,13 +19,13 @@ def run(page, module, script):
 
 @claim("Tab Bag: the values ...", because="a new connection")
 def test_new_connection_opens_the_recording_again_and_publishes_nothing(page):
-    script = """const tab = new tabs.BagTab(link, watch, {look: () => ""});
+    script = """const tab = new tabs.BagTab(link, watch, {look: () => "", moved() {}});
     const state = () => byId("bag-state").textContent;
     hear("hello", {});
     hear("bags", {names: ["joy.bag"]});
-    hear("bag", {path: "joy.bag", start: 0, end: 2, curves: {},
+    hear("bag", {path: "joy.bag", start: 0, end: 2, fields: [["/joy/axes", 6]],
                  topics: [{name: "/joy", type: "sensor_msgs/Joy", count: 1}]});
-    hear("bag_at", {position: 1, playing: true, topic: "/joy"});
+    hear("bag_at", {position: 1, playing: true, topics: ["/joy"]});
     const playing = state();
     hear("hello", {});
     done([playing, sent.at(-1), state(), byId("bag-pause").disabled]);"""

@@ -111,7 +111,7 @@ def test_a_viewer_may_not_drive_and_long_messages_close_the_connection(resting):
         page.hand = DRIVE
         page.say("drive", robot="", mode="D")
         page.say("reset", robot="")
-        page.say("bag_play", topic="/joy", rate=1.0, loop=False, robot="")
+        page.say("bag_play", topics=["/joy"], rate=1.0, loop=False, robot="")
         page.say("publish", topic="/cmd_vel", type="geometry_msgs/Twist", values={}, period=0.1)
         for what in ("drive", "reset", "bag_play", "publish"):
             why = page.wait_for("refused", lambda no, what=what: no["what"] == what)["why"]

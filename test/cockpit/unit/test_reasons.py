@@ -20,6 +20,8 @@ WHO = {
     "a recording of this page": (SEAT._replace(plays=True), "You play a recording to ada."),
     "a recording of another": (
         SEAT._replace(plays=True, driver=BOB), "Firefox plays a recording to ada."),
+    "a recording on a topic": (
+        SEAT._replace(topic="/a/v", plays=True), "You play a recording, on /a/v."),
     "a form of this page": (SEAT._replace(topic="/a/v"), "You drive by a form, on /a/v."),
     "a form of another": (
         SEAT._replace(topic="/a/v", driver=BOB), "Firefox drives by a form, on /a/v."),

@@ -151,18 +151,58 @@ def test_pages_are_sent_each_change_of_the_driver(driven):
     assert [len(sent) for sent in sessions()] == [1, 1]
 
 
+def playing(made, position=0.0, **about):
+    """Let Anna's page play a recording of 3 s; return what ends its motion appends to."""
+    ends, player = [], Player(3.0, 1.0, loop=False, position=position)
+    made.play(made.anna[0], player, 0.0, **about)
+    messages = [(n, made.published.append, n) for n in range(4)]
+    player.load(messages, [lambda: ends.append(True)], 0.0)
+    return ends
+
+
 @pytest.mark.parametrize(("is_cut", "end_s"), [(False, 3.0), (True, 2.5)])
 def test_a_recording_is_published_until_its_end_or_until_its_page_is_cut(is_cut, end_s):
-    made, player = Made(), Player([(n, n, ()) for n in range(4)], 3.0, 1.0, loop=False)
+    made = Made()
     client, _ = made.anna
-    player.seek(0.5, 0.0)
-    made.play(client, "ada", player, 0.0)
+    playing(made, 0.5, robot="ada")
     made.tick(2.0)
-    assert [message[1] for message in made.published] == [1, 2]
+    assert made.published == [1, 2]
     client.is_cut = lambda: is_cut
-    made.session._last = None
     made.tick(end_s - 0.5)
-    assert not made.plays(player) and made.driven is None
+    assert made.driven is None
+
+
+ENDS = {
+    "its end": lambda made: made.tick(3.0),
+    "pause": lambda made: made.leave(made.anna[0]),
+    "Stop": lambda made: made.on_stop(made.bob[0], 1.0),
+    "loss of the page": lambda made: made.gone(made.anna[0]),
+    "end of the cockpit": lambda made: made.session.end(),
+    "another recording": lambda made: playing(made, topic="/odom"),
+}
+
+
+@claim("A recorded velocity that is played ends with zero, however it ends; nobody else drives")
+@pytest.mark.parametrize("end", ENDS)
+def test_a_recording_without_a_joystick_has_the_session_and_ends_its_motion_once(end):
+    made = Made()
+    ends = playing(made, topic="/bob/cmd_vel")
+    bob = made.bob[0]
+    for refused in (lambda: made.on_drive(bob, 0.0, **ADA), lambda: playing_by(made, bob)):
+        with pytest.raises(RefusedError, match="another page drives"):
+            refused()
+    made.tick(1.0)
+    assert (made.driven, ends) == ("bob", [])
+    who = look(made, made.bob)[0][-1]["who"]
+    assert who.endswith("plays a recording, on /bob/cmd_vel.")
+    assert not made.publishes(made.anna[0], "/bob/cmd_vel")  # by a form
+    ENDS[end](made)
+    made.tick(3.5)
+    assert (made.driven, ends) == (None, [True])
+
+
+def playing_by(made, page):
+    made.play(page, Player(3.0, 1.0, loop=False), 0.0, topic="/odom")
 
 
 @claim("Reset puts one ...", because="the refusal")

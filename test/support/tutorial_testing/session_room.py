@@ -78,7 +78,8 @@ def page(role="driver", number=7, **watch):
     close = lambda: sent.append("closed")  # noqa: E731
     write = lambda text: sent.append(json.loads(text))  # noqa: E731
     client = Page(number, role, "10.0.0.1", write, is_behind=no, is_cut=no, close=close)
-    watched = {"robots": False, "floor": False, "look": None, "bag": False, **watch}
+    watched = {"robots": False, "floor": False, "look": None, "bag": False, "bag_fields": ()}
+    watched.update(watch)
     client.watch = SimpleNamespace(**watched)
     return client, sent
 

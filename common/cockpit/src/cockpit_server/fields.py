@@ -11,7 +11,7 @@ import sys
 from functools import lru_cache
 from math import isfinite
 from pathlib import Path
-from typing import Any, Iterable, Iterator, Sequence
+from typing import Any, Collection, Iterable, Iterator, Sequence
 
 from node_kit.message_types import message_class
 
@@ -97,6 +97,21 @@ def value_at(
     return finite(message)
 
 
+def numbers_in(message: Any, above: str = "") -> Iterator[tuple[str, int]]:
+    """Yield (name, length of an array or 0) of all numbers in a message, or in None.
+
+    An array of messages has those of its first.
+    """
+    for name, _ in slots_of(message) if message is not None else ():
+        value = getattr(message, name)
+        is_array = isinstance(value, (list, tuple, bytes))
+        first = value[0] if is_array and value else value
+        if isinstance(first, (int, float)) or hasattr(first, "to_sec"):
+            yield f"{above}{name}", min(len(value), MOST_ENTRIES) if is_array else 0
+        elif hasattr(first, "_slot_types"):
+            yield from numbers_in(first, f"{above}{name}[0]/" if is_array else f"{above}{name}/")
+
+
 def finite(value: Any) -> float | None:
     """Return a number or a time of ROS as a float, or None."""
     if hasattr(value, "to_sec"):
@@ -109,3 +124,14 @@ def split(field: str, topics: Iterable[str]) -> tuple[str, str]:
     fitting = (topic for topic in topics if field.startswith(f"{topic}/"))
     topic = max(fitting, key=len, default="")
     return topic, field[len(topic) + 1 :]
+
+
+def by_topic(fields: Iterable[str], topics: Collection[str]) -> dict[str, dict[str, Any]]:
+    """Return {topic: {field: parts_of() its name}}; fields of no topic are left out."""
+    grouped: dict[str, dict[str, Any]] = {}
+    for field in fields:
+        topic, rest = split(field, topics)
+        parts = parts_of(rest)
+        if topic and parts:
+            grouped.setdefault(topic, {})[field] = parts
+    return grouped

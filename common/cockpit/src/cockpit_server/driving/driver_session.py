@@ -86,8 +86,8 @@ class DriverSession:
     def _clear(self) -> None:
         self.driver, self.robot = None, ""
         self.plays = False  # a recording, in place of a hand
-        self.topic = ""  # on which a form of the page publishes, in place of a hand
-        self._rest_form: Callable[[], object] | None = None  # publishes what ends its motion
+        self.topic = ""  # on which a form or a recording publishes, in place of a joystick
+        self._end_motion: Callable[[], object] | None = None  # of a form or a recording
         self.armed = False  # whether everything was released since the last loss
         self.newest = 0  # number of the newest input that was fresh
         self._last: tuple[Axes, Buttons] | None = None  # published last
@@ -110,13 +110,20 @@ class DriverSession:
     def is_by_hand(self) -> bool:
         return not self.plays and not self.topic
 
-    def take(self, page: int, robot: str, now: float, *, plays: bool = False) -> None:
-        """Begin the session of a page. Raises RefusedError if another page has it."""
+    def take(
+        self, page: int, robot: str, now: float, *, plays: bool = False, topic: str = "",
+        rest: Callable[[], object] | None = None,
+    ) -> None:  # fmt: skip
+        """Begin the session of a page. rest: called once, at its end.
+
+        Raises RefusedError if another page has it.
+        """
         refusal = self.refusal(page)
         if refusal:
             raise RefusedError(refusal)
         self.leave(page)
         self.driver, self.robot, self.plays = page, robot, plays
+        self.topic, self._end_motion = topic, rest
         self.why, self.stopped = "", None
         self.armed = plays  # A recording cannot be released first.
         self._fresh_at = now
@@ -129,8 +136,8 @@ class DriverSession:
 
         Raises RefusedError if another page has the session.
         """
-        self.take(page, robot, now)
-        self.topic, self._rest_form, self.armed = topic, rest, True
+        self.take(page, robot, now, topic=topic, rest=rest)
+        self.armed = True
         self._fresh_at = now + SILENCE_S  # The first beat needs time to the page and back.
 
     def sign(self, page: int, message: PageInput, now: float) -> bool:
@@ -239,7 +246,7 @@ class DriverSession:
 
     def _keep(self, why: str) -> None:
         """Keep the reason for a stop, if the robot moved until now."""
-        if self._rest_form or (self._last is not None and not is_neutral(*self._last)):
+        if self._end_motion or (self._last is not None and not is_neutral(*self._last)):
             self.why, self.stopped = why, self.robot
 
     def moves_on(self, robot: str) -> None:
@@ -260,9 +267,9 @@ class DriverSession:
         self._has_ended = True
 
     def _rest(self) -> None:
-        if self._rest_form:
-            self._rest_form()
-            self._rest_form = None
+        if self._end_motion:
+            self._end_motion()
+            self._end_motion = None
         if self._last is not None:
             self._publish(*neutral_of(*self._last))
             self._last = None

@@ -25,7 +25,7 @@ class About(NamedTuple):
     driver: Optional[int] = None  # number of the page that drives it
     name: str = ""  # name of the page that drives it
     plays: bool = False  # whether that page plays a recording
-    topic: str = ""  # on which a form of that page publishes
+    topic: str = ""  # on which a form of that page publishes, or its recording
     armed: bool = False  # whether stick and buttons were released since the last loss
     pushes: bool = False  # whether the page moves the stick and holds no button
     why: str = ""  # why the loss of a driver has stopped the robot, or ""
@@ -90,15 +90,19 @@ def who(about: About, robot: str, page: int) -> str:
 
 def by_page(about: About, robot: str, is_own: bool) -> str:
     if about.topic:
-        return by_form(about.name, is_own, about.topic)
+        return on_topic(about.name, is_own, about.topic, about.plays)
     if about.plays:
         return sentence(f"{'you play' if is_own else f'{about.name} plays'} a recording to {robot}")
     return sentence(f"{'you drive' if is_own else f'{about.name} drives'} {robot}")
 
 
-def by_form(name: str, is_own: bool, topic: str) -> str:
-    """Return a sentence for a page: that it drives by a form, or that the named page does."""
-    return sentence(f"{'you drive' if is_own else f'{name} drives'} by a form, on {topic}")
+def on_topic(name: str, is_own: bool, topic: str, plays: bool) -> str:
+    """Return a sentence for a page: how it publishes on a topic, or how the named page does."""
+    if plays:
+        how = "you play a recording" if is_own else f"{name} plays a recording"
+    else:
+        how = "you drive by a form" if is_own else f"{name} drives by a form"
+    return sentence(f"{how}, on {topic}")
 
 
 def again(about: About) -> str:

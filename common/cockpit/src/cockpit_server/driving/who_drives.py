@@ -67,9 +67,20 @@ class Driving(TabSource):
         self._take(page, robot, now)
         self._modes = (mode,)
 
-    def play(self, page: Page, robot: str, player: Player, now: float) -> None:
-        """Let a page play a recording to a robot. Raises RefusedError."""
-        self._take(page, robot, now, plays=True)
+    def play(
+        self, page: Page, player: Player, now: float, *, robot: str = "", topic: str = ""
+    ) -> None:
+        """Let a page play a recording, in the place of a robot's joystick or on a topic.
+
+        Raises RefusedError.
+        """
+        if topic:
+            self.must_be_free(page)
+            robot = self._graphs.graph.robot_with(topic)
+            self.session.take(page.number, robot, now, plays=True, topic=topic, rest=player.end)
+            self._begin(now)
+        else:
+            self._take(page, robot, now, plays=True, rest=player.end)
         self._player = player
 
     def plays(self, player: Player | None) -> bool:
@@ -88,13 +99,14 @@ class Driving(TabSource):
 
     def publishes(self, page: Page, topic: str) -> bool:
         """Return whether a page drives by a form on a topic."""
-        return self.is_driver(page) and self.session.topic == topic
+        session = self.session
+        return self.is_driver(page) and session.topic == topic and not session.plays
 
-    def _take(self, page: Page, robot: str, now: float, plays: bool = False) -> None:
+    def _take(self, page: Page, robot: str, now: float, **recording: Any) -> None:
         refusal = self.refusal(page, robot, now)
         if refusal:
             raise RefusedError(refusal)
-        self.session.take(page.number, robot, now, plays=plays)
+        self.session.take(page.number, robot, now, **recording)
         self._begin(now)
 
     def _begin(self, now: float) -> None:
@@ -178,8 +190,8 @@ class Driving(TabSource):
         player, number = self._player, self.session.driver
         if player is None or number is None or not self.plays(player):
             return
-        for axes, buttons in player.due(now):
-            self.session.play(axes, buttons)
+        for send, data in player.due(now):
+            send(data)
         if player.is_over(now):
             self.session.leave(number)
         elif self._pages[number].is_cut():
@@ -260,9 +272,10 @@ class Driving(TabSource):
             page.send("drives", **texts)
 
     def _who(self, about: About, robot: str, page: Page) -> str:
-        """Return what drives the robot in sight, and which page drives some robot by a form."""
-        who, driver = reasons.who(about, robot, page.number), self.session.driver
-        if driver is None or not self.session.topic or about.driver is not None:
+        """Return what drives the robot in sight, and which page publishes on a topic."""
+        who, session = reasons.who(about, robot, page.number), self.session
+        if session.driver is None or not session.topic or about.driver is not None:
             return who
-        form = reasons.by_form(self._pages[driver].name, self.is_driver(page), self.session.topic)
-        return f"{form} {who}" if about.is_driven_by_node else form
+        name, is_own = self._pages[session.driver].name, self.is_driver(page)
+        how = reasons.on_topic(name, is_own, session.topic, session.plays)
+        return f"{how} {who}" if about.is_driven_by_node else how

@@ -59,7 +59,8 @@ class Cockpit:
         /map (nav_msgs/OccupancyGrid), /tf, /tf_static (tf2_msgs/TFMessage),
         /diagnostics, /diagnostics_agg (diagnostic_msgs/DiagnosticArray),
         /rosout (rosgraph_msgs/Log)
-    Publishes: joy (sensor_msgs/Joy) of a robot that is driven; what a driver writes into a form
+    Publishes: joy (sensor_msgs/Joy) of a robot that is driven; what a driver writes into a
+        form; topics of a recording that a driver plays
     Calls: services that end in /reset; what a driver writes into a form
     """
 
@@ -80,7 +81,7 @@ class Cockpit:
         sources = (
             robots, joysticks, driving, graphs, Topics(feeds, graphs), Plots(feeds, graphs),
             Forms(driving, self._soon, graphs), Publishing(driving, graphs, Outlets()), Logs(feeds),
-            Doctor(), Bags(driving, self._soon), Recorder(), maps,
+            Doctor(), Bags(driving, self._soon, graphs), Recorder(), maps,
             Overlays(feeds, graphs, transforms, robots, maps, drawer.submit), Turtles(graphs),
             frames, Diagnostics(feeds),
         )  # fmt: skip

@@ -2,41 +2,62 @@
 
 from __future__ import annotations
 
-from math import isfinite
-from typing import Any, Callable, List, NamedTuple, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Callable, List, Mapping, Sequence
 
-from cockpit_server.driving.player import Message
 from cockpit_server.errors import RefusedError
+from cockpit_server.graph import JOY
+from cockpit_server.limits import MOST_PAGES
+from cockpit_server.schema import MOST_FIELDS
 
 Point = List[float]  # time [s], value
-MOST_MESSAGES = 500_000  # [Joys] more than an hour at 100 Hz
 MOST_POINTS = 3000  # in a curve
-MOST_KEPT = 20  # recordings
+MOST_CURVES, MOST_KEPT = MOST_PAGES * MOST_FIELDS, 20  # of a recording; recordings
 
 
-class Recording(NamedTuple):
+@dataclass(eq=False)
+class Recording:
     """What is in a bag."""
 
+    path: Path
     duration: float  # [s]
     types: dict[str, str]  # topic -> type
-    joys: dict[str, list[Message]]  # topic -> [(time since the start [s], axes, buttons)]
+    counts: dict[str, int]  # topic -> number of messages
     message: str  # what pages receive of it
+    # field -> what pages receive of it; replaced, never changed
+    curves: dict[str, str] = field(default_factory=dict)
+
+    def keep(self, curves: dict[str, str]) -> None:
+        """Add curves, and forget the oldest ones."""
+        newest = list({**self.curves, **curves}.items())[-MOST_CURVES:]
+        self.curves = dict(newest)
 
 
-def curves(joys: dict[str, list[Message]]) -> dict[str, list[Point]]:
-    """Return {"/joy/axes[0]": [[time [s], value], ...], ...}, finite values only."""
-    points = {}
-    for topic, messages in joys.items():
-        step = len(messages) // MOST_POINTS + 1
-        axes, buttons = [(t, a) for t, a, _ in messages], [(t, b) for t, _, b in messages]
-        for kind, series in (("axes", axes), ("buttons", buttons)):
-            for i in range(min((len(values) for _, values in series), default=0)):
-                points[f"{topic}/{kind}[{i}]"] = corners([
-                    [round(t, 3), round(float(values[i]), 4)]
-                    for t, values in series[::step]
-                    if isfinite(values[i])
-                ])  # fmt: skip
-    return points
+class Curve:
+    """The points of a field. Of many messages the extremes are kept, so that no peak is lost."""
+
+    def __init__(self, count: int) -> None:
+        """count: of messages that will be added."""
+        self._size = max(1, -(-2 * count // MOST_POINTS))  # messages of which two points are kept
+        self._group: list[Point] = []
+        self._points: list[Point] = []
+
+    def add(self, t: float, value: float) -> None:
+        self._group.append([round(t, 3), value])
+        if len(self._group) == self._size:
+            self._keep_extremes()
+
+    def points(self) -> list[Point]:
+        """Return the points without those inside a horizontal line."""
+        self._keep_extremes()
+        return corners(self._points)
+
+    def _keep_extremes(self) -> None:
+        if self._group:
+            extremes = [choose(self._group, key=lambda point: point[1]) for choose in (min, max)]
+            self._points += [p for p in self._group if p is extremes[0] or p is extremes[1]]
+            self._group = []
 
 
 def corners(points: list[Point]) -> list[Point]:
@@ -50,28 +71,34 @@ def corners(points: list[Point]) -> list[Point]:
 
 
 class Shelf:
-    """The recordings that are kept. Used by one thread, except in_use."""
+    """The recordings that were opened last. Used by one thread."""
 
     def __init__(self) -> None:
         self._kept: dict[Any, Recording] = {}  # by file; the last one was taken last
-        self.in_use: Sequence[Recording] = ()  # open on a page; replaced, never changed
 
     def take(self, file: Any, read: Callable[[], Recording]) -> Recording:
-        """Return the kept Recording of a file, or else read it. Raises RefusedError."""
-        taken = self._kept.pop(file, None) or read()
-        self._kept[file] = taken
-        self._make_room(taken)
+        """Return the kept Recording of a file, or else read it."""
+        taken = self._kept[file] = self._kept.pop(file, None) or read()
+        if len(self._kept) > MOST_KEPT:
+            del self._kept[next(iter(self._kept))]
         return taken
 
-    def _make_room(self, newest: Recording) -> None:
-        used = {id(recording) for recording in (*self.in_use, newest)}
-        unused = [file for file, recording in self._kept.items() if id(recording) not in used]
-        while unused and (len(self._kept) > MOST_KEPT or self._has_too_many()):
-            del self._kept[unused.pop(0)]
-        if self._has_too_many() and len(self._kept) > 1:
-            self._kept.popitem()
-            raise RefusedError("other pages have long recordings open: close one of them")
 
-    def _has_too_many(self) -> bool:
-        joys = (joys for recording in self._kept.values() for joys in recording.joys.values())
-        return sum(map(len, joys)) > MOST_MESSAGES
+def playable(
+    types: Mapping[str, str], topics: Sequence[str], published: Mapping[str, str]
+) -> dict[str, str]:
+    """Return the types of topics that can be played together. Raises RefusedError.
+
+    types: of the recording. published: of the topics in the graph.
+    """
+    if not topics:
+        raise RefusedError("choose a topic of the recording")
+    for topic in topics:
+        if topic not in types:
+            raise RefusedError(f"the recording has no topic {topic!r}")
+        if types[topic] != JOY and published.get(topic, types[topic]) != types[topic]:
+            raise RefusedError(f"{topic} has the type {published[topic]} here")
+    chosen = {topic: types[topic] for topic in topics}
+    if list(chosen.values()).count(JOY) > 1:
+        raise RefusedError("a robot has one joystick: choose one topic of the type Joy")
+    return chosen

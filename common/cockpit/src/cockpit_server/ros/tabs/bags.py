@@ -1,29 +1,36 @@
-"""The tab Bag: a page opens a recording, shows it, and plays it in the place of a driver."""
+"""The tab Bag: a page opens a recording, shows it, and plays topics of it."""
 
 from __future__ import annotations
 
 import time
 from concurrent.futures import ThreadPoolExecutor
-from typing import ClassVar, Sequence
+from typing import Any, ClassVar, Sequence
 
 from cockpit_server.driving.player import Player
+from cockpit_server.driving.reasons import sentence
 from cockpit_server.driving.who_drives import Driving
 from cockpit_server.errors import RefusedError
-from cockpit_server.graph import JOY
-from cockpit_server.pages import Page, Soon, TabSource
-from cockpit_server.ros.tabs.bag_files import bag_files, read, version
-from cockpit_server.schema import number, switch, text
-from cockpit_server.tabs.recordings import Recording, Shelf
+from cockpit_server.graph import JOY, GraphWatcher, topic_of
+from cockpit_server.pages import Page, Soon, TabSource, encoded
+from cockpit_server.ros.tabs.bag_files import bag_files, read, read_curves, version
+from cockpit_server.ros.tabs.replay import Replay
+from cockpit_server.schema import MOST_FIELDS, list_of, number, switch, text
+from cockpit_server.tabs.publishing import VELOCITY
+from cockpit_server.tabs.recordings import Recording, Shelf, playable
 from gamepad.errors import BagError
 
 LOOK_S = 2.0  # how often the folder is searched for recordings, while a page shows them
+MOST_TOPICS = 200  # of a recording that plays
+UNUSED_S = 5.0  # after which publishers and messages are given up
 
 
 class Opened:
     """The recording that a page has opened."""
 
     def __init__(self, recording: Recording) -> None:
-        self.recording, self.position, self.topic = recording, 0.0, ""
+        self.recording, self.position = recording, 0.0
+        self.topics: Sequence[str] = ()  # that were played last
+        self.sent: set[str] = set()  # fields whose curves the page has
         self.player: Player | None = None
 
 
@@ -33,33 +40,63 @@ class Bags(TabSource):
     Another thread reads files one after the other, one at a time for each page.
     """
 
-    watches: ClassVar = {"bag": (switch, False)}
+    watches: ClassVar = {"bag": (switch, False), "bag_fields": (list_of(text, MOST_FIELDS), ())}
     messages: ClassVar = {
         "bag_open": {"name": text},
-        "bag_play": {"topic": text, "rate": number(0.1, 10), "loop": switch, "robot": text},
+        "bag_play": {
+            "topics": list_of(text, MOST_TOPICS), "rate": number(0.1, 10), "loop": switch,
+            "robot": text,
+        },
         "bag_pause": {},
         "bag_seek": {"position": number(0, 1e6)},
-    }
+    }  # fmt: skip
 
-    def __init__(self, driving: Driving, soon: Soon) -> None:
-        self._driving, self._soon = driving, soon
+    def __init__(self, driving: Driving, soon: Soon, graphs: GraphWatcher) -> None:
+        self._driving, self._soon, self._graphs = driving, soon, graphs
         self._reader = ThreadPoolExecutor(1, thread_name_prefix="recordings")
         self._shelf = Shelf()
-        self._reading: set[int] = set()  # numbers of the pages that wait for a recording
+        self._reading: set[int] = set()  # numbers of the pages for which a file is read
+        self._drawing: set[Recording] = set()  # of which curves are read
         self._names: dict[bool, list[str]] = {}  # for pages that may drive, and for others
         self._next_look = 0.0  # [s]
         self._opened: dict[int, Opened] = {}  # by number of the page
+        self._player: Player | None = None  # the newest
+        self._used_at = 0.0  # [s] when it played last
+        self._replay = Replay(graphs, driving.session)  # used by the reader
 
     def collect(self, pages: Sequence[Page], now: float) -> None:
         numbers = {page.number for page in pages}
         self._opened = {n: opened for n, opened in self._opened.items() if n in numbers}
-        self._shelf.in_use = tuple(opened.recording for opened in self._opened.values())
+        for page in pages:
+            self._draw(page)
+        if self._driving.plays(self._player):
+            self._used_at = now
+        elif self._player and now - self._used_at > UNUSED_S:
+            self._player = None
+            self._reader.submit(self._replay.close)
         if now >= self._next_look and any(page.watch.bag for page in pages):
             self._next_look = now + LOOK_S
             self._reader.submit(self._look)
 
     def _look(self) -> None:
         self._names = {may_drive: sorted(bag_files(may_drive)) for may_drive in (False, True)}
+
+    def _draw(self, page: Page) -> None:
+        """Read the curves that a page lacks."""
+        opened = self._opened.get(page.number)
+        missing = set(page.watch.bag_fields).difference(opened.recording.curves if opened else ())
+        if opened and missing and opened.recording not in self._drawing:
+            self._drawing.add(opened.recording)
+            self._reader.submit(self._read_curves, opened.recording, missing)
+
+    def _read_curves(self, recording: Recording, fields: set[str]) -> None:
+        try:
+            curves = read_curves(recording, fields)
+        except Exception as error:  # whatever is in the file
+            refusal = encoded("refused", what="bag_open", why=why_not(recording.path.name, error))
+            curves = dict.fromkeys(fields, refusal)
+        recording.keep(curves)
+        self._drawing.discard(recording)
 
     def send_to(self, page: Page, now: float) -> None:
         names = self._names.get(page.drives)
@@ -68,23 +105,49 @@ class Bags(TabSource):
         opened = self._opened.get(page.number)
         if opened is None:
             return
-        if page.take_if_new("bag", opened):
-            page.write(opened.recording.message)
+        self._send_recording(page, opened)
         if opened.player:
             opened.position = opened.player.position(now)
         if not self._driving.plays(opened.player):
             opened.player = None
         plays = opened.player is not None
-        at = {"position": round(opened.position, 3), "playing": plays, "topic": opened.topic}
+        at = {"position": round(opened.position, 3), "playing": plays, "topics": opened.topics}
         if page.watch.bag and page.take_if_new("bag_at", at):
             page.send("bag_at", **at)
 
+    def _send_recording(self, page: Page, opened: Opened) -> None:
+        nodes = {topic: self._publishers(page, opened, topic) for topic in opened.recording.types}
+        busy = {"nodes": {topic: names for topic, names in nodes.items() if names}}
+        try:
+            self._driving.must_be_free(page)
+            busy["refusal"] = ""
+        except RefusedError as error:
+            busy["refusal"] = sentence(str(error))
+        if page.watch.bag and page.take_if_new("bag_busy", busy):
+            page.send("bag_busy", **busy)
+        if page.take_if_new("bag", opened):
+            page.write(opened.recording.message)
+        for field in page.watch.bag_fields:
+            if field in opened.recording.curves and field not in opened.sent:
+                opened.sent.add(field)
+                page.write(opened.recording.curves[field])
+
+    def _publishers(self, page: Page, opened: Opened, topic: str) -> list[str]:
+        """Return the other nodes that publish now where this topic would be played."""
+        if opened.recording.types[topic] == JOY:
+            topic = topic_of(page.watch.look or "", "joy")
+        graph = self._graphs.graph
+        return sorted(graph.publishers.get(topic, frozenset()) - {graph.own_name})
+
     def on_bag_open(self, page: Page, now: float, name: str) -> None:
-        if page.number in self._reading:
-            raise RefusedError("a recording is being opened for this page: wait for it")
+        self._must_be_read(page)
         self.on_bag_pause(page, now)
         self._reading.add(page.number)
         self._reader.submit(self._read, page, name)
+
+    def _must_be_read(self, page: Page) -> None:
+        if page.number in self._reading:
+            raise RefusedError("a recording is being opened for this page: wait for it")
 
     def _read(self, page: Page, name: str) -> None:
         opened, why = None, ""
@@ -93,10 +156,8 @@ class Bags(TabSource):
             if path is None:
                 raise RefusedError(f"{name!r} is not a recording that may be opened here")
             opened = Opened(self._shelf.take(version(path), lambda: read(path)))
-        except (BagError, RefusedError) as error:
-            why = str(error)
         except Exception as error:  # whatever is in the file; the page receives the reason
-            why = f"{name}: {type(error).__name__}: {error}"
+            why = why_not(name, error)
         self._soon(lambda: self._show(page, opened, why))
 
     def _show(self, page: Page, opened: Opened | None, why: str) -> None:
@@ -110,19 +171,42 @@ class Bags(TabSource):
         page.seen.pop("bag_at", None)
 
     def on_bag_play(
-        self, page: Page, now: float, *, topic: str, rate: float, loop: bool, robot: str
+        self, page: Page, now: float, *, topics: Sequence[str], rate: float, loop: bool, robot: str
     ) -> None:
         opened = self._must_be_open(page)
-        kind = opened.recording.types.get(topic)
-        if not kind:
-            raise RefusedError(f"the recording has no topic {topic!r}")
-        if kind != JOY:
-            raise RefusedError(f"{topic} is of type {kind}: only {JOY} may be published from here")
-        messages, duration = opened.recording.joys[topic], opened.recording.duration
-        player = Player(messages, duration, rate, loop)
-        player.seek(opened.position, now)
-        self._driving.play(page, robot, player, now)
-        opened.topic, opened.player = topic, player
+        self._must_be_read(page)
+        types = playable(opened.recording.types, topics, self._graphs.graph.types)
+        if opened.player:
+            opened.position = opened.player.position(now)
+        player = Player(opened.recording.duration, rate, loop, opened.position)
+        moving = [topic for topic, kind in types.items() if kind == VELOCITY]
+        about = {"robot": robot} if JOY in types.values() else {"topic": [*moving, *topics][0]}
+        self._driving.play(page, player, now, **about)
+        opened.topics, opened.player, self._player = topics, player, player
+        self._reading.add(page.number)
+        self._reader.submit(self._load, page, opened.recording, topics, player)
+
+    def _load(
+        self, page: Page, recording: Recording, topics: Sequence[str], player: Player
+    ) -> None:
+        try:
+            messages, ends = self._replay.load(recording, topics)
+        except Exception as error:
+            why = why_not(recording.path.name, error)
+            self._soon(lambda: self._give_up(page, player, why))
+        else:
+            self._soon(lambda: self._begin(page, player, messages, ends))
+
+    def _begin(self, page: Page, player: Player, messages: Any, ends: Any) -> None:
+        self._reading.discard(page.number)
+        if self._driving.plays(player):
+            player.load(messages, ends, time.monotonic())
+
+    def _give_up(self, page: Page, player: Player, why: str) -> None:
+        self._reading.discard(page.number)
+        page.refuse("bag_play", why)
+        if self._driving.plays(player):
+            self._driving.leave(page)
 
     def on_bag_pause(self, page: Page, now: float) -> None:
         opened = self._opened.get(page.number)
@@ -142,3 +226,9 @@ class Bags(TabSource):
         if opened is None:
             raise RefusedError("open a recording first")
         return opened
+
+
+def why_not(name: str, error: Exception) -> str:
+    if isinstance(error, (BagError, RefusedError)):
+        return str(error)
+    return f"{name}: {type(error).__name__}: {error}"

@@ -9,7 +9,7 @@ from typing import Any, ClassVar, Sequence, Tuple
 
 import rospy
 
-from cockpit_server.fields import numbers_of, parts_of, split, value_at
+from cockpit_server.fields import by_topic, numbers_of, value_at
 from cockpit_server.graph import GraphWatcher
 from cockpit_server.messages import ReceivedMessage, Subscriptions, decoded
 from cockpit_server.pages import Page, TabSource
@@ -44,14 +44,8 @@ class Plots(TabSource):
 
     def collect(self, pages: Sequence[Page], now: float) -> None:
         fields = {field for page in pages for field in page.watch.fields}
-        wanted: dict[str, dict[str, Any]] = {}
         published, types = self._graphs.graph.published, self._graphs.graph.types
-        for field in fields:
-            topic, rest = split(field, published)
-            parts = parts_of(rest)
-            if topic and parts:  # A topic may be published later.
-                wanted.setdefault(topic, {})[field] = parts
-        self._wanted = wanted
+        self._wanted = wanted = by_topic(fields, published)  # A topic may be published later.
         with self._lock:
             self._samples = {f: self._samples.get(f) or deque(maxlen=KEPT) for f in fields}
         handlers = dict.fromkeys(wanted, self._on_message)
