@@ -15,6 +15,7 @@ from cockpit_server.fields import numbers_in
 from cockpit_server.ros.tabs import recorded_types
 from cockpit_server.ros.tabs.bag_files import read_messages
 from cockpit_server.ros.tabs.recorded_types import Connection, fields_alone
+from cockpit_server.ros.tabs.replay import raw_kind
 from tutorial_testing.claims import claim
 
 pytestmark = claim("A recording of any type is read, and no text in it runs as a program")
@@ -75,10 +76,10 @@ def test_hostile_definition_runs_nothing(type_name, definition, monkeypatch, tmp
     assert "hacked" not in fields_alone(definition)
     path = tmp_path / "x.bag"
     with rosbag.Bag(str(path), "w") as bag:
-        message = about.raw_kind().deserialize(b"1234")
+        message = raw_kind(about)().deserialize(b"1234")
         header = {"topic": "/x", "type": type_name, "md5sum": about.md5sum,
                   "message_definition": definition}  # fmt: skip
-        raw = (type_name, b"1234", about.md5sum, None, about.raw_kind)
+        raw = (type_name, b"1234", about.md5sum, None, raw_kind(about))
         bag.write("/x", raw, rospy.Time(1), raw=True, connection_header=header)
         assert message.serialize(BytesIO()) is None
     assert [data for *_, data in read_messages(path, ["/x"])[1]] == [b"1234"]

@@ -169,9 +169,16 @@ class Driving(TabSource):
 
     def must_be_free(self, page: Page) -> None:
         """Raise RefusedError if a page is a viewer's, or another page drives."""
-        page.must_drive()
-        if self.session.driver not in (None, page.number):
-            raise RefusedError("another page drives: until it ends, only that page may do this")
+        refusal = self.why_not_free(page)
+        if refusal:
+            raise RefusedError(refusal)
+
+    def why_not_free(self, page: Page) -> str:
+        """Return why a page may not act on the graph now, or ""."""
+        if not page.drives:
+            return LOOKS_ONLY
+        is_free = self.session.driver in (None, page.number)
+        return "" if is_free else "another page drives: until it ends, only that page may do this"
 
     def must_rest(self, page: Page, robot: str) -> None:
         """Raise RefusedError if a page may not reset a robot, or something else drives it."""

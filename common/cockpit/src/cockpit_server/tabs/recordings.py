@@ -78,7 +78,7 @@ class Shelf:
 
     def take(self, file: Any, read: Callable[[], Recording]) -> Recording:
         """Return the kept Recording of a file, or else read it."""
-        taken = self._kept[file] = self._kept.pop(file, None) or read()
+        taken = self._kept[file] = self._kept.pop(file) if file in self._kept else read()
         if len(self._kept) > MOST_KEPT:
             del self._kept[next(iter(self._kept))]
         return taken

@@ -116,13 +116,9 @@ class Bags(TabSource):
             page.send("bag_at", **at)
 
     def _send_recording(self, page: Page, opened: Opened) -> None:
-        nodes = {topic: self._publishers(page, opened, topic) for topic in opened.recording.types}
-        busy = {"nodes": {topic: names for topic, names in nodes.items() if names}}
-        try:
-            self._driving.must_be_free(page)
-            busy["refusal"] = ""
-        except RefusedError as error:
-            busy["refusal"] = sentence(str(error))
+        publishers = {t: self._publishers(page, opened, t) for t in opened.recording.types}
+        nodes = {topic: names for topic, names in publishers.items() if names}
+        busy = {"nodes": nodes, "refusal": sentence(self._driving.why_not_free(page))}
         if page.watch.bag and page.take_if_new("bag_busy", busy):
             page.send("bag_busy", **busy)
         if page.take_if_new("bag", opened):

@@ -36,12 +36,6 @@ class Connection(NamedTuple):
         """The class that decodes its messages, or None."""
         return _kind(self.type, self.md5sum, self.definition)
 
-    @property
-    def raw_kind(self) -> type[rospy.AnyMsg]:
-        """A class for a publisher whose messages stay bytes."""
-        about = {"_type": self.type, "_md5sum": self.md5sum, "_full_text": self.definition}
-        return type("Recorded", (rospy.AnyMsg,), about)
-
 
 def connections(bag: rosbag.Bag) -> list[Connection]:
     """Return the connections of a bag, whose messages can then be read as bytes.

@@ -41,9 +41,16 @@ Output = Union[Queued, PromptPublisher]
 
 
 def output_of(about: Connection) -> Output:
+    kind = raw_kind(about)
     if about.type == VELOCITY:  # A velocity is never latched, nor kept for later.
-        return PromptPublisher(about.topic, about.raw_kind)
-    return Queued(about.topic, about.raw_kind, queue_size=QUEUE, latch=about.is_latched)
+        return PromptPublisher(about.topic, kind)
+    return Queued(about.topic, kind, queue_size=QUEUE, latch=about.is_latched)
+
+
+def raw_kind(about: Connection) -> type[rospy.AnyMsg]:
+    """Return a class for a publisher whose messages stay bytes."""
+    names = {"_type": about.type, "_md5sum": about.md5sum, "_full_text": about.definition}
+    return type("Recorded", (rospy.AnyMsg,), names)
 
 
 class Replay:
@@ -57,7 +64,7 @@ class Replay:
 
     def load(
         self, recording: Recording, topics: Sequence[str]
-    ) -> tuple[list[Message], list[Callable[[], Any]]]:
+    ) -> tuple[list[Message], list[Callable[[], object]]]:
         """Return the messages for a Player, and what ends their motions, once all is connected.
 
         Raises BagError.
@@ -70,7 +77,7 @@ class Replay:
         wanted = {(about.topic, about.md5sum): about for about in known.values()}
         self._open({key: about for key, about in wanted.items() if about.type != JOY})
         sends: dict[str, Send] = dict.fromkeys(known, self._move_joystick)
-        ends = []
+        ends: list[Callable[[], object]] = []
         for key, output in self._outputs.items():
             about = wanted[key]
             sends[about.topic] = partial(send, output)
