@@ -52,7 +52,7 @@ export class BagTab {
   <div class="pair">
     <div class="card">${FieldList.panel("bag")}</div>
     <div class="card"><h2>Topics to publish</h2>
-      <table><thead><tr><th>Topic</th><th>Type</th><th>Messages</th></tr></thead>
+      <table><thead><tr><th>Topic</th><th>Messages</th></tr></thead>
         <tbody id="bag-topics"></tbody></table></div>
   </div>`;
   static watches = { bag: false, bag_fields: [] };

@@ -22,8 +22,8 @@ export class TopicsToPlay {
     this.root.replaceChildren(...topics.map(({ name, type, count }) => {
       const box = element("input", { type: "checkbox", value: name });
       box.onchange = () => this.#choose(name, box.checked);
-      const cell = element("div", {}, element("label", {}, box, ` ${name}`), element("span", { className: "hint" }));
-      return row(cell, type, String(count));
+      const about = [element("p", { className: "hint" }, type), element("p", { className: "hint others" })];
+      return row(element("div", {}, element("label", {}, box, ` ${name}`), ...about), String(count));
     }));
     this.tick(this.#nodes);
   }
@@ -42,7 +42,7 @@ export class TopicsToPlay {
       const isOther = this.#joysticks.indexOf(box.value) > 0 || LEFT_OUT.includes(box.value);
       box.checked = this.#choices[box.value] ?? (!others.length && !isOther);
       const publish = others.length > 1 ? "publish" : "publishes";
-      say(box.closest("td").querySelector(".hint"), others.length ? `${others.join(" and ")} ${publish} this now` : "");
+      say(box.closest("td").querySelector(".others"), others.length ? `${others.join(" and ")} ${publish} this now` : "");
     }
     this.onChange();
   }

@@ -147,22 +147,6 @@ def test_a_tab_without_the_floor_receives_little(world, shared_browser, tab):
         page.send("Page.removeScriptToEvaluateOnNewDocument", **script)
 
 
-def test_a_recording_without_a_joystick_says_how_to_play_it(world, page):
-    page.driver.get(f"{world.address}#bag")
-    script = """const [done] = arguments;
-    import("/page/bag_tab.js").then(({BagTab}) => {
-      const handlers = {}, on = (kind, handler) => ((handlers[kind] ??= []).push(handler));
-      const link = {isOpen: true, send: () => true, on};
-      new BagTab(link, () => {}, {look: () => ""});
-      const topics = [{name: "/odom", type: "nav_msgs/Odometry", count: 3}];
-      const bag = {path: "all.bag", start: 0, end: 2, curves: {}, topics};
-      for (const hear of handlers.bag) hear(bag);
-      const chart = document.getElementById("bag-chart");
-      done(getComputedStyle(chart, "::before").content);
-    });"""
-    assert "rosbag play all.bag" in page.driver.execute_async_script(script)
-
-
 def test_turtles_alone_have_no_cards_of_a_robot(shared_browser):
     class Turtles(World):
         def begin(self):

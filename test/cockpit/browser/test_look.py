@@ -15,6 +15,7 @@ CHOSEN = {
     "graph": [("#graph .topic", "#graph-details dd")],
     "topics": [("#topics-rows tr", "#topics-fields input")],
     "diagnostics": [("#diagnostics-tree details details > summary", "#diagnostics-tree td")],
+    "bag": [("#bag-fields li:nth-child(8) input", "#bag-values span:nth-child(7)")],
     "plot": [("#plot-fields li:nth-child(10) input", "#plot-values span")],
 }
 NARROW = (320, 256)  # 1280 x 1024 at 400 %: WCAG 2.2, 1.4.10

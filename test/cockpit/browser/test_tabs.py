@@ -1,15 +1,12 @@
 """Every tab shows what ROS's own commands print."""
 
 import re
-from pathlib import Path
 
 from tutorial_testing.claims import claim
 from tutorial_testing.cockpit.chromium import SHIFT
 from tutorial_testing.cockpit.hands import Keys
-from tutorial_testing.processes import REPOSITORY
 from tutorial_testing.waiting import wait_for
 
-RECORDING = str(REPOSITORY / "common/gamepad/bag/joy.bag")
 POSITION = "/odom/pose/pose/position/x"
 
 
@@ -48,52 +45,6 @@ def test_robot_shows_odometry_joy2twist_and_a_kobuki(world, page, ros):
                             ("buttons", "0, 2"), ("wheel_drops", "right")):  # fmt: skip
             page.wait_for_text(f"#kobuki [data-value={name}]", words)
     page.wait_for_text("#kobuki [data-value=battery]", "\N{EN DASH}")
-
-
-@claim(
-    "Tab Bag: the values at the slider; what publishes needs no button, and Pause stops the robot; "
-    "a new connection opens it again and publishes nothing"
-)
-def test_bag_shows_the_values_at_its_slider_and_publishes_until_it_is_paused(world, page, ros):
-    page.tab("Bag")
-    info = ros("rosbag", "info", "-y", RECORDING)
-    duration, messages = (re.search(rf"{key}: (\S+)", info)[1] for key in ("duration", "messages"))
-    page.wait_for_text("#bag-about", f"joy.bag: {float(duration):.1f} s")
-    page.wait_for_text("#bag-topics", messages)
-    wait_for(lambda: page.all("#bag-chart canvas"), "chart")
-    # The slider begins where the chart's axis does.
-    middle = "(({left, right}) => (left + right) / 2)(%s.getBoundingClientRect())"
-    zero = page.ask(middle % 'document.querySelector("#bag-chart .dygraph-axis-label-x")')
-    left = "document.querySelector('#bag-position').getBoundingClientRect().left"
-    wait_for(lambda: abs(page.ask(left) - zero) < 8, "slider below the chart")
-    page.driver.execute_script("""const slider = document.querySelector("#bag-position");
-      slider.value = 20;
-      slider.dispatchEvent(new Event("input"));""")
-    page.wait_for_text('[data-curve="/joy/buttons[4]"] output', "1")
-    page.click("Publish")
-    wait_for(lambda: world.now.moves, "robot that moves")
-    page.wait_for_text("#session", "You play a recording to the robot.")
-    assert "LB" not in page.text("#drive")  # no button must be held
-    page.click("Pause")
-    world.wait_for_rest()
-    assert world.stays_at_rest()
-
-
-@claim("Tab Bag records all topics; a recording ends whole, also with a cockpit that is killed")
-def test_bag_records_all_topics_into_the_folder_and_offers_the_file(world, page, ros):
-    page.tab("Bag")
-    page.click("Record all topics")
-    page.wait_for_text("#bag-recorder", "Recording page_")
-    name = page.text("#bag-recorder").split()[1]
-    wait_for(lambda: "/record_" in ros("rosnode", "list"), "recorder")
-    world.more(100)
-    page.click("Stop recording")
-    page.wait_for_text("#bag-name", name)
-    page.one("#bag-name").send_keys(name)
-    page.click("Open")
-    page.wait_for_text("#bag-about", name)
-    page.wait_for_text("#bag-topics", "/odom")
-    Path(name).unlink()
 
 
 MARKS = """[...document.querySelectorAll('#plot-chart .dygraph-axis-label-x')]
