@@ -15,7 +15,7 @@ from sensor_msgs.msg import Joy
 
 from cockpit_server.errors import RefusedError
 from cockpit_server.graph import Graph
-from cockpit_server.ros.tabs import bag_files, bags, replay
+from cockpit_server.ros.tabs import bag_files, bags, playback
 from cockpit_server.ros.tabs.bag_files import read
 from gamepad.errors import BagError
 from tutorial_testing.claims import claim
@@ -136,7 +136,7 @@ class Output:
 
 @pytest.fixture
 def outputs(monkeypatch):
-    monkeypatch.setattr(replay, "output_of", Output)
+    monkeypatch.setattr(playback, "output_of", Output)
     monkeypatch.setattr(Output, "all", {})
     return Output.all
 

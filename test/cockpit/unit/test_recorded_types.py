@@ -14,8 +14,8 @@ from sensor_msgs.msg import Joy
 from cockpit_server.fields import numbers_in
 from cockpit_server.ros.tabs import recorded_types
 from cockpit_server.ros.tabs.bag_files import read_messages
+from cockpit_server.ros.tabs.playback import raw_kind
 from cockpit_server.ros.tabs.recorded_types import Connection, fields_alone
-from cockpit_server.ros.tabs.replay import raw_kind
 from tutorial_testing.claims import claim
 
 pytestmark = claim("A recording of any type is read, and no text in it runs as a program")

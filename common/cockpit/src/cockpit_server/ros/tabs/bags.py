@@ -13,7 +13,7 @@ from cockpit_server.errors import RefusedError
 from cockpit_server.graph import JOY, GraphWatcher, topic_of
 from cockpit_server.pages import Page, Soon, TabSource, encoded
 from cockpit_server.ros.tabs.bag_files import bag_files, read, read_curves, version
-from cockpit_server.ros.tabs.replay import Replay
+from cockpit_server.ros.tabs.playback import Playback
 from cockpit_server.schema import MOST_FIELDS, list_of, number, switch, text
 from cockpit_server.tabs.publishing import VELOCITY
 from cockpit_server.tabs.recordings import Recording, Shelf, playable
@@ -62,7 +62,7 @@ class Bags(TabSource):
         self._opened: dict[int, Opened] = {}  # by number of the page
         self._player: Player | None = None  # the newest
         self._used_at = 0.0  # [s] when it played last
-        self._replay = Replay(graphs, driving.session)  # used by the reader
+        self._playback = Playback(graphs, driving.session)  # used by the reader
 
     def collect(self, pages: Sequence[Page], now: float) -> None:
         numbers = {page.number for page in pages}
@@ -73,7 +73,7 @@ class Bags(TabSource):
             self._used_at = now
         elif self._player and now - self._used_at > UNUSED_S:
             self._player = None
-            self._reader.submit(self._replay.close)
+            self._reader.submit(self._playback.close)
         if now >= self._next_look and any(page.watch.bag for page in pages):
             self._next_look = now + LOOK_S
             self._reader.submit(self._look)
@@ -186,7 +186,7 @@ class Bags(TabSource):
         self, page: Page, recording: Recording, topics: Sequence[str], player: Player
     ) -> None:
         try:
-            messages, ends = self._replay.load(recording, topics)
+            messages, ends = self._playback.load(recording, topics)
         except Exception as error:
             why = why_not(recording.path.name, error)
             self._soon(lambda: self._give_up(page, player, why))

@@ -53,7 +53,7 @@ def raw_kind(about: Connection) -> type[rospy.AnyMsg]:
     return type("Recorded", (rospy.AnyMsg,), names)
 
 
-class Replay:
+class Playback:
     """The topics that were played last: their messages and publishers. Used by one thread."""
 
     def __init__(self, graphs: GraphWatcher, session: DriverSession) -> None:
