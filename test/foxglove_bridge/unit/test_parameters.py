@@ -27,7 +27,7 @@ def test_the_launch_file_has_the_defaults_and_passes_each_argument():
     assert BridgeParameters().address == "127.0.0.1"
     given = {"topic_whitelist": r"['/a\d', '/b']", "port": "1", "tls": "true"}
     parameters = parse_parameters(launched(**given))
-    assert [pattern.pattern for pattern in parameters.topic_whitelist] == [r"/a\d", "/b"]
+    assert parameters.topic_whitelist == (r"/a\d", "/b")
     assert (parameters.port, parameters.tls) == (1, True)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from typing import Any, Iterable, Mapping, Pattern, Tuple
+from typing import Any, Mapping, Tuple
 
 from node_kit.parameters import declaration
 from node_kit.parameters.declaration import Allowed, parameter, switch, text, whole_number
@@ -13,17 +13,17 @@ CAPABILITIES = (
     "clientPublish", "parameters", "parametersSubscribe", "services", "connectionGraph", "assets",
 )  # fmt: skip
 ASSETS = r"package://[-\w/]+\.(dae|glb|gltf|jpe?g|mtl|obj|png|stl|urdf)"
-Patterns = Tuple[Pattern[str], ...]
+Patterns = Tuple[str, ...]
 
 
 def _are_patterns(value: Any) -> bool:
     try:
-        return isinstance(value, list) and all(re.compile(pattern) for pattern in value)
+        return isinstance(value, list) and all(map(re.compile, value))
     except (re.error, TypeError):
         return False
 
 
-_PATTERNS = Allowed("a list of regular expressions", _are_patterns, lambda v: _compiled(*v))
+_PATTERNS = Allowed("a list of regular expressions", _are_patterns, tuple)
 _WORDS = Allowed(
     f"a list of some of {', '.join(CAPABILITIES)}",
     lambda value: isinstance(value, list) and all(word in CAPABILITIES for word in value),
@@ -36,11 +36,7 @@ _MS = whole_number(100, 3_600_000, "from 100 to 3600000")
 _IGNORED = "has no effect here"
 
 
-def _compiled(*patterns: str) -> Patterns:
-    return tuple(map(re.compile, patterns))
-
-
-_ALL = _compiled(".*")
+_ALL = (".*",)
 
 
 @dataclass(frozen=True)
@@ -57,7 +53,7 @@ class BridgeParameters:
     service_whitelist: Patterns = parameter(_ALL, _PATTERNS, "services that they call", "all")
     client_topic_whitelist: Patterns = parameter(_ALL, _PATTERNS, "topics they publish", "all")
     asset_uri_allowlist: Patterns = parameter(
-        _compiled(ASSETS), _PATTERNS, "files of packages that they read", "models and images"
+        (ASSETS,), _PATTERNS, "files of packages that they read", "models and images"
     )
     capabilities: tuple[str, ...] = parameter(CAPABILITIES, _WORDS, "what they may do", "all")
     max_update_ms: int = parameter(5000, _MS, "between two looks for topics; at most 1000 here")
@@ -83,6 +79,6 @@ def parse_parameters(given: Mapping[str, Any]) -> BridgeParameters:
     return BridgeParameters(**declaration.checked(BridgeParameters, given))
 
 
-def is_allowed(name: str, patterns: Iterable[Pattern[str]]) -> bool:
+def is_allowed(name: str, patterns: Patterns) -> bool:
     """Return whether a whitelist has a name, as a whole."""
-    return any(pattern.fullmatch(name) for pattern in patterns)
+    return any(re.fullmatch(pattern, name) for pattern in patterns)

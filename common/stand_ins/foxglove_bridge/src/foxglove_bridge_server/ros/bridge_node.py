@@ -35,14 +35,6 @@ LONGEST_LOOK_S = 1.0  # between two looks at the master
 BACKLOG = 1024  # messages that the SDK keeps for a client; then it drops the oldest
 SWITCH_S = 0.0005  # how long a thread may keep the others waiting
 CLOCK, PACKAGE = "/clock", "package://"
-SDK_NAMES = {
-    "clientPublish": Capability.ClientPublish,
-    "parameters": Capability.Parameters,
-    "parametersSubscribe": Capability.Parameters,
-    "services": Capability.Services,
-    "connectionGraph": Capability.ConnectionGraph,
-    "time": Capability.Time,
-}
 
 
 class Bridge:
@@ -69,7 +61,7 @@ class Bridge:
         self._server = foxglove.start_server(
             name="foxglove_bridge",
             port=0,
-            capabilities=[SDK_NAMES[word] for word in words & set(SDK_NAMES)],
+            capabilities=[getattr(Capability, _sdk_name(w)) for w in words - {"assets"}],
             server_listener=_listener(self._topics, self._client_topics, self._values, self),
             supported_encodings=[ENCODING],
             asset_handler=self._asset if "assets" in words else None,
@@ -158,6 +150,11 @@ def _listener(*parts: Any) -> SimpleNamespace:
     """Return an object with the methods of all parts that the SDK calls, in its threads."""
     methods = {n: getattr(p, n) for p in parts for n in dir(p) if n.startswith("on_")}
     return SimpleNamespace(**methods)
+
+
+def _sdk_name(capability: str) -> str:
+    """Return the name of a capability; the SDK always has both of those of parameters."""
+    return capability[0].upper() + capability[1:].replace("sSubscribe", "s")
 
 
 def _ask(method: str) -> tuple[Answer, Any]:

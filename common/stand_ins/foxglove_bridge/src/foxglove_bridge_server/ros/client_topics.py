@@ -6,13 +6,13 @@ import queue
 import struct
 import threading
 import time
-from typing import Any, Callable, Iterable, Pattern, Tuple
+from typing import Any, Callable, Tuple
 
 import rospy
 from rosgraph.names import is_legal_name
 
 from foxglove_bridge_server.messages import fits
-from foxglove_bridge_server.parameters import is_allowed
+from foxglove_bridge_server.parameters import Patterns, is_allowed
 from foxglove_bridge_server.ros.topic_channels import ENCODING
 from foxglove_bridge_server.velocities import KINDS, VelocityTopic
 from node_kit.message_types import message_class
@@ -67,7 +67,7 @@ class _Outlet:
 class ClientTopics:
     """The topics on which clients publish. The SDK's threads only queue what clients send."""
 
-    def __init__(self, whitelist: Iterable[Pattern[str]], warn: Callable[[str], object]) -> None:
+    def __init__(self, whitelist: Patterns, warn: Callable[[str], object]) -> None:
         self._whitelist, self._warn = whitelist, warn
         self._jobs: queue.SimpleQueue[tuple[Any, ...]] = queue.SimpleQueue()
         self._outlets: dict[User, _Outlet] = {}
