@@ -66,7 +66,7 @@ export class DiagnosticsTab {
     if (lines.length === place.children.length && lines.every((line, i) => line === place.children[i])) return;
     const focused = /** @type {HTMLElement} */ (document.activeElement);
     place.replaceChildren(...lines);
-    focused.focus({ preventScroll: true }); // An element that moves loses it.
+    focused?.focus({ preventScroll: true }); // An element that moves loses it.
   }
 
   #drawLine(name, { path, rank, changed, message = "", values = [], below }) {
