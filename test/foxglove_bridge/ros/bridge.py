@@ -4,6 +4,8 @@ import importlib.util
 import os
 import signal
 import socket
+import ssl
+import subprocess
 import time
 import unittest
 
@@ -37,7 +39,7 @@ class BridgeTest(RosTest):
         with socket.create_server(("127.0.0.1", 0)) as free:
             port = free.getsockname()[1]
         program = self.start(BRIDGE, f"_port:={port}", *parameters)
-        wait_for(lambda: "ws://127.0.0.1" in program.output, "bridge", seen=lambda: program.output)
+        wait_for(lambda: "://127.0.0.1" in program.output, "bridge", seen=lambda: program.output)
         return program, port
 
     def client(self, port):
@@ -325,6 +327,26 @@ class ClientsTest(BridgeTest):
         self.assertEqual(bridge.wait(), 1, bridge.output)
         self.assertIn("foxglove_bridge: the ROS master has exited", bridge.output)
         self.assertNotIn("Traceback", bridge.output)
+
+    def test_a_client_with_tls_is_served_and_one_without_it_is_not(self):
+        folder = self.folder()
+        certificate, key = folder / "certificate.pem", folder / "key.pem"
+        request = ["openssl", "req", "-x509", "-newkey", "rsa:2048", "-nodes", "-days", "2"]
+        request += ["-subj", "/CN=localhost", "-addext", "subjectAltName=IP:127.0.0.1"]
+        files = ["-out", certificate, "-keyout", key]
+        subprocess.run([*request, *files], check=True, capture_output=True)
+        program, port = self.bridge("_tls:=true", f"_certfile:={certificate}", f"_keyfile:={key}")
+        self.assertIn("wss://127.0.0.1", program.output)
+        trust = ssl.create_default_context(cafile=str(certificate))
+        with socket.create_connection(("127.0.0.1", port)) as plain:
+            plain.sendall(b"GET / HTTP/1.1\r\n\r\n")
+            self.assertEqual(plain.recv(100), b"")
+        client = self.enter(SocketClient(port, tls=trust))
+        client.subscribe("/rosout")
+        rospy.logwarn("a line")
+        wait_for(lambda: client.data("/rosout"), "message")
+        self.end(program)
+        self.assertNotIn("SSL", program.output)
 
     def test_mistakes_are_one_line(self):
         _, port = self.bridge("__name:=first")

@@ -5,6 +5,7 @@ import json
 import struct
 import threading
 
+from tornado.httpclient import HTTPRequest
 from tornado.websocket import websocket_connect
 
 from tutorial_testing.processes import Started
@@ -17,8 +18,10 @@ OLD_NAME = "foxglove.websocket.v1"  # of the subprotocol
 class SocketClient(Started):
     """A context manager. It subscribes by topic, and keeps what arrives."""
 
-    def __init__(self, port, subprotocol=OLD_NAME):
+    def __init__(self, port, subprotocol=OLD_NAME, tls=None):
+        """tls: the ssl.SSLContext, if any."""
         super().__init__()
+        self._tls = tls
         self._port, self._subprotocol = port, subprotocol
         self.texts, self.times = [], []  # what arrived
         self._data, self._topics, self.answers = [], {}, {}
@@ -37,8 +40,9 @@ class SocketClient(Started):
         self._loop.close()
 
     async def _connect(self):
-        url, names = f"ws://127.0.0.1:{self._port}", [self._subprotocol]
-        self._socket = await websocket_connect(url, subprotocols=names)
+        url = f"ws{'s' if self._tls else ''}://127.0.0.1:{self._port}"
+        request = HTTPRequest(url, ssl_options=self._tls)
+        self._socket = await websocket_connect(request, subprotocols=[self._subprotocol])
         self._reading = asyncio.ensure_future(self._read())
 
     async def _read(self):

@@ -32,6 +32,7 @@ _WORDS = Allowed(
 _ADDRESS = text("an address", lambda value: re.fullmatch(r"[\w.:-]+", value))
 _NAME = text("a name of ROS", lambda value: re.fullmatch(r"[/~]?\w[\w/]*", value))
 _FILE = text("a file in PEM, where `tls` is true")
+_COUNT = whole_number(0, allowed="a whole number from 0")
 _MS = whole_number(100, 3_600_000, "from 100 to 3600000")
 _IGNORED = "has no effect here"
 
@@ -58,12 +59,14 @@ class BridgeParameters:
     capabilities: tuple[str, ...] = parameter(CAPABILITIES, _WORDS, "what they may do", "all")
     max_update_ms: int = parameter(5000, _MS, "between two looks for topics; at most 1000 here")
     send_buffer_limit: int = parameter(
-        10_000_000, whole_number(10_000), "bytes kept for a client that reads slowly"
+        10_000_000,
+        whole_number(10_000, allowed="from 10000"),
+        "bytes kept for a client that reads slowly",
     )
     use_compression: bool = parameter(False, switch, _IGNORED)
-    num_threads: int = parameter(0, whole_number(0), _IGNORED)
+    num_threads: int = parameter(0, _COUNT, _IGNORED)
     nodelet_manager: str = parameter("foxglove_nodelet_manager", _NAME, _IGNORED)
-    service_type_retrieval_timeout_ms: int = parameter(250, whole_number(0), _IGNORED)
+    service_type_retrieval_timeout_ms: int = parameter(250, _COUNT, _IGNORED)
 
     def ignored(self) -> list[str]:
         """Return a line for each parameter that was set and has no effect here."""

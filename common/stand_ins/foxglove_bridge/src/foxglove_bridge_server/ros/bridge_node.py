@@ -32,7 +32,7 @@ from node_kit.ros.log import Log
 from node_kit.rules.answer import Answer
 
 LONGEST_LOOK_S = 1.0  # between two looks at the master
-BACKLOG = 1024  # messages that the SDK keeps for a client; then it drops the oldest
+BACKLOG = 256  # messages that the SDK keeps for a client; then it drops the oldest
 SWITCH_S = 0.0005  # how long a thread may keep the others waiting
 CLOCK, PACKAGE = "/clock", "package://"
 
