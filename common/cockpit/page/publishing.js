@@ -25,10 +25,10 @@ export class Publishing {
     document.addEventListener("visibilitychange", () => this.end());
   }
 
-  /** fields: of the message "publish"; with a period [s] it repeats. Returns whether it was sent. */
+  /** fields: of the message "publish"; with a period [s] it repeats. */
   begin(fields) {
     this.#mayRun = true;
-    return this.link.send("publish", fields);
+    this.link.send("publish", fields);
   }
 
   /** Stop all: a page that is hidden or not connected publishes and moves nothing. */

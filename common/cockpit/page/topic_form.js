@@ -10,8 +10,6 @@ export const FORMS = { // of each kind: what the server is asked to describe, an
   parameters: { what: "parameter", title: "Set this parameter", act: "Set" },
 };
 
-const NOTHING = { kind: "topics", name: "", type: "" };
-
 export class TopicForm {
   static panel = `
     <form class="card" id="topics-form" hidden><h2 id="topics-do"></h2>
@@ -22,7 +20,7 @@ export class TopicForm {
           placeholder="once"> Hz</label></p>
       <pre id="topics-answer" role="status"></pre></form>`;
 
-  #about = NOTHING; // what it publishes, calls or sets
+  /** @type {any} */ #about = {}; // kind, name and type of what it publishes, calls or sets
   #sets = false; // whether the form of a parameter is the answer to Set
 
   /** onSet(): called when a parameter has been set. */
@@ -47,7 +45,7 @@ export class TopicForm {
   }
 
   hide() {
-    this.#about = NOTHING;
+    this.#about = {};
     byId("topics-form").hidden = true;
     say(byId("topics-answer"), "");
   }

@@ -157,6 +157,12 @@ def test_what_moves_nothing_ends_with_its_page_and_makes_no_driver():
     desk.is_silent = False
     desk.pass_time(0.5)
     assert len(desk.published) == count
+    desk = Desk(TEXT)
+    desk.is_silent = True
+    desk.pass_time(0.3)  # until the page is sent what runs, and its first sign has arrived
+    desk.is_silent = False
+    desk.pass_time(1.0)
+    assert len(desk.published) > 9
     desk = Desk(VELOCITY, ONCE)
     desk.driving.on_stop(desk.anna[0], desk.now)
     desk.publish({})  # a zero, once

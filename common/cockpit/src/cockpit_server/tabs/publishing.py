@@ -122,7 +122,7 @@ class Publishing(TabSource):
             if not self._is_fresh(page, held, sign, now):
                 continue
             held.fresh_at = now
-            if held.period and topic == due:
+            if topic == due:
                 self._publish_again(page, held, now)
 
     def _is_fresh(self, page: Page, held: Held, sign: PageInput, now: float) -> bool:
