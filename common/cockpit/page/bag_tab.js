@@ -7,13 +7,13 @@ import { Track, written } from "./samples.js";
 import { JOY, TopicsToPlay } from "./topics_to_play.js";
 
 /** Names of fields, with the entries of arrays; fields: [[name, length or 0], ...]. */
-function namesOf(fields, most) {
+export function namesOf(fields, most) {
   return fields.flatMap(([name, length]) =>
     (length ? Array.from({ length: Math.min(length, most) }, (_, i) => `${name}[${i}]`) : [name]));
 }
 
 /** The fields that are drawn at first: a joystick's axes, or a robot's place, or the first ones. */
-function firstFields({ topics, fields }) {
+export function firstFields({ topics, fields }) {
   const names = namesOf(fields, FIRST);
   const of = (kind, part) => {
     const topic = topics.find(({ type }) => type === kind)?.name;

@@ -17,6 +17,7 @@ from cockpit_server.errors import RefusedError
 from cockpit_server.graph import Graph
 from cockpit_server.ros.tabs import bag_files, bags, playback
 from cockpit_server.ros.tabs.bag_files import read
+from cockpit_server.ros.tabs.recorded_types import Connection
 from gamepad.errors import BagError
 from tutorial_testing.claims import claim
 from tutorial_testing.nodes import serialised
@@ -36,9 +37,10 @@ class Page:
 
     def __init__(self):
         self.done, self.player, self.about, self.joysticks = queue.Queue(), None, None, []
+        self.refusal = ""
         session = SimpleNamespace(play=lambda axes, _buttons: self.joysticks.append(axes))
         driving = SimpleNamespace(
-            play=self.take, session=session, why_not_free=lambda _: "",
+            play=self.take, session=session, why_not_free=lambda _: self.refusal,
             plays=lambda player: bool(player) and player is self.player, leave=self.leave,
         )  # fmt: skip
         self.graphs = Graphs(Graph(publishers={"/odom": {"/cockpit", "/sim"}}, own_name="/cockpit"))
@@ -74,6 +76,13 @@ class Page:
     def open(self, name):
         self.say("bag_open", name=name)
         return self.show()
+
+    def busy(self):
+        """Return (nodes, refusal) of each "bag_busy" since the last call."""
+        self.bags.send_to(self.client, 0.0)
+        messages = [message for message in self.sent if message["kind"] == "bag_busy"]
+        self.sent.clear()
+        return [(message["nodes"], message["refusal"]) for message in messages]
 
     def draw(self, *fields):
         """Choose fields; return the messages that the page is sent for it."""
@@ -165,8 +174,14 @@ def test_fields_that_a_recording_lacks_have_no_points(page):
 @claim("Before a recording plays, the page names other nodes that publish its topics")
 def test_page_is_told_which_topics_others_publish_and_why_it_may_not_play(page):
     page.open("all.bag")
-    [busy] = [message for message in page.sent if message["kind"] == "bag_busy"]
-    assert (busy["nodes"], busy["refusal"]) == ({"/odom": ["/sim"]}, "")
+    assert page.busy() == [({"/odom": ["/sim"]}, "")]
+    publishers = {"/ada/joy": {"/pad"}, "/joy": {"/cockpit", "/other"}}
+    page.graphs.graph = Graph(publishers=publishers, own_name="/cockpit")
+    page.refusal = "another page drives"
+    assert page.busy() == [({"/joy": ["/other"]}, "Another page drives.")]
+    page.client.watch.look = "ada"
+    assert page.busy() == [({"/joy": ["/pad"]}, "Another page drives.")]
+    assert page.busy() == []
 
 
 @claim("A recording takes ...", because="where it plays from")
@@ -231,9 +246,22 @@ def test_too_much_to_play_is_refused_and_ends_the_session(page, monkeypatch):
     assert "choose fewer topics" in page.sent[-1]["why"]
 
 
-def test_too_many_messages_are_refused(page, monkeypatch):
-    monkeypatch.setattr(bag_files, "MOST_MESSAGES", 9)
-    assert page.open("all.bag")["why"] == "all.bag: more than 9 messages: use rosbag play"
+@pytest.mark.parametrize(("bound", "most"), [("MOST_MESSAGES", 9), ("MOST_TOPICS", 3)])
+def test_too_many_topics_or_messages_are_refused(page, monkeypatch, bound, most):
+    monkeypatch.setattr(bag_files, bound, most)
+    why = page.open("all.bag")["why"]
+    assert why.startswith("all.bag: more than") and why.endswith(": use rosbag play")
+
+
+@claim("Recorded messages are published equal ...", because="which are latched")
+def test_a_latched_topic_is_latched_unless_it_is_a_velocity(monkeypatch):
+    made = []
+    for name in ("Queued", "PromptPublisher"):
+        publisher = lambda *_, name=name, **how: made.append((name, how.get("latch")))  # noqa: E731
+        monkeypatch.setattr(playback, name, publisher)
+    for kind, latching in (("x/y", "1"), ("x/y", "0"), ("geometry_msgs/Twist", "1")):
+        playback.output_of(Connection("/x", kind, "0" * 32, "", {"latching": latching}))
+    assert made == [("Queued", True), ("Queued", False), ("PromptPublisher", None)]
 
 
 def test_recording_that_cannot_be_shown_is_refused_and_the_last_one_stays(page, monkeypatch):

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, Callable, List, Mapping, Sequence
 
 from cockpit_server.errors import RefusedError
-from cockpit_server.graph import JOY
+from cockpit_server.graph import JOY, Graph, topic_of
 from cockpit_server.limits import MOST_PAGES
 from cockpit_server.schema import MOST_FIELDS
 
@@ -32,6 +32,16 @@ class Recording:
         """Add curves, and forget the oldest ones."""
         newest = list({**self.curves, **curves}.items())[-MOST_CURVES:]
         self.curves = dict(newest)
+
+    def publishers(self, graph: Graph, robot: str) -> dict[str, list[str]]:
+        """Return the other nodes that publish now where topics would be played.
+
+        robot: whose joystick a recorded one moves.
+        """
+        places = {t: topic_of(robot, "joy") if kind == JOY else t for t, kind in self.types.items()}
+        nodes = {t: graph.publishers.get(at, frozenset()) for t, at in places.items()}
+        others = {topic: sorted(names - {graph.own_name}) for topic, names in nodes.items()}
+        return {topic: names for topic, names in others.items() if names}
 
 
 class Curve:

@@ -19,7 +19,7 @@ from gamepad.errors import BagError
 from gamepad.ros.bags import opened
 
 LARGEST = 200_000_000  # bytes, of a file, and of the messages that are played
-MOST_MESSAGES = 1_000_000
+MOST_TOPICS, MOST_MESSAGES = 2_000, 1_000_000
 LONGEST_MESSAGE = 1_000_000  # bytes; a longer one has no curves
 MOST_OFFERED = 5_000  # fields
 MOST_NAMES = 100  # bags shown of this folder
@@ -73,8 +73,9 @@ def read(path: Path) -> Recording:
         counts = {topic: info.message_count for topic, info in topics}
         if not topics:
             raise BagError(f"{name}: is empty")
-        if sum(counts.values()) > MOST_MESSAGES:
-            raise BagError(f"{name}: more than {MOST_MESSAGES:,} messages: use rosbag play")
+        if len(topics) > MOST_TOPICS or sum(counts.values()) > MOST_MESSAGES:
+            most = f"{MOST_TOPICS:,} topics or {MOST_MESSAGES:,} messages"
+            raise BagError(f"{name}: more than {most}: use rosbag play")
         start, end = bag.get_start_time(), bag.get_end_time()
         fields = [field for about in known.values() for field in fields_of(bag, about, end - start)]
     types = {topic: info.msg_type for topic, info in topics}

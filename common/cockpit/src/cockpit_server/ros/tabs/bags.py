@@ -10,7 +10,7 @@ from cockpit_server.driving.player import Player
 from cockpit_server.driving.reasons import sentence
 from cockpit_server.driving.who_drives import Driving
 from cockpit_server.errors import RefusedError
-from cockpit_server.graph import JOY, GraphWatcher, topic_of
+from cockpit_server.graph import JOY, GraphWatcher
 from cockpit_server.pages import Page, Soon, TabSource, encoded
 from cockpit_server.ros.tabs.bag_files import bag_files, read, read_curves, version
 from cockpit_server.ros.tabs.playback import Playback
@@ -116,24 +116,17 @@ class Bags(TabSource):
             page.send("bag_at", **at)
 
     def _send_recording(self, page: Page, opened: Opened) -> None:
-        publishers = {t: self._publishers(page, opened, t) for t in opened.recording.types}
-        nodes = {topic: names for topic, names in publishers.items() if names}
-        busy = {"nodes": nodes, "refusal": sentence(self._driving.why_not_free(page))}
-        if page.watch.bag and page.take_if_new("bag_busy", busy):
-            page.send("bag_busy", **busy)
+        refusal, graph = sentence(self._driving.why_not_free(page)), self._graphs.graph
+        look = page.watch.look or ""
+        if page.watch.bag and page.take_if_new("bag_busy", (opened, graph, look, refusal)):
+            nodes = opened.recording.publishers(graph, look)
+            page.send("bag_busy", nodes=nodes, refusal=refusal)
         if page.take_if_new("bag", opened):
             page.write(opened.recording.message)
         for field in page.watch.bag_fields:
             if field in opened.recording.curves and field not in opened.sent:
                 opened.sent.add(field)
                 page.write(opened.recording.curves[field])
-
-    def _publishers(self, page: Page, opened: Opened, topic: str) -> list[str]:
-        """Return the other nodes that publish now where this topic would be played."""
-        if opened.recording.types[topic] == JOY:
-            topic = topic_of(page.watch.look or "", "joy")
-        graph = self._graphs.graph
-        return sorted(graph.publishers.get(topic, frozenset()) - {graph.own_name})
 
     def on_bag_open(self, page: Page, now: float, name: str) -> None:
         self._must_be_read(page)
