@@ -191,6 +191,8 @@ def test_a_recording_without_a_joystick_has_the_session_and_ends_its_motion_once
     for refused in (lambda: made.on_drive(bob, 0.0, **ADA), lambda: playing_by(made, bob)):
         with pytest.raises(RefusedError, match="another page drives"):
             refused()
+    with pytest.raises(RefusedError, match=LOOKS_ONLY):
+        playing_by(made, page(VIEWER)[0])
     made.tick(1.0)
     assert (made.driven, ends) == ("bob", [])
     who = look(made, made.bob)[0][-1]["who"]
