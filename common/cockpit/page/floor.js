@@ -148,7 +148,7 @@ export class Floor {
     };
     canvas.onpointerdown = (event) => {
       canvas.setPointerCapture(event.pointerId);
-      if (this.tools.isOn) this.tools.press(this.#toFloor(at(event)));
+      if (this.tools.isOn && event.button === 0) this.tools.press(this.#toFloor(at(event)));
       else this.#pointers.set(event.pointerId, at(event));
     };
     canvas.onpointermove = (event) => {

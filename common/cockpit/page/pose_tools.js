@@ -16,7 +16,7 @@ const TOOLS = {
 };
 const MOVES = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 const TURNS = { "[": Math.PI / 12, "]": -Math.PI / 12 };
-const HELP = "Press and drag for the direction, or use the arrow keys, [, ] and Enter. Esc cancels.";
+const HELP = "Drag, or use the arrow keys, [, ] and Enter. Esc cancels.";
 const ARROW = [[0, -3], [26, -3], [26, -10], [44, 0], [26, 10], [26, 3], [0, 3]]; // [pixel]
 
 export class PoseTools {
@@ -24,7 +24,7 @@ export class PoseTools {
   #pose = [0, 0, 0]; // that it chooses: x, y [m], yaw [rad]
   #isHeld = false; // whether a pointer chooses the direction
   #published = new Map(); // id -> the pose, and of which robot
-  #server = { frame: "", heard: [] }; // says: the frame of the floor, and the topics with a subscriber
+  #server = { frame: "", subscribed: [] }; // says: the frame of the floor, and the topics with a subscriber
 
   /** page: see main.js. */
   constructor(link, floor, page) {
@@ -39,7 +39,11 @@ export class PoseTools {
       if (message.frame !== this.#server.frame) this.#published.clear();
       this.#server = message;
     });
-    link.on("refused", ({ what }) => what === "publish" && this.#published.clear());
+    link.on("refused", ({ what }) => {
+      if (what !== "publish") return;
+      this.#published.clear();
+      this.cancel();
+    });
   }
 
   get isOn() {
@@ -113,7 +117,7 @@ export class PoseTools {
     if (!this.link.send("publish", { topic: fullName, type, values, period: null })) return;
     this.#published.set(id, [x, y, yaw, robot]);
     this.#announce("Published.", id);
-    if (!this.#server.heard.includes(topic)) this.page.notice(`Nothing subscribes to ${fullName}: start a ${reader}.`);
+    if (!this.#server.subscribed.includes(topic)) this.page.notice(`Nothing subscribes to ${fullName}: start a ${reader}.`);
   }
 
   /** paper: see Floor. */

@@ -126,7 +126,7 @@ def test_frame_of_the_floor():
     frame = lambda: floor.look(now=overlays.AGAIN_S)["floor"]["frame"]  # noqa: E731
     floor.page.seen.clear()
     first = floor.look()["floor"]
-    assert (first["frame"], first["heard"]) == ("map", ["initialpose"])
+    assert (first["frame"], first["subscribed"]) == ("map", ["initialpose"])
     floor.hear("/lidar", scan("laser"))
     floor.look()
     assert frame() == "laser"

@@ -44,6 +44,9 @@ class Layer:
         self.shapes: Shapes = {}
         self.texts: dict[str, tuple[float, str]] = {}
 
+    def is_old(self, frame: str, now: float) -> bool:
+        return now >= self.texts.get(frame, (0.0, ""))[0]
+
 
 class Overlays(TabSource):
     """What nodes show of the robot in sight, or of no robot, for pages that show the floor."""
@@ -84,6 +87,7 @@ class Overlays(TabSource):
         jobs = [
             (topic, self._layers[topic], robot, self._floors[robot])
             for robot, its in self._topics.items() for topic in its
+            if self._layers[topic].waiting or self._layers[topic].is_old(self._floors[robot], now)
         ]  # fmt: skip
         if jobs and self._drawn.done() and not self._budget.wait_s(now):
             last, self._drawn = self._drawn, self._submit(self._draw, jobs, now)
@@ -127,9 +131,9 @@ class Overlays(TabSource):
         if not page.watch.floor or robot not in self._floors:
             return
         topics, frame = self._topics[robot], self._floors[robot]
-        heard = [t for t in POSE_TOPICS if topic_of(robot, t) in self._graph.subscribers]
-        if page.take_if_new("floor", (frame, heard)):
-            page.send("floor", frame=frame, heard=heard)
+        subscribed = [t for t in POSE_TOPICS if topic_of(robot, t) in self._graph.subscribers]
+        if page.take_if_new("floor", (frame, subscribed)):
+            page.send("floor", frame=frame, subscribed=subscribed)
         sent: dict[str, str] = page.seen.setdefault("overlays", {})
         for topic in {*sent, *topics}:
             text = self._layers[topic].texts.get(frame, ("", ""))[1] if topic in topics else ""
@@ -150,7 +154,7 @@ class Overlays(TabSource):
 
     def _write(self, topic: str, layer: Layer, robot: str, frame: str, now: float) -> None:
         """Write the message with a topic's shapes on the floor of a frame, or ""."""
-        if now < layer.texts.get(frame, (0.0, ""))[0]:
+        if not layer.is_old(frame, now):
             return
         layer.shapes = {key: shape for key, shape in layer.shapes.items() if now < shape.until}
         rows: list[dict[str, Any]] = []
