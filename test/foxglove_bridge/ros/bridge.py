@@ -272,10 +272,11 @@ class DrivenTest(BridgeTest):
         client.advertise(1, "/talk", String._type)
         wait_for(lambda: client.publish(1, serialised(String("a"))) or heard, "text")
         for number, about in enumerate(
-            (("/x", TWIST), ("/t1", "no_msgs/No"), ("/t2", TWIST, "json"), ("a b", TWIST))
+            (("/x", TWIST), ("/t1", "no_msgs/No"), ("/t2", TWIST, "json"), ("a\x1bb", TWIST))
         ):
             client.advertise(number + 2, *about)
-            wait_for(lambda a=about: any(a[0] in s for s in client.statuses()), f"line on {about}")
+            line = f"{about[0]!r} cannot be published: "
+            wait_for(lambda s=line: any(t.startswith(s) for t in client.statuses()), line)
         client.publish(1, b"\xff\xff\xff\xff")
         wait_for(lambda: any("not a std_msgs/String" in s for s in client.statuses()), "line")
 

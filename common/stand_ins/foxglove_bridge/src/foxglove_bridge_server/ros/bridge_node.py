@@ -26,6 +26,7 @@ from foxglove_bridge_server.ros.client_topics import ClientTopics
 from foxglove_bridge_server.ros.master_parameters import MasterParameters
 from foxglove_bridge_server.ros.services import Services
 from foxglove_bridge_server.ros.topic_channels import ENCODING, TopicChannels
+from node_kit.printable import quotable
 from node_kit.ros.graph.ros_api import call
 from node_kit.ros.lifecycle.ending import is_ending
 from node_kit.ros.log import Log
@@ -98,8 +99,8 @@ class Bridge:
 
     def _warn(self, line: str) -> None:
         """Show a warning here and in all clients: the SDK cannot address one alone."""
-        self._log.warn(line)
-        self._server.publish_status(line, StatusLevel.Warning)
+        self._log.warn(quotable(line))
+        self._server.publish_status(quotable(line), StatusLevel.Warning)
 
     def _asset(self, uri: str) -> bytes | None:
         package, _, name = uri[len(PACKAGE) :].partition("/")
@@ -114,8 +115,10 @@ class Bridge:
 
     def _watch(self) -> None:
         period_s = min(self._parameters.max_update_ms / 1000, LONGEST_LOOK_S)
-        while not is_ending():
+        while True:
             time.sleep(period_s)
+            if is_ending():
+                return
             answer, pid = _ask("getPid")
             if answer is Answer.REFUSED or pid not in (None, self._master_pid):
                 self._has_lost_master = True

@@ -114,15 +114,15 @@ class ClientTopics:
         known = {outlet.topic: outlet for outlet in self._outlets.values()}.get(topic)
         refusal = ""
         if encoding != ENCODING:
-            refusal = f"the encoding must be {ENCODING}, not {encoding}"
+            refusal = f"the encoding must be {ENCODING}, not {encoding!r}"
         elif not is_legal or not is_allowed(topic, self._whitelist):
             refusal = "client_topic_whitelist does not have it"
         elif kind is None:
-            refusal = f"{kind_name} is not installed here"
+            refusal = f"{kind_name!r} is not installed here"
         elif known and known.kind is not kind:
             refusal = f"another client publishes {known.kind._type} there"
         if refusal:
-            self._warn(f"{topic} cannot be published: {refusal}")
+            self._warn(f"{topic!r} cannot be published: {refusal}")
             return
         self._outlets[user] = known or _Outlet(topic, kind)
 

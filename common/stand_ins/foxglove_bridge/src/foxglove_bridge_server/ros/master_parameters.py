@@ -32,7 +32,7 @@ class MasterParameters:
         for parameter in parameters:
             value = parameter.get_value()
             if not is_allowed(parameter.name, self._whitelist):
-                self._warn(f"{parameter.name} is not set: param_whitelist does not have it")
+                self._warn(f"{parameter.name!r} is not set: param_whitelist does not have it")
             elif value is None:
                 _call_master("deleteParam", parameter.name)
             else:
