@@ -49,7 +49,7 @@ export class BagTab {
     </div>
     <div class="legend" id="bag-values" role="group" aria-label="Values"></div>
   </div>
-  <div class="pair">
+  <div class="abreast">
     <div class="card">${FieldList.panel("bag")}</div>
     <div class="card"><h2>Topics to publish</h2>
       <table><thead><tr><th>Topic</th><th>Messages</th></tr></thead>
