@@ -64,6 +64,14 @@ def test_what_installs_the_bridge_to_foxglove(monkeypatch, capsys):
     assert with_it == {"test", "bench"}
 
 
+@claim("The bridge to Foxglove is installed ...", because="a real one needs nothing")
+def test_a_real_bridge_to_foxglove_needs_no_question(tmp_path, monkeypatch):
+    monkeypatch.setattr("tutorial_tools.command.plans.SHARE", tmp_path)
+    (tmp_path / "foxglove_bridge").mkdir()
+    (tmp_path / "foxglove_bridge" / "package.xml").touch()
+    assert read(Path("/w"), ["foxglove"], lambda *_: 1 / 0)["builds"] == ["workspace"]
+
+
 @claim("The bridge to Foxglove is installed ...", because="machines without wheels")
 @pytest.mark.parametrize(("download", "machine", "python", "why"), [
     (FOXGLOVE, "aarch64", (3, 10), ""),

@@ -13,7 +13,7 @@ from node_kit.ros2_python import installed
 from tutorial_tools.command import ros2_programs, subcommands
 from tutorial_tools.command.downloads import FOXGLOVE, ROS2, Download
 from tutorial_tools.command.subcommands import HELP, OWN_PARSER, fail, parser_of
-from tutorial_tools.paths import REPOSITORY
+from tutorial_tools.paths import REPOSITORY, SHARE
 
 SCRIPTS = REPOSITORY / "common" / "tutorial_tools" / "scripts"
 PROGRAMS = {word: str(SCRIPTS / f"{word}.py") for word in ("demo", "join", "doctor")}
@@ -110,14 +110,16 @@ def plan_of_ros2(workspace: Path, arguments: list[str], confirm: Confirm) -> Pla
 
 
 def plan_of_foxglove(arguments: list[str], confirm: Confirm) -> Plan:
-    """Return the plan for the bridge to Foxglove and Lichtblick."""
+    """Return the plan for the bridge to Foxglove and Lichtblick: the real one, or ours."""
     options = parser_of("foxglove").parse_args(arguments)
+    is_real = (SHARE / "foxglove_bridge" / "package.xml").exists()
     try:
-        confirm(FOXGLOVE, options.yes)
+        if not is_real:
+            confirm(FOXGLOVE, options.yes)
     except ValueError as error:
         fail(f"foxglove: {error}")
     launch = ["roslaunch", "foxglove_bridge", "foxglove_bridge.launch", *options.arguments]
-    builds = ["workspace", FOXGLOVE.build]
+    builds = ["workspace", *([] if is_real else [FOXGLOVE.build])]
     return {"sections": ["demo", "more"], "builds": builds, "command": launch}
 
 
