@@ -7,7 +7,7 @@ const SIGN_MS = 50; // between two signs, whatever is published
 export class Publishing {
   static panel = `
     <div class="card" id="topics-running" hidden><h2 id="topics-running-title" aria-live="polite"></h2>
-      <table><thead><tr><th>Topic</th><th>Hz</th><th>Messages</th><td></td></tr></thead>
+      <table><thead><tr><th>Topic</th><th>Sent</th><td></td></tr></thead>
         <tbody id="topics-running-rows"></tbody></table>
       <button id="topics-stop-all">Stop all</button></div>`;
 
@@ -50,7 +50,7 @@ export class Publishing {
     }
     for (const { topic, type, period, count } of topics) {
       if (!this.#kept.has(topic)) this.#kept.set(topic, this.#start(topic, type, period));
-      say(this.#kept.get(topic).line.cells[2], String(count));
+      say(this.#kept.get(topic).line.cells[1], String(count));
     }
     if (!topics.length) clearInterval(this.#signs);
     this.#signs = topics.length && (this.#signs || setInterval(() => this.#sign(null), SIGN_MS));
@@ -64,8 +64,8 @@ export class Publishing {
   #start(topic, type, period) {
     const stop = element("button", { "aria-label": `Stop ${topic}` }, "Stop");
     stop.onclick = () => this.link.send("publish_end", { topic });
-    const name = element("span", {}, topic, element("br"), element("small", {}, type));
-    const line = row(name, period ? String(+(1 / period).toFixed(2)) : "once", "", stop);
+    const rate = period ? `${+(1 / period).toFixed(2)} Hz` : "once";
+    const line = row(element("span", {}, topic, element("br"), element("small", {}, `${type}, ${rate}`)), "", stop);
     byId("topics-running-rows").append(line);
     return { period, line, timer: period ? setInterval(() => this.#sign(topic), 1000 * period) : 0 };
   }

@@ -49,14 +49,14 @@ def publish_two(page):
     for name, kind, text in TWO:
         choose_new(page, name, kind)
         type_on(page, text, Keys.ENTER)
-    counts = lambda: [int(row.split()[3]) for row in page.ask(ROWS)]  # noqa: E731
+    counts = lambda: [int(row.split()[4]) for row in page.ask(ROWS)]  # noqa: E731
     is_silent = lambda: "silent" in page.text("#notice")  # noqa: E731
     wait_for(lambda: (len(counts()) == 2 and min(counts()) > 5) or is_silent(), "messages of both")
     rows, title, tab = page.ask(ROWS), page.text("#topics-running-title"), page.text("#tab-topics")
     stops = page.all("[aria-label='Stop /probe/wave']")
     if len(rows) < 2 or not stops:
         return False
-    assert [row.split()[:3] for row in rows] == [[n, kind, "10"] for n, kind, _ in TWO]
+    assert [row.split()[:4] for row in rows] == [[n, f"{t},", "10", "Hz"] for n, t, _ in TWO]
     assert (title, tab) == ("Publishing on 2 topics", "Topics (2)")
     stops[0].send_keys(Keys.ENTER)
     wait_for(lambda: len(counts()) < 2, "end of one")
