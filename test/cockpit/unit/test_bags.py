@@ -1,6 +1,5 @@
 """Recordings on pages: opened, shown and played."""
 
-import os
 import queue
 from io import BytesIO
 from math import inf, nan
@@ -17,8 +16,6 @@ from cockpit_server.errors import RefusedError
 from cockpit_server.graph import Graph
 from cockpit_server.ros.tabs import bag_files, bags, playback
 from cockpit_server.ros.tabs.bag_files import read
-from cockpit_server.ros.tabs.recorded_types import Connection
-from gamepad.errors import BagError
 from tutorial_testing.claims import claim
 from tutorial_testing.nodes import serialised
 from tutorial_testing.session_room import Graphs
@@ -111,11 +108,15 @@ def page(monkeypatch, tmp_path):
     return Page()
 
 
+def header_of(topic, kind, **more):
+    return {"topic": topic, "type": kind._type, "md5sum": kind._md5sum,
+            "message_definition": kind._full_text, **more}  # fmt: skip
+
+
 def write_all(path):
     """Write a recording of 2 s with a latched map, velocities, odometry and a joystick."""
     with rosbag.Bag(path, "w") as bag:
-        latched = {"topic": "/map", "type": OccupancyGrid._type, "md5sum": OccupancyGrid._md5sum,
-                   "message_definition": OccupancyGrid._full_text, "latching": "1"}  # fmt: skip
+        latched = header_of("/map", OccupancyGrid, latching="1")
         bag.write("/map", OccupancyGrid(), rospy.Time(1), connection_header=latched)
         for i in range(3):
             odometry = Odometry()
@@ -239,6 +240,19 @@ def test_recording_that_is_stopped_while_it_is_read_never_plays(page, outputs):
     assert list(stopped.due(99.0)) == [] and outputs["/cmd_vel"].sent == []
 
 
+def test_messages_of_a_second_type_on_a_topic_are_left_out(page, outputs, tmp_path):
+    with rosbag.Bag(str(tmp_path / "two.bag"), "w") as bag:
+        for second, message in enumerate((Twist(), Joy(), Twist()), 1):
+            header = header_of("/cmd_vel", type(message))
+            bag.write("/cmd_vel", message, rospy.Time(second), connection_header=header)
+            bag._topic_connections.clear()  # so that the next one is another node's
+    [topic] = page.open("two.bag")["topics"]
+    assert topic["type"] == "geometry_msgs/Twist"
+    assert page.play("/cmd_vel")
+    assert len(page.player.due(9.0)) == 2
+    assert list(outputs) == ["/cmd_vel"]
+
+
 def test_too_much_to_play_is_refused_and_ends_the_session(page, monkeypatch):
     page.open("all.bag")
     monkeypatch.setattr(bag_files, "LARGEST", 100)
@@ -251,17 +265,6 @@ def test_too_many_topics_or_messages_are_refused(page, monkeypatch, bound, most)
     monkeypatch.setattr(bag_files, bound, most)
     why = page.open("all.bag")["why"]
     assert why.startswith("all.bag: more than") and why.endswith(": use rosbag play")
-
-
-@claim("Recorded messages are published equal ...", because="which are latched")
-def test_a_latched_topic_is_latched_unless_it_is_a_velocity(monkeypatch):
-    made = []
-    for name in ("Queued", "PromptPublisher"):
-        publisher = lambda *_, name=name, **how: made.append((name, how.get("latch")))  # noqa: E731
-        monkeypatch.setattr(playback, name, publisher)
-    for kind, latching in (("x/y", "1"), ("x/y", "0"), ("geometry_msgs/Twist", "1")):
-        playback.output_of(Connection("/x", kind, "0" * 32, "", {"latching": latching}))
-    assert made == [("Queued", True), ("Queued", False), ("PromptPublisher", None)]
 
 
 def test_recording_that_cannot_be_shown_is_refused_and_the_last_one_stays(page, monkeypatch):
@@ -281,19 +284,3 @@ def test_recording_is_read_once_for_all_pages(page, monkeypatch):
         for name in ("good.bag", "odd.bag"):
             page.open(name)
     assert read_so_far == ["good.bag", "odd.bag"]
-
-
-def test_refused_file_is_named_without_its_folder(tmp_path):
-    os.mkfifo(tmp_path / "pipe.bag")
-    (tmp_path / "text.bag").write_text("no bag")
-    for name in ("pipe.bag", "text.bag", "none.bag"):
-        with pytest.raises(BagError) as error:
-            read(tmp_path / name)
-        assert str(error.value).startswith(f"{name}: ") and str(tmp_path) not in str(error.value)
-
-
-def test_viewers_are_offered_nothing_of_the_folder(tmp_path, monkeypatch):
-    (tmp_path / "own.bag").write_text("no bag")
-    monkeypatch.chdir(tmp_path)
-    assert set(bag_files.bag_files(may_drive=True)) == {"joy.bag", "own.bag"}
-    assert set(bag_files.bag_files(may_drive=False)) == {"joy.bag"}

@@ -48,19 +48,25 @@ def bag_at(path: Path) -> Iterator[tuple[rosbag.Bag, Connections]]:
     """Open a bag. Raises BagError, which names no folder."""
     try:
         with opened(path) as bag:
-            # A topic of several nodes is latched if one of them is.
+            # Of several nodes one that latches counts.
             known = sorted(connections(bag), key=lambda about: about.is_latched)
             yield bag, {about.topic: about for about in known}
     except BagError as error:
         raise BagError(str(error).replace(str(path), path.name)) from None
 
 
-def messages(bag: rosbag.Bag, topics: Collection[str], since: float = 0.0) -> Iterator[RawMessage]:
-    """Yield the messages of some topics. since: time since the start of the bag [s]."""
+def messages(
+    bag: rosbag.Bag, known: Connections, topics: Collection[str], since: float = 0.0
+) -> Iterator[RawMessage]:
+    """Yield the messages of some topics. since: time since the start of the bag [s].
+
+    Those of a second type on a topic are left out.
+    """
     start = bag.get_start_time()
     options = {"topics": list(topics), "start_time": rospy.Time(start + since), "raw": True}
-    for topic, (_, data, *_), stamp in bag.read_messages(**options) if topics else ():
-        yield stamp.to_sec() - start, topic, data
+    for topic, (kind, data, md5sum, *_), stamp in bag.read_messages(**options) if topics else ():
+        if (kind, md5sum) == (known[topic].type, known[topic].md5sum):
+            yield stamp.to_sec() - start, topic, data
 
 
 def read(path: Path) -> Recording:
@@ -78,7 +84,7 @@ def read(path: Path) -> Recording:
             raise BagError(f"{name}: more than {most}: use rosbag play")
         start, end = bag.get_start_time(), bag.get_end_time()
         fields = [field for about in known.values() for field in fields_of(bag, about, end - start)]
-    types = {topic: info.msg_type for topic, info in topics}
+    types = {topic: known[topic].type for topic in counts}
     rows = [{"name": t, "type": types[t], "count": count} for t, count in counts.items()]
     fields.sort(key=lambda field: ("header/" in field[0] or "covariance" in field[0], field))
     about = {"start": start, "end": end, "topics": rows, "fields": fields[:MOST_OFFERED]}
@@ -89,7 +95,7 @@ def fields_of(bag: rosbag.Bag, about: Connection, duration: float) -> list[tuple
     """Return [(field, length of an array, or 0)] of a topic's first message and a middle one."""
     lengths: dict[str, int] = {}
     for since in (0.0, duration / 2):
-        for _, topic, data in messages(bag, [about.topic], since):
+        for _, topic, data in messages(bag, {about.topic: about}, [about.topic], since):
             for name, length in numbers_in(decoded(about.kind, data, LONGEST_MESSAGE)):
                 field = f"{topic}/{name}"
                 lengths[field] = max(length, lengths.get(field, 0))
@@ -102,7 +108,7 @@ def read_curves(recording: Recording, fields: Iterable[str]) -> dict[str, str]:
     wanted = by_topic(fields, recording.types)
     curves = {f: Curve(recording.counts[topic]) for topic, of in wanted.items() for f in of}
     with bag_at(recording.path) as (bag, known):
-        for t, topic, data in messages(bag, wanted):
+        for t, topic, data in messages(bag, known, wanted):
             message = decoded(known[topic].kind, data, LONGEST_MESSAGE)
             for field, parts in wanted[topic].items():
                 value = value_at(message, parts)
@@ -116,7 +122,7 @@ def read_messages(path: Path, topics: Collection[str]) -> tuple[Connections, lis
     """Return the connections of these topics, and their messages in order. Raises BagError."""
     size, listed = 0, []
     with bag_at(path) as (bag, known):
-        for message in messages(bag, topics):
+        for message in messages(bag, known, topics):
             listed.append(message)
             size += len(message[2])
             if size > LARGEST:

@@ -129,12 +129,12 @@ class Bags(TabSource):
                 page.write(opened.recording.curves[field])
 
     def on_bag_open(self, page: Page, now: float, name: str) -> None:
-        self._must_be_read(page)
+        self._must_not_read(page)
         self.on_bag_pause(page, now)
         self._reading.add(page.number)
         self._reader.submit(self._read, page, name)
 
-    def _must_be_read(self, page: Page) -> None:
+    def _must_not_read(self, page: Page) -> None:
         if page.number in self._reading:
             raise RefusedError("a recording is being opened for this page: wait for it")
 
@@ -163,7 +163,7 @@ class Bags(TabSource):
         self, page: Page, now: float, *, topics: Sequence[str], rate: float, loop: bool, robot: str
     ) -> None:
         opened = self._must_be_open(page)
-        self._must_be_read(page)
+        self._must_not_read(page)
         types = playable(opened.recording.types, topics, self._graphs.graph.types)
         if opened.player:
             opened.position = opened.player.position(now)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from functools import partial
-from io import BytesIO
 from typing import Any, Callable, Mapping, Sequence, Union
 
 import rospy
@@ -24,6 +23,7 @@ from node_kit.ros.rospy_patches.prompt_publisher import PromptPublisher
 CONNECT_S = 1.0  # how long the first message waits for subscribers
 LOOK_S = 0.02
 QUEUE = 100  # messages for a subscriber that is behind, as in rqt_bag
+ZERO = bytes(48)  # of the six float64 of a velocity
 Send = Callable[[bytes], object]
 
 
@@ -81,8 +81,8 @@ class Playback:
         for key, output in self._outputs.items():
             about = wanted[key]
             sends[about.topic] = partial(send, output)
-            if about.type == VELOCITY and about.kind:
-                ends.append(partial(sends[about.topic], zero_of(about)))
+            if about.type == VELOCITY:
+                ends.append(partial(send, output, ZERO))
         return [(t, sends[topic], data) for t, topic, data in messages], ends
 
     def _move_joystick(self, data: bytes) -> None:
@@ -115,10 +115,3 @@ class Playback:
 
 def send(output: Output, data: bytes) -> None:
     output.publish(rospy.AnyMsg().deserialize(data))
-
-
-def zero_of(velocity: Connection) -> bytes:
-    """Return the bytes of the velocity zero."""
-    buffer = BytesIO()
-    velocity.kind().serialize(buffer)
-    return buffer.getvalue()
