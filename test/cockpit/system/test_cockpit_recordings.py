@@ -11,6 +11,7 @@ import rospy
 from geometry_msgs.msg import TransformStamped, Twist, Vector3
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Joy
+from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
 from tutorial_testing.claims import claim
@@ -23,6 +24,7 @@ pytestmark = [pytest.mark.xdist_group("cockpit"), pytest.mark.long]
 COUNT, PERIOD_S = 60, 0.05
 ARMED = 10  # messages with everything released, before LB is held
 TOPICS = ["/was/odom", "/was/tf", "/was/cmd_vel", "/joy"]
+NOTE = "/was/note"  # latched
 MEDIAN_S = 0.02  # how late a message may be
 
 
@@ -46,6 +48,9 @@ def bag():
     """The name of a recording in the folder of the cockpit."""
     path = Path("to_play.bag")
     with rosbag.Bag(str(path), "w") as file:
+        header = {"topic": NOTE, "type": String._type, "md5sum": String._md5sum,
+                  "message_definition": String._full_text, "latching": "1"}  # fmt: skip
+        file.write(NOTE, String("hello"), rospy.Time(1000), connection_header=header)
         for i in range(COUNT):
             for topic, message in recorded(i).items():
                 file.write(topic, message, rospy.Time.from_sec(1000 + i * PERIOD_S))
@@ -94,6 +99,30 @@ def test_a_recording_of_four_topics_arrives_as_it_was_recorded(bag, tmp_path):
         assert lateness(sent[topic], arrived[topic]) < bound_s
     pressed = [Joy().deserialize(data).axes[1] for *_, data in arrived["/joy"]]
     assert pressed == pytest.approx([*map(pushed, range(COUNT)), 0.0], abs=1e-4)
+
+
+class Bare(World):
+    """A master and a cockpit, without a robot."""
+
+    def begin(self):
+        port = self.environment["ROS_MASTER_URI"].rpartition(":")[2]
+        self.launched = self.run("roscore", "-p", port)
+        wait_for(lambda: "core service" in self.launched.output, "master")
+        self.start_cockpit()
+
+
+@claim("Recorded messages are published equal ...", because="latched, for a late subscriber")
+def test_a_late_subscriber_gets_what_is_latched_without_a_robot(bag):
+    with Bare() as world, SocketPage(world.port) as page:
+        page.say("watch", bag=True)
+        page.say("bag_open", name=bag)
+        page.wait_for("bag")
+        page.say("bag_seek", position=0.0)
+        page.say("bag_play", topics=[NOTE], rate=0.1, loop=False, robot="")
+        page.wait_for("bag_at", lambda at: at["position"] > 0.01)  # after it was published
+        echo = world.run("rostopic", "echo", "-n1", NOTE)
+        wait_for(lambda: "hello" in echo.output, "what is latched")
+        assert page.of("bag_at")[-1]["playing"]
 
 
 def lateness(sent, arrived):
