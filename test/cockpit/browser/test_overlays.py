@@ -2,6 +2,7 @@
 
 import re
 import sys
+from contextlib import contextmanager
 from math import cos, pi, sin
 
 import pytest
@@ -36,11 +37,11 @@ MARKERS = {
     Marker.SPHERE_LIST: ("#ff0080", (0.6, -1.8), LINE),
     Marker.TEXT_VIEW_FACING: ("#00ff80", (1.6, -1.8), []),
 }
-NAVIGATION = """
+READER = """
 import rospy
-from geometry_msgs.msg import PoseStamped
-rospy.init_node("navigation")
-rospy.Subscriber("move_base_simple/goal", PoseStamped, lambda goal: print(goal, flush=True))
+from geometry_msgs.msg import {kind}
+rospy.init_node("reader")
+rospy.Subscriber("{topic}", {kind}, lambda message: print(message, "\\n---", flush=True))
 print("ready", flush=True)
 rospy.spin()
 """
@@ -85,6 +86,22 @@ def floor(room, shared_browser):
     yield shared_browser
     assert shared_browser.errors() == []
     shared_browser.resize()
+
+
+@contextmanager
+def reading(world, page, topic, kind):
+    """Yield a function that waits for the first message on a topic, and returns its fields."""
+
+    def fields():
+        wait_for(lambda: "---" in node.output, topic)
+        return yaml.safe_load(node.output.partition("ready")[2].partition("---")[0])
+
+    with world.run(sys.executable, "-c", READER.format(topic=topic, kind=kind)) as node:
+        wait_for(lambda: "ready" in node.output, "reader")
+        page.tab("Graph")
+        page.wait_for_text("#graph-picture", "/reader")  # so that the cockpit knows it, too
+        page.tab("Robot")
+        yield fields
 
 
 def publishing(world, topic, message):
@@ -166,12 +183,10 @@ def test_goal_by_a_drag(room, bare, floor):
     floor.click("Set goal")
     drag()
     floor.wait_for_text("#notice", "Nothing subscribes to /move_base_simple/goal")
-    with room.run(sys.executable, "-c", NAVIGATION) as navigation:
-        wait_for(lambda: "ready" in navigation.output, "node")
+    with reading(room, floor, "move_base_simple/goal", "PoseStamped") as message:
         floor.click("Set goal")
         drag()
-        wait_for(lambda: "w: " in navigation.output, "goal")
-        goal = yaml.safe_load(navigation.output.partition("ready")[2])
+        goal = message()
     turn = goal["pose"]["orientation"]
     assert goal["header"]["frame_id"] == "map"
     assert (turn["z"], turn["w"]) == pytest.approx((sin(pi / 4), cos(pi / 4)), abs=0.01)
@@ -183,18 +198,23 @@ def test_goal_by_a_drag(room, bare, floor):
 
 @claim("A pose is set by keys alone, and announced; axe finds nothing there on a phone")
 def test_pose_by_keys(room, floor):
-    floor.resize(*PHONE)
-    floor.one("#set-pose").send_keys(Key.SPACE)
-    assert floor.ask("document.activeElement.id") == "floor"
-    floor.wait_for_text("#tool", "Esc cancels")
-    assert violations(floor) == []
-    assert floor.ask("document.documentElement.scrollWidth") <= PHONE[0]
-    floor.one("#floor").send_keys(Key.ARROW_LEFT, Key.ARROW_UP, *"[" * 6, "]")
-    said = floor.text("#tool")
-    x, y, degrees = map(float, re.fullmatch(r"Pose: (.+), (.+) m, (.+)°\. ", said).groups())
-    assert (x < 1.0, y > 0.0, degrees) == (True, True, 75.0)
-    floor.one("#floor").send_keys(Key.ENTER)
+    with reading(room, floor, "initialpose", "PoseWithCovarianceStamped") as message:
+        floor.resize(*PHONE)
+        floor.one("#set-pose").send_keys(Key.SPACE)
+        assert floor.ask("document.activeElement.id") == "floor"
+        floor.wait_for_text("#tool", "Esc cancels")
+        assert violations(floor) == []
+        assert floor.ask("document.documentElement.scrollWidth") <= PHONE[0]
+        floor.one("#floor").send_keys(Key.ARROW_LEFT, Key.ARROW_UP, *"[" * 6, "]")
+        said = floor.text("#tool")
+        x, y, degrees = map(float, re.fullmatch(r"Pose: (.+), (.+) m, (.+)°\. ", said).groups())
+        assert (x < 1.0, y > 0.0, degrees) == (True, True, 75.0)
+        floor.one("#floor").send_keys(Key.ENTER)
+        variances = message()["pose"]["covariance"]
     floor.wait_for_text("#tool", "Published.")
+    assert {i: value for i, value in enumerate(variances) if value} == pytest.approx(
+        {0: 0.25, 7: 0.25, 35: 0.0685}, abs=1e-3
+    )
     expected = pytest.approx((x, y, 75 * pi / 180), abs=0.01)
     wait_for(lambda: room.now.pose == expected, "robot there")
     assert floor.ask("document.activeElement.id") == "set-pose"
