@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import asyncio
+import gzip
 import logging
+import mimetypes
 import os
 import socket
+from functools import lru_cache
 from pathlib import Path
 from typing import Any, Awaitable
 
 from tornado.httpserver import HTTPServer
 from tornado.iostream import StreamClosedError
-from tornado.web import Application, RequestHandler, StaticFileHandler
+from tornado.web import Application, RequestHandler
 from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
 from cockpit_server import limits
@@ -101,9 +104,31 @@ class _NotFound(_Checked):
         self.refuse(404, "nothing here")
 
 
-class _Files(_Checked, StaticFileHandler):
-    def set_extra_headers(self, path: str) -> None:
+class _Files(_Checked):
+    """The files of a folder. Tornado adds an ETag, so that browsers keep them."""
+
+    def initialize(self, folder: Path) -> None:
+        self._folder = folder
+
+    def get(self, name: str) -> None:
+        path = self._folder / name
+        if not path.is_file():
+            self.refuse(404, "nothing here")
+            return
+        self.set_header("Content-Type", mimetypes.guess_type(name)[0] or "text/plain")
         self.set_header("Cache-Control", "no-cache")
+        self.set_header("Vary", "Accept-Encoding")
+        data = path.read_bytes()
+        if "gzip" in self.request.headers.get("Accept-Encoding", ""):
+            self.set_header("Content-Encoding", "gzip")
+            data = compressed(data)
+        self.finish(data)
+
+
+@lru_cache(maxsize=100)
+def compressed(data: bytes) -> bytes:
+    """Compress a file once: that takes a millisecond, and the page is a third as large."""
+    return gzip.compress(data, mtime=0)
 
 
 class _Socket(_Checked, WebSocketHandler):
@@ -224,8 +249,8 @@ def server(hub: Hub, access: Access, folder: Path) -> HTTPServer:
         [
             ("/", _Index),
             ("/ws", _Socket),
-            (r"/page/([\w.-]+)", _Files, {"path": str(folder)}),
-            (r"/lib/(dygraph\.min\.js|dygraph\.css)", _Files, {"path": str(folder_of_charts())}),
+            (r"/page/([\w.-]+)", _Files, {"folder": folder}),
+            (r"/lib/(dygraph\.min\.js|dygraph\.css)", _Files, {"folder": folder_of_charts()}),
         ],
         default_handler_class=_NotFound,
         access=access,
