@@ -28,6 +28,7 @@ WEBGL = ("--enable-unsafe-swiftshader", "--use-angle=swiftshader")  # without a 
 # Colours of the layout, of an occupied cell, and of Studio's first curve.
 SCAN, WALL, CURVE = (208, 0, 0), (0, 0, 0), (78, 152, 226)
 NEAR, LEAST = 40, 50  # of a colour's part; pixels
+PUBLISH = "[data-testid=publish-button]"
 UP = "svg[viewBox='0 0 256 256'] [role=button]"  # the first one
 MOST_SLOW = 0.15  # of the 0.2 m/s of the layout
 
@@ -106,3 +107,4 @@ def test_the_layout_shows_the_robot_and_drives_it(studio, robot):
     wait_for(lambda: pixels(studio, CURVE) > LEAST, "curve of the velocity", 60, studio.errors)
     studio.mouse("mouseReleased", UP, "left")
     robot.wait_for_rest()
+    assert studio.all(PUBLISH)  # which Studio shows only where it sees a ROS

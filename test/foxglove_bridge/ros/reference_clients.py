@@ -9,7 +9,7 @@ import os
 import roslib.message
 import rosparam
 import rospy
-from geometry_msgs.msg import TransformStamped, Twist
+from geometry_msgs.msg import PoseStamped, TransformStamped, Twist
 from nav_msgs.msg import OccupancyGrid
 from rosgraph_msgs.msg import Log
 from std_msgs.msg import String
@@ -143,6 +143,24 @@ class ReferenceClientsTest(RosTest):
         client.do("close")
         wait_for(lambda: len(twists) == TWISTS + 1, "zero")
         self.assertEqual(twists[-1], Twist())
+
+    @claim(
+        "foxglove_bridge: a topic that a client unadvertises and advertises at once is published"
+    )
+    def test_a_topic_is_advertised_again_at_once(self):
+        client, goals = self.client(), []
+        subscriber = self.hear("goal", PoseStamped, goals.append)
+        kind = {"schemaName": PoseStamped._type, "schema": PoseStamped._full_text}
+        client.do("advertise", topic="/goal", **kind)
+        wait_for(subscriber.get_num_connections, "publisher of the bridge", 60, self.said)
+        for _ in range(3):  # as a panel of Foxglove does when it is drawn again
+            client.do("unadvertise", topic="/goal")
+            client.do("advertise", topic="/goal", **kind)
+        point, turn = {"x": 1, "y": 2, "z": 0}, {"x": 0, "y": 0, "z": 0, "w": 1}
+        header = {"seq": 0, "stamp": {"sec": 1, "nsec": 0}, "frame_id": "map"}
+        goal = {"header": header, "pose": {"position": point, "orientation": turn}}
+        wait_for(lambda: client.do("publish", topic="/goal", messages=[goal]) or goals, "goal", 20)
+        self.assertEqual(goals[0].pose.position.y, 2)
 
     @claim("foxglove_bridge: a client that comes late gets the map and all static frames")
     def test_a_late_client_gets_latched_messages(self):

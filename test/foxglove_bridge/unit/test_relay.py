@@ -2,13 +2,14 @@
 
 import asyncio
 import contextlib
+import json
 import queue
 import socket
 import threading
 
 import pytest
 
-from foxglove_bridge_server.io.relay import NEW, OLD, is_old, renamed, serve
+from foxglove_bridge_server.io.relay import NEW, OLD, is_old, renamed, serve, with_ros
 from tutorial_testing.claims import claim
 
 pytestmark = claim(
@@ -120,3 +121,11 @@ def test_a_head_that_does_not_end_is_refused(relayed):
             other.sendall(b"x" * 1_000_000)
         with contextlib.suppress(ConnectionResetError):
             assert other.recv(1) == b""
+
+
+def test_the_first_message_names_ros_1_and_keeps_its_length():
+    greeting = b'\x81\x40{"metadata":{"fg-library":"foxglove-sdk-python/0.30.3"},"sessionId":"1"}'
+    changed = with_ros(greeting)
+    assert len(changed) == len(greeting)
+    assert json.loads(changed[2:])["metadata"] == {"ROS_DISTRO": "noetic"}
+    assert with_ros(ANSWER) == ANSWER

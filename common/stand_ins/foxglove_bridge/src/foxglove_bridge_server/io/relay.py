@@ -1,4 +1,4 @@
-"""Passes connections on to the SDK, and renames the WebSocket's subprotocol on the way.
+"""Passes connections on to the SDK; changes the subprotocol's name and the SDK's metadata.
 
 foxglove-sdk 0.30 accepts only the name foxglove.sdk.v1. Lichtblick and npm's @foxglove/ws-protocol
 offer only foxglove.websocket.v1, whose messages are the same.
@@ -11,12 +11,16 @@ import contextlib
 import re
 import socket
 import ssl
+from typing import Callable
 
 OLD, NEW = b"foxglove.websocket.v1", b"foxglove.sdk.v1"
 HEAD_S = 10.0  # for a request and its answer; asyncio limits each to 64 kB
 _END = b"\r\n\r\n"
 _NAMES = re.compile(rb"(?im)^sec-websocket-protocol:.*$")
 _CHUNK = 1 << 18  # bytes
+# Clients publish goals only to a server that names a ROS; the SDK for Python has no metadata.
+_LIBRARY, _ROS = re.compile(rb'"fg-library":"[^"]{8,}"'), b'"ROS_DISTRO":"noetic"'
+_Change = Callable[[bytes], bytes]
 _ENDS = (OSError, EOFError, asyncio.TimeoutError, asyncio.LimitOverrunError)
 
 
@@ -29,6 +33,11 @@ def is_old(request: bytes) -> bool:
     """Return whether a request offers only the old name of the subprotocol."""
     offered = b"".join(_NAMES.findall(request))
     return OLD in offered and NEW not in offered
+
+
+def with_ros(greeting: bytes) -> bytes:
+    """Return the first message of the SDK, of the same length, with ROS 1 for its library."""
+    return _LIBRARY.sub(lambda part: _ROS.ljust(len(part[0])), greeting, count=1)
 
 
 async def serve(
@@ -49,7 +58,7 @@ async def serve(
                 to_sdk.write(renamed(request, OLD, NEW) if is_old(request) else request)
                 answer = await asyncio.wait_for(from_sdk.readuntil(_END), HEAD_S)
                 writer.write(renamed(answer, NEW, OLD) if is_old(request) else answer)
-                ways = [_pass_on(reader, to_sdk), _pass_on(from_sdk, writer)]
+                ways = [_pass_on(reader, to_sdk), _pass_on(from_sdk, writer, with_ros)]
                 tasks = [asyncio.ensure_future(way) for way in ways]
                 await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
                 for task in tasks:
@@ -61,11 +70,14 @@ async def serve(
     await server.serve_forever()
 
 
-async def _pass_on(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+async def _pass_on(
+    reader: asyncio.StreamReader, writer: asyncio.StreamWriter, change: _Change = bytes
+) -> None:
     with contextlib.suppress(OSError):
         while True:
-            data = await reader.read(_CHUNK)
+            data = change(await reader.read(_CHUNK))
             if not data:
                 return
+            change = bytes  # only the first part is changed
             writer.write(data)
             await writer.drain()
