@@ -9,7 +9,6 @@ for (let k = 0; k < Number(clients); k += 1) {
   const socket = new WebSocket(url);
   socket.on("open", () => {
     for (const topic of topics) socket.send(JSON.stringify({ op: "subscribe", topic }));
-    if (k === 0) socket.pause();
   });
   socket.on("message", () => (count += 1));
 }
