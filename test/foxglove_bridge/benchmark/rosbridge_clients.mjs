@@ -1,4 +1,4 @@
-/** Clients of rosbridge: the number of messages each second, a line each. URL MODULES CLIENTS TOPIC... */
+/** Clients of rosbridge: the messages of each second, a line each. URL MODULES CLIENTS TOPIC... */
 
 import { createRequire } from "node:module";
 
