@@ -66,9 +66,14 @@ class RoomRobot(Robot):
     def begin(self):
         robot = self.roslaunch("turtlebot_bringup", "minimal.launch", "world:=room")
         wait_for(lambda: "started core service" in robot.output, "master")
-        bridge = self.roslaunch("foxglove_bridge", "foxglove_bridge.launch", f"port:={self.port}")
-        wait_for(lambda: "ws://" in bridge.output, "bridge", 60, lambda: bridge.output)
+        self._bridge = self.roslaunch(
+            "foxglove_bridge", "foxglove_bridge.launch", f"port:={self.port}"
+        )
+        wait_for(lambda: "ws://" in self.said(), "bridge", 60, self.said)
         self.observe(OBSERVER, **self.environment)
+
+    def said(self):
+        return self._bridge.output
 
 
 @pytest.fixture(scope="module")
@@ -100,11 +105,11 @@ def pixels(browser, colour):
 
 @claim("The layout for Foxglove and Lichtblick shows map and scan, plots odom, and drives")
 def test_the_layout_shows_the_robot_and_drives_it(studio, robot):
-    wait_for(lambda: pixels(studio, SCAN) > LEAST, "scan", 60, studio.errors)
-    wait_for(lambda: pixels(studio, WALL) > LEAST, "walls of the map", 60, studio.errors)
+    wait_for(lambda: pixels(studio, SCAN) > LEAST, "scan", 60, robot.said)
+    wait_for(lambda: pixels(studio, WALL) > LEAST, "walls of the map", 60, robot.said)
     studio.mouse("mousePressed", UP, "left")
-    wait_for(lambda: robot.now.v > MOST_SLOW, "drive", 60, studio.errors)
-    wait_for(lambda: pixels(studio, CURVE) > LEAST, "curve of the velocity", 60, studio.errors)
+    wait_for(lambda: robot.now.v > MOST_SLOW, "drive", 60, robot.said)
+    wait_for(lambda: pixels(studio, CURVE) > LEAST, "curve of the velocity", 60, robot.said)
     studio.mouse("mouseReleased", UP, "left")
     robot.wait_for_rest()
     assert studio.all(PUBLISH)  # which Studio shows only where it sees a ROS
