@@ -112,4 +112,24 @@ def test_the_layout_shows_the_robot_and_drives_it(studio, robot):
     wait_for(lambda: pixels(studio, CURVE) > LEAST, "curve of the velocity", 60, robot.said)
     studio.mouse("mouseReleased", UP, "left")
     robot.wait_for_rest()
-    assert studio.all(PUBLISH)  # which Studio shows only where it sees a ROS
+
+
+@claim("Foxglove and Lichtblick publish a goal by two clicks on the floor")
+def test_two_clicks_on_the_floor_publish_a_goal(studio, robot):
+    with Program("rostopic", "echo", "/move_base_simple/goal", **robot.environment) as goal:
+        wait_for(lambda: studio.all(PUBLISH), "button", 60, robot.said)
+
+        def is_published():  # again, until rostopic has connected
+            studio.one(PUBLISH).click()
+            x, y = studio.middle("canvas")
+            for way in (0, 40):  # to the first place, and in the direction of the second
+                click(studio, x + way, y + 50)
+            return 'frame_id: "map"' in goal.output
+
+        wait_for(is_published, "goal", 60, robot.said)
+
+
+def click(browser, x, y):
+    for kind, button in (("Moved", "none"), ("Pressed", "left"), ("Released", "left")):
+        event = {"type": f"mouse{kind}", "button": button, "clickCount": 1}
+        browser.send("Input.dispatchMouseEvent", x=x, y=y, **event)

@@ -21,6 +21,7 @@ from node_kit.ros.rospy_patches.prompt_publisher import PromptPublisher
 
 TICK_S = 0.1
 DELIVERY_S = 0.1  # for a zero to arrive before its connection is closed
+KEPT_S = 1.0  # for a topic without a client: a panel that is drawn again advertises it again
 LONGEST_END_S = 0.5
 LONGEST_QUEUE = 1000  # messages of clients; later ones are lost
 User = Tuple[int, int]  # a client, and its number for the topic
@@ -61,7 +62,7 @@ class _Outlet:
     def close(self) -> None:
         if self._others:
             self._others.unregister()
-        threading.Timer(DELIVERY_S, self._publisher.end).start()
+        self._publisher.end()
 
 
 class ClientTopics:
@@ -71,6 +72,7 @@ class ClientTopics:
         self._whitelist, self._warn = whitelist, warn
         self._jobs: queue.SimpleQueue[tuple[Any, ...]] = queue.SimpleQueue()
         self._outlets: dict[User, _Outlet] = {}
+        self._kept: dict[str, tuple[_Outlet, float]] = {}  # by topic, until when
         self._refusals: dict[User, str] = {}
         self._has_ended = threading.Event()
 
@@ -95,6 +97,10 @@ class ClientTopics:
                 pass
             for outlet in set(self._outlets.values()):
                 outlet.end_motion()
+            for topic, (outlet, until) in list(self._kept.items()):
+                if time.monotonic() > until:
+                    del self._kept[topic]
+                    outlet.close()
 
     def end(self) -> None:
         """End all motions, and wait until the zeros have arrived."""
@@ -111,7 +117,8 @@ class ClientTopics:
         is_legal = bool(topic) and is_legal_name(topic)
         topic = rospy.resolve_name(topic) if is_legal else topic
         kind = message_class(kind_name)
-        known = {outlet.topic: outlet for outlet in self._outlets.values()}.get(topic)
+        kept = [outlet for outlet, _ in self._kept.values()]
+        known = {outlet.topic: outlet for outlet in [*kept, *self._outlets.values()]}.get(topic)
         refusal = ""
         if encoding != ENCODING:
             refusal = f"the encoding must be {ENCODING}, not {encoding!r}"
@@ -125,6 +132,7 @@ class ClientTopics:
             self._warn(f"{topic!r} cannot be published: {refusal}")
             return
         self._outlets[user] = known or _Outlet(topic, kind)
+        self._kept.pop(topic, None)
 
     def _send(self, user: User, data: bytes) -> None:
         if user in self._outlets:
@@ -139,4 +147,4 @@ class ClientTopics:
         if outlet:
             outlet.end_motion(user)
             if outlet not in self._outlets.values():
-                outlet.close()
+                self._kept[outlet.topic] = outlet, time.monotonic() + KEPT_S
