@@ -62,6 +62,9 @@ class Feeds:
         self._wants: dict[Hashable, tuple[Mapping[str, Handler], bool]] = {}
         self._handlers: dict[str, list[Handler]] = {}
         self._wanted: frozenset[tuple[str, bool]] = frozenset()  # as in _wants
+        # Not wanted for a moment since the last _adjust(): what is wanted again is subscribed to
+        # anew, as its user expects what is latched.
+        self._dropped: set[tuple[str, bool]] = set()
         self._subscribers: dict[tuple[str, bool], Any] = {}
 
     def set_subscriptions(
@@ -82,13 +85,16 @@ class Feeds:
                 by_topic.setdefault(topic, []).append(handler)
             complete |= set(wanted) if wants_all else set()
         self._handlers = by_topic
-        self._wanted = frozenset((topic, topic in complete) for topic in by_topic)
+        wanted = frozenset((topic, topic in complete) for topic in by_topic)
+        self._dropped.update(self._wanted - wanted)
+        self._wanted = wanted
         later_once(self._adjust)
 
     def _adjust(self) -> None:
         wanted = self._wanted
         # A topic that rospy refuses must not affect the others, which also reveal a rival.
-        for key in set(self._subscribers) - wanted:
+        for key in [key for key in self._subscribers if key in self._dropped or key not in wanted]:
+            self._dropped.discard(key)
             self._guard(repr(key[0]), self._subscribers.pop(key).unregister)
         for key in wanted - set(self._subscribers):
             self._guard(repr(key[0]), self._subscribe, *key)
