@@ -31,7 +31,7 @@ export class BagTab {
     <button id="bag-open">Open</button>
     <span id="bag-about" role="status" aria-live="polite"></span>
     <button id="bag-record" disabled>Record all topics</button>
-    <span id="bag-recorder" role="status"></span>
+    <span id="bag-recorder" role="status"></span> <span id="bag-seconds"></span>
   </div>
   <div class="card chart"><div id="bag-chart" data-empty="Open a recording, then choose fields from the list."></div></div>
   <div class="card">
@@ -101,10 +101,11 @@ export class BagTab {
       if (isNew) this.#stopped = "";
       if (isNew && !this.#at.playing || names.length === 1 && !this.#bag && !this.#wanted) this.#ask();
     });
-    link.on("recorder", ({ name, why }) => {
+    link.on("recorder", ({ name, why, seconds }) => {
       this.#recorded = name;
       say(byId("bag-record"), name ? "Stop recording" : "Record all topics");
       say(byId("bag-recorder"), name ? `Recording ${name}` : why);
+      say(byId("bag-seconds"), name ? `${seconds} s` : "");
     });
     link.on("bag", (bag) => this.#open(bag));
     link.on("bag_curve", ({ field, points }) => {
@@ -265,7 +266,7 @@ export class BagTab {
     byId("bag-play").disabled = !isOpen || !this.#bag || Boolean(refusal);
     byId("bag-pause").disabled = !isPlaying;
     const what = at.topics.length === 1 ? at.topics[0] : `${at.topics.length} topics`;
-    const publishes = isPlaying ? `Publishing ${what}. Pause stops the robot.` : refusal;
+    const publishes = isPlaying ? `Publishing ${what}.${this.topics.mayMove ? " Pause stops the robot." : ""}` : refusal;
     say(byId("bag-state"), isOpen ? publishes : "Not connected.");
   }
 }

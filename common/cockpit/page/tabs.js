@@ -70,7 +70,7 @@ export class Tabs {
       tab.tabIndex = tab === chosen ? 0 : -1;
       document.getElementById(nameOf(tab)).hidden = !visible.includes(tab);
     }
-    document.title = `${chosen.textContent} – Cockpit`;
+    document.title = `${chosen.textContent.replace(/ \(.*/, "")} – Cockpit`; // without how many topics it publishes
     this.page.onChoose(visible.map(nameOf));
     this.moved(back);
   }

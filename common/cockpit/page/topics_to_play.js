@@ -3,12 +3,14 @@
 import { brief, byId, element, row, say } from "./dom.js";
 
 export const JOY = "sensor_msgs/Joy";
+const MOVING = [JOY, "geometry_msgs/Twist"];
 const LEFT_OUT = ["/clock", "/rosout", "/rosout_agg"]; // unless a person chooses them
 
 export class TopicsToPlay {
   #choices = {}; // topic -> whether a person wants it to be played
   #nodes = {}; // topic -> the other nodes that publish it now
   #joysticks = [];
+  #moving = []; // the topics that may move a robot
   root = byId("bag-topics");
 
   /** onChange(): other topics may be chosen. */
@@ -19,6 +21,7 @@ export class TopicsToPlay {
   show(topics) {
     this.#choices = {};
     this.#joysticks = topics.filter(({ type }) => type === JOY).map(({ name }) => name);
+    this.#moving = topics.filter(({ type }) => MOVING.includes(type)).map(({ name }) => name);
     this.root.replaceChildren(...topics.map(({ name, type, count }) => {
       const box = element("input", { type: "checkbox", value: name });
       box.onchange = () => this.#choose(name, box.checked);
@@ -49,6 +52,10 @@ export class TopicsToPlay {
 
   get chosen() {
     return [...this.root.querySelectorAll("input:checked")].map(({ value }) => value);
+  }
+
+  get mayMove() {
+    return this.chosen.some((topic) => this.#moving.includes(topic));
   }
 
   /** The chosen topic that moves a joystick, or undefined. */

@@ -80,6 +80,7 @@ def recorded(world, page, ros):
         page.tab("Bag")
         page.click("Record all topics")
         page.wait_for_text("#bag-recorder", "Recording page_")
+        page.wait_for_text("#bag-seconds", "1 s")
         name = page.text("#bag-recorder").split()[1]
         wait_for(lambda: "/record_" in ros("rosnode", "list"), "recorder")
         world.more(200)

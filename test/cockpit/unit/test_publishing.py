@@ -9,7 +9,7 @@ from cockpit_server.errors import RefusedError
 from cockpit_server.graph import JOY
 from cockpit_server.ros.tabs import outlets
 from cockpit_server.ros.tabs.outlets import Outlet
-from cockpit_server.tabs.publishing import SILENT, VELOCITY
+from cockpit_server.tabs.publishing import SILENCE_AT_REST_S, SILENT, VELOCITY
 from tutorial_testing.claims import claim
 from tutorial_testing.form_desk import ONCE, TEXT, VALUES, Desk, Several, value_of
 from tutorial_testing.session_room import ANNA, BOB, look
@@ -72,6 +72,7 @@ def test_each_end_of_the_page_ends_all_and_stop_ends_only_the_motion(end):
     ENDS[end](desk)
     desk.pass_time(LOST_S)
     assert desk.on("/cmd_vel")[-1] == 0.0 and desk.on("/cmd_vel").count(0.0) == 1
+    desk.pass_time(SILENCE_AT_REST_S)
     desk.published.clear()
     desk.is_silent, desk.network_s = False, 0.0
     desk.pass_time(1.0)
@@ -152,7 +153,13 @@ def test_what_moves_nothing_ends_with_its_page_and_makes_no_driver():
     assert 10 <= len(desk.published) <= 11 and desk.driving.session.driver is None
     count = len(desk.published)
     desk.is_silent = True
-    desk.pass_time(0.5)
+    desk.pass_time(1.9)
+    desk.is_silent = False
+    desk.pass_time(0.5)  # A busy page goes on.
+    assert count < len(desk.published) <= count + 6
+    count = len(desk.published)
+    desk.is_silent = True
+    desk.pass_time(2.1)
     assert (len(desk.published), desk.anna[1][-1]["why"]) == (count, f"/cmd_vel: {SILENT}")
     desk.is_silent = False
     desk.pass_time(0.5)

@@ -71,6 +71,8 @@ def test_without_space_nothing_is_recorded_and_what_is_recorded_ends_with_the_re
     one.on_record(driver, 0.0, on=True)
     wait_for(lambda: list(tmp_path.glob("*.active")), "recording")
     name = one._name
+    one.send_to(driver, 9.9)
+    assert sent[-1] == {"kind": "recorder", "name": name, "why": "", "seconds": 9}
     one.collect([], 1.0)
     free[0] -= 1
     one.collect([], 1.5)

@@ -31,7 +31,9 @@ SHORTEST_S, LONGEST_S = 0.02, 10.0  # between two messages
 # Topics of a page, and messages a second on all of them; see limits.SHARE.
 MOST_TOPICS, MOST_HZ = 8, 100.0
 VELOCITY = "geometry_msgs/Twist"
-SILENT = f"the page was silent for {SILENCE_S:g} s: publish again"
+# After a longer silence what moves nothing is not taken up again; meanwhile nothing is published.
+SILENCE_AT_REST_S = 2.0
+SILENT = f"the page was silent for {SILENCE_AT_REST_S:g} s: publish again"
 
 
 class Publishers(Protocol):
@@ -78,7 +80,7 @@ class Publishing(TabSource):
         self._held = {n: held for n, held in self._held.items() if held and n in open_pages}
         for page_number, topics in self._held.items():
             for topic, held in list(topics.items()):
-                is_silent = not held.drives and now - held.fresh_at > SILENCE_S
+                is_silent = not held.drives and now - held.fresh_at > SILENCE_AT_REST_S
                 if is_silent:
                     open_pages[page_number].refuse("again", f"{topic}: {SILENT}")
                 if is_silent or not self._is_on(open_pages[page_number], held):

@@ -36,7 +36,7 @@ class Recorder(TabSource):
     def __init__(self) -> None:
         self._name = ""  # the file that is being recorded, or ""
         self._why = ""  # why the last recording has ended, if no page ended it
-        self._next_look_s = 0.0
+        self._next_look_s = self._began_s = 0.0
         self._process: Popen[bytes] | None = None
         self._is_over = False  # whether it was stopped, maybe before there was a process
         rospy.on_shutdown(self._stop)
@@ -49,11 +49,12 @@ class Recorder(TabSource):
                 self._stop()
 
     def send_to(self, page: Page, now: float) -> None:
-        state = {"name": self._name, "why": self._why}
+        seconds = int(now - self._began_s) if self._name else 0
+        state = {"name": self._name, "why": self._why, "seconds": seconds}
         if page.watch.bag and page.take_if_new("recorder", state):
             page.send("recorder", **state)
 
-    def on_record(self, page: Page, _now: float, on: bool) -> None:
+    def on_record(self, page: Page, now: float, on: bool) -> None:
         page.must_drive()
         if not on:
             self._stop()
@@ -63,6 +64,7 @@ class Recorder(TabSource):
             raise RefusedError(f"{NO_SPACE}, and rosbag needs more")
         else:
             self._name, self._why, self._is_over = free_name(), "", False
+            self._began_s = now
             threading.Thread(target=self._record, daemon=True).start()
 
     def _record(self) -> None:
