@@ -50,6 +50,7 @@ def pytest_unconfigure(config):
 def pytest_collect_file(file_path, parent):
     beside, is_named = file_path.with_suffix(".test"), parent.session.isinitpath(file_path)
     is_alone = file_path.suffix == ".py" and not beside.exists() and not is_named
+    is_alone = is_alone and file_path.name != "conftest.py"
     if file_path.parent.name == "ros" and (is_alone or file_path == beside):
         return RosFile.from_parent(parent, path=file_path)
     return None
