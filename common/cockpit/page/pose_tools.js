@@ -17,6 +17,7 @@ const TOOLS = {
 const MOVES = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 const TURNS = { "[": Math.PI / 12, "]": -Math.PI / 12 };
 const HELP = "Drag, or use the arrow keys, [, ] and Enter. Esc cancels.";
+const MEET_MS = 2000; // A node may subscribe once there is a publisher; then the server sends that it has.
 const ARROW = [[0, -3], [26, -3], [26, -10], [44, 0], [26, 10], [26, 3], [0, 3]]; // [pixel]
 
 export class PoseTools {
@@ -117,7 +118,10 @@ export class PoseTools {
     if (!this.link.send("publish", { topic: fullName, type, values, period: null })) return;
     this.#published.set(id, [x, y, yaw, robot]);
     this.#announce("Published.", id);
-    if (!this.#server.subscribed.includes(topic)) this.page.notice(`Nothing subscribes to ${fullName}: start a ${reader}.`);
+    setTimeout(() => {
+      if (this.#server.subscribed.includes(topic) || robot !== this.page.look()) return;
+      this.page.notice(`Nothing subscribes to ${fullName}: start a ${reader}.`);
+    }, MEET_MS);
   }
 
   /** paper: see Floor. */

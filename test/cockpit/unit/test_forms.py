@@ -93,7 +93,10 @@ def test_who_may_publish_what(role, driver, topic, kind, why):
     types = {"/x": "std_msgs/String"}
     graph = Graph({"/x": {"/x"}}, services={"/x/reset": {"/x"}}, types=types)
     (client, _), graphs, driving = page(role), Graphs(graph), Free(driver)
-    source, publishing = forms.Forms(driving, None, graphs), Publishing(driving, graphs, Outlets())
+    source, publishing = (
+        forms.Forms(driving, None, graphs),
+        Publishing(driving, graphs, Outlets(graphs)),
+    )
     with pytest.raises(RefusedError, match=f"^{why}"):
         publishing.on_publish(client, 0.0, topic=topic, type=kind, values={}, period=None)
     if kind == "std_msgs/String":
@@ -107,7 +110,7 @@ def test_who_may_publish_what(role, driver, topic, kind, why):
 def test_a_topic_that_nobody_has_any_more_may_get_another_type(filled):
     """The master keeps the type of each topic that it ever had."""
     graphs = Graphs(Graph(types={"/x": "std_msgs/String"}))
-    publishing = Publishing(Free(), graphs, Outlets())
+    publishing = Publishing(Free(), graphs, Outlets(graphs))
     message = publishing._message(page()[0], "/x", "std_msgs/Int32", {"data": "7"})
     assert message == filled("std_msgs/Int32", data="7")
 

@@ -8,6 +8,7 @@ from cockpit_server.graph import ODOMETRY
 from cockpit_server.ros import graph_watch
 from node_kit.rules.answer import Answer
 from tutorial_testing.claims import claim
+from tutorial_testing.waiting import wait_for
 
 PUBLISHERS = [["/odom", ["/sim"]], ["/x", ["/cockpit"]], ["/rosout", ["/cockpit"]]]
 WELL = {
@@ -57,3 +58,15 @@ def test_a_node_that_was_killed_is_not_shown_until_it_is_back(master):
     master["http://here:1/", "getPid"] = (Answer.REFUSED, None)  # a node is asked once
     watch.look()
     assert watch.graph.published == ["/odom", "/x"]
+
+
+@claim("The first message of a page ...", because="the graph is read at once, not in a second")
+def test_the_graph_is_looked_at_when_that_is_asked_for(master, monkeypatch):
+    monkeypatch.setattr(graph_watch, "PERIOD_S", 1e6)
+    watch = graph_watch.GraphWatch("/cockpit")
+    is_lost, began = threading.Event(), watch.looked_at
+    watch.start(is_lost.set)
+    watch.look_soon()
+    wait_for(lambda: watch.looked_at > began, "look")
+    master["getPid"] = (Answer.REFUSED, None)
+    assert is_lost.wait(30)

@@ -1,14 +1,11 @@
 """Forms that publish: when they end, and that one that moves a robot makes its page the driver."""
 
-from types import SimpleNamespace
-
 import pytest
 import rospy
 
 from cockpit_server.errors import RefusedError
 from cockpit_server.graph import JOY
 from cockpit_server.ros.tabs import outlets
-from cockpit_server.ros.tabs.outlets import Outlet
 from cockpit_server.tabs.publishing import SILENCE_AT_REST_S, SILENT, VELOCITY
 from tutorial_testing.claims import claim
 from tutorial_testing.form_desk import ONCE, TEXT, VALUES, Desk, Several, value_of
@@ -235,13 +232,3 @@ def test_nothing_is_published_after_the_end_of_the_server():
     with pytest.raises(RefusedError, match="being shut down"):
         desk.publish(VALUES[VELOCITY])
     assert desk.values == [1.0, 0.0]
-
-
-def test_the_first_message_waits_for_the_subscribers(monkeypatch):
-    sent = []
-    publisher = SimpleNamespace(publish=sent.append, names={"/a"})
-    monkeypatch.setattr(outlets, "PromptPublisher", lambda *_: publisher)
-    for wanted, counts in (({"/a"}, [1, 1, 1]), ({"/b"}, [1, 1, 2])):
-        outlet = Outlet(0.0, 0.0, "message")
-        outlet.open("/x", None)
-        assert [outlet.send_first(wanted, now) or len(sent) for now in (0.0, 0.5, 1.1)] == counts

@@ -39,7 +39,7 @@ def judge(name):
     client, _ = viewer = page(fields=("/t/x",), field_list=True, topic="/t", rates=("/t",))
     form = {"topic": "/t", "type": name, "values": {}, "period": None}
     with pytest.raises(RefusedError, match="no topic of the type"):
-        Publishing(Free(), graphs, Outlets()).on_publish(client, 0.0, **form)
+        Publishing(Free(), graphs, Outlets(graphs)).on_publish(client, 0.0, **form)
     with pytest.raises(RefusedError, match="not installed"):
         forms.Forms(Free(), None, graphs).on_describe(client, 0.0, "message", name)
     for kind in (plots.Plots, topics.Topics):

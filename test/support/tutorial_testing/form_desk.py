@@ -24,8 +24,9 @@ class Desk:
 
     def __init__(self, kind=VELOCITY, period=0.1):
         self.driving, self.now, self.published = Free(), 100.0, []
-        kept = Outlets()
-        self.repeats = Publishing(self.driving, Graphs(), kept)
+        graphs = Graphs()
+        kept = Outlets(graphs)
+        self.repeats = Publishing(self.driving, graphs, kept)
         publish = lambda message: self.published.append((self.now, value_of(message)))  # noqa: E731
         kept._outlets["/cmd_vel", kind] = Outlet(99.0, 99.0, None, SimpleNamespace(publish=publish))
         self.anna, self.bob = page(number=ANNA), page(number=BOB)

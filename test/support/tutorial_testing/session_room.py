@@ -98,7 +98,10 @@ class Graphs:
     """Replaces GraphWatch: the graph is the test's."""
 
     def __init__(self, graph=None):
-        self.graph = graph or Graph()
+        self.graph, self.looked_at, self.looks = graph or Graph(), 0.0, 0
+
+    def look_soon(self):
+        self.looks += 1
 
 
 class Topics:

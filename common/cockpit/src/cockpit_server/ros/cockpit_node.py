@@ -80,8 +80,8 @@ class Cockpit:
         driving = self._driving = Driving(pages, graphs, joysticks, reports, robots.moves)
         sources = (
             robots, joysticks, driving, graphs, Topics(feeds, graphs), Plots(feeds, graphs),
-            Forms(driving, self._soon, graphs), Publishing(driving, graphs, Outlets()), Logs(feeds),
-            Doctor(), Bags(driving, self._soon, graphs), Recorder(), maps,
+            Forms(driving, self._soon, graphs), Publishing(driving, graphs, Outlets(graphs)),
+            Logs(feeds), Doctor(), Bags(driving, self._soon, graphs), Recorder(), maps,
             Overlays(feeds, graphs, transforms, robots, maps, drawer.submit), Turtles(graphs),
             frames, Diagnostics(feeds),
         )  # fmt: skip

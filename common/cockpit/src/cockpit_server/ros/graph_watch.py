@@ -29,7 +29,8 @@ class GraphWatch(TabSource):
         self._own_name = own_name
         self._uri = rosgraph.get_master_uri()
         self.graph, self._text = Graph(own_name=own_name), ""  # and its message to pages
-        self._is_lost = False
+        self.looked_at = 0.0  # by time.monotonic(), when the newest answered look began
+        self._is_lost, self._is_due = False, threading.Event()
         self._pid: int | None = None  # the master's, once known
         self.look()
 
@@ -44,16 +45,21 @@ class GraphWatch(TabSource):
     def _run(self, lost: Callable[[], None]) -> None:
         next_look_s = time.monotonic() + PERIOD_S
         while not self._is_lost:
-            time.sleep(MASTER_S)
+            is_due = self._is_due.wait(MASTER_S)
             if call(self._uri, "getPid", caller=self._own_name)[0] is Answer.REFUSED:
                 self._is_lost = True
-            elif time.monotonic() >= next_look_s:
+            elif is_due or time.monotonic() >= next_look_s:
+                self._is_due.clear()
                 self.look()
                 next_look_s = time.monotonic() + PERIOD_S
         lost()
 
+    def look_soon(self) -> None:
+        self._is_due.set()
+
     def look(self) -> None:
         """Ask the master once, and note whether it is still the same one."""
+        began_s = time.monotonic()
         answer, state = call(self._uri, "getSystemState", caller=self._own_name)
         if answer is Answer.SILENT:
             return
@@ -73,6 +79,7 @@ class GraphWatch(TabSource):
         graph = graph_of(state, dict(types or []), parameters or [], machines, self._own_name)
         if graph != self.graph:
             self.graph, self._text = graph, encoded("graph", **graph.parts())
+        self.looked_at = began_s
 
     def _machine(self, node: str) -> str | None:
         """Return the machine of a node; None if it was killed without the master's knowledge."""
