@@ -42,6 +42,13 @@ export function say(target, text) {
   if (target.textContent !== text) target.textContent = text;
 }
 
+/** Set a name only if it differs. A line breaks after its / and _, and elsewhere only if a part is too long. */
+export function sayName(target, name) {
+  if (target.textContent === name) return;
+  const parts = name.match(/[/_]*[^/_]+[/_]*/g) ?? [name];
+  target.replaceChildren(...parts.flatMap((part) => [part, element("wbr")]));
+}
+
 /** A function that says whether a text matches a search: it has all words of it, and none that follows a minus. */
 export function matcher(search) {
   const words = search.toLowerCase().split(/\s+/).filter((word) => word !== "-");

@@ -1,6 +1,6 @@
 /** The tab Frames: the tree of tf with what is wrong in it, and the transform between two frames. */
 
-import { brief, byId, element, number, offer, row, say } from "./dom.js";
+import { brief, byId, element, number, offer, row, say, sayName } from "./dom.js";
 
 const FIXED = ["odom", "map"], BASE = ["base_footprint", "base_link"]; // of REP-105, chosen at first
 const DEEPEST = 10; // A deeper frame is indented as far.
@@ -98,13 +98,14 @@ export class FramesTab {
     const [name, ...cells] = line.cells;
     const values = isStatic ? ["static", ""] : [number(rate, 1), `${number(age)} s`];
     const texts = nodes ? [...values, nodes.map(brief).join(", ")] : ["", "", ""];
-    texts.forEach((text, i) => say(cells[i], text));
+    texts.forEach((text, i) => sayName(cells[i], text));
     say(name.lastChild, problems.join("; "));
     return line;
   }
 
   #newLine(frame) {
-    const line = row(frame, "", "", "");
+    const name = element("span"), line = row(name, "", "", "");
+    sayName(name, frame);
     line.cells[0].append(element("strong", { className: "problem" }));
     line.onclick = () => this.#choose(1, frame);
     line.onfocus = () => {

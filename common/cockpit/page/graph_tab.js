@@ -1,6 +1,6 @@
 /** The tab Graph: the nodes and their topics, live. */
 
-import { brief, byId, byName, element, matcher, save, say } from "./dom.js";
+import { brief, byId, byName, element, matcher, save, say, sayName } from "./dom.js";
 import { dotOf, groupsOf, itemsOf } from "./graph_items.js";
 import { itemBeside, layout, neighbours } from "./graph_layout.js";
 import { fileOf, pictureOf } from "./graph_picture.js";
@@ -211,8 +211,11 @@ export class GraphTab {
 
   /** Buttons that choose nodes or topics, or a dash. */
   #links(items) {
-    const button = (item) => element(
-      "button", { className: "link", onclick: () => this.#choose(item), title: item }, brief(item.split(" ")[1]));
+    const button = (item) => {
+      const link = element("button", { className: "link", onclick: () => this.#choose(item), title: item });
+      sayName(link, brief(item.split(" ")[1]));
+      return link;
+    };
     return items.length ? items.sort(byName).map(button) : "–";
   }
 }

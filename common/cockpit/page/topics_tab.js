@@ -1,6 +1,6 @@
 /** The tab Topics: the rates of topics, the newest messages of one, and a form for it (topic_form.js). */
 
-import { appendBelow, brief, byId, byName, element, offer, row, say } from "./dom.js";
+import { appendBelow, brief, byId, byName, element, offer, row, say, sayName } from "./dom.js";
 import { neighbours } from "./graph_layout.js";
 import { Publishing } from "./publishing.js";
 import { FORMS, TopicForm } from "./topic_form.js";
@@ -159,7 +159,8 @@ export class TopicsTab {
     this.#rows = new Map(listed.map(({ name, type }) => {
       const line = this.#rows.get(name) ?? this.#rowOf(name);
       const counts = [before, after].map((nodes) => nodes[`topic ${name}`]?.length ?? 0);
-      [type, ...counts].forEach((text, i) => say(line.cells[i + 1], String(text)));
+      sayName(line.cells[1], type);
+      counts.forEach((count, i) => say(line.cells[i + 2], String(count)));
       line.classList.toggle("chosen", name === this.#chosen);
       return [name, line];
     }));
@@ -187,7 +188,9 @@ export class TopicsTab {
   }
 
   #rowOf(name) {
-    const line = row(element("button", { className: "link" }, name), "", "", "", "", "");
+    const button = element("button", { className: "link" });
+    sayName(button, name);
+    const line = row(button, "", "", "", "", "");
     line.onclick = () => this.#choose(name);
     return line;
   }
@@ -207,7 +210,7 @@ export class TopicsTab {
     byId("topics").dataset.kind = this.#kind;
     byId("topics-echo").replaceChildren();
     this.#pause(false);
-    say(byId("topics-title"), name ?? "Choose a name.");
+    sayName(byId("topics-title"), name ?? "Choose a name.");
     for (const part of ["about", "definition"]) say(byId(`topics-${part}`), "");
     byId("topics-plots").hidden = true;
     this.form.hide();

@@ -54,7 +54,11 @@ def test_a_rival_is_paused_where_it_can_be_and_else_ended():
     assert "(Ctrl-C in its terminal, or rosnode kill /joy_node)" in rival("/joy_node")
 
 
-UNHEARD = "No node subscribes to /ada/joy: nothing moves before you start joy2twist for ada."
+UNHEARD = (
+    "No node subscribes to /ada/joy: nothing moves before you start joy2twist for ada "
+    "(ROS_NAMESPACE=ada rosrun joy2twist joy2twist.py)."
+)
+WITH_MUX = UNHEARD.replace(").", " cmd_vel:=cmd_vel_mux/input/teleop).")
 BY_LB = "Hold LB (a thumb, a gamepad's button, the key Shift), then move the stick (or arrow keys)."
 BY_77 = "Hold button 77 (a gamepad's button), then move the stick (or arrow keys)."
 FREELY = "Move the stick (a thumb, a gamepad, the arrow keys)."
@@ -78,6 +82,8 @@ READY = {  # -> why the robot stands and what to do; how to drive it, without "E
     "without joy2twist": (SEAT._replace(has_subscriber=False, armed=False), UNHEARD, ""),
     "without joy2twist, stopped": (
         About(has_subscriber=False, why="it"), f"Stopped: it. {UNHEARD}", ""),
+    "without joy2twist, beside a multiplexer": (
+        About(has_subscriber=False, has_mux=True), WITH_MUX, ""),
 }  # fmt: skip
 
 

@@ -8,6 +8,7 @@ from gamepad.gamepads import F710
 from node_kit.rules.arming import DRIVING
 
 NO_ROBOT = "no robot is running yet: start one, for example with ./tutorial demo"
+MUX_INPUT = "cmd_vel_mux/input/teleop"  # of a TurtleBot's multiplexer, for a joystick
 TURTLES = "only turtles are running, which turtle_teleop_key moves: ./tutorial demo starts a robot"
 
 
@@ -33,6 +34,7 @@ class About(NamedTuple):
     publishers: Tuple[str, ...] = ()  # other nodes that publish its joystick
     moves: bool = False  # by its odometry
     has_subscriber: bool = True  # a node subscribes to its joystick
+    has_mux: bool = False  # a node subscribes to its MUX_INPUT
     no_reset: str = "there is no robot to reset"  # why it cannot be reset, or ""
 
     @property
@@ -113,9 +115,13 @@ def again(about: About) -> str:
     return f"Release {button} and the stick, then hold {button} again."
 
 
-def no_subscriber(robot: str) -> str:
+def no_subscriber(about: About, robot: str) -> str:
     topic, where = topic_of(robot, "joy"), f" for {robot}" if robot else ""
-    return f"No node subscribes to {topic}: nothing moves before you start joy2twist{where}."
+    command = f"ROS_NAMESPACE={robot} " if robot else ""
+    command += "rosrun joy2twist joy2twist.py"
+    command += f" cmd_vel:={MUX_INPUT}" if about.has_mux else ""
+    todo = f"nothing moves before you start joy2twist{where} ({command})"
+    return f"No node subscribes to {topic}: {todo}."
 
 
 def sentence(text: str) -> str:
@@ -129,7 +135,7 @@ def ready(about: About, robot: str, page: int, refusal: str) -> str:
     """
     stopped = f"Stopped: {about.why}." if about.why else ""
     if not about.has_subscriber:
-        return " ".join(filter(None, (stopped, no_subscriber(robot), sentence(refusal))))
+        return " ".join(filter(None, (stopped, no_subscriber(about, robot), sentence(refusal))))
     button = deadman_button(about)
     if about.driver != page:
         todo = sentence(refusal)

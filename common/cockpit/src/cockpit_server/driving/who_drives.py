@@ -11,7 +11,7 @@ from cockpit_server.driving.joy2twist_reports import Joy2TwistReports
 from cockpit_server.driving.player import Player
 from cockpit_server.driving.reasons import About
 from cockpit_server.errors import RefusedError
-from cockpit_server.graph import GraphWatcher
+from cockpit_server.graph import GraphWatcher, topic_of
 from cockpit_server.pages import LOOKS_ONLY, Page, TabSource
 
 CONNECT_S = 2.0  # how long to wait for the connection of a node that is registered
@@ -253,6 +253,7 @@ class Driving(TabSource):
             publishers=graph.joysticks(robot),
             moves=self._moves(robot, now),
             has_subscriber=bool(graph.joystick_subscribers(robot)),
+            has_mux=topic_of(robot, reasons.MUX_INPUT) in graph.subscribers,
             no_reset=graph.why_no_reset(robot),
         )
 
