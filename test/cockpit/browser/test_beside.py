@@ -28,6 +28,24 @@ ROBOT_X = """(() => {
   }
   return xs.reduce((sum, x) => sum + x, 0) / xs.length;
 })()"""
+# Widths of what reaches from side to side, and the tops of the buttons on the floor.
+WIDE = """[document.documentElement.scrollWidth, document.body.scrollWidth,
+  ...["header", "#notice"].map((css) => document.querySelector(css).offsetWidth)]"""
+BUTTONS = "[...document.querySelectorAll('.toolbar button')].map((button) => button.offsetTop)"
+# What a line of a name in the list ends with, where another line follows.
+LINE_ENDS = """[...document.querySelectorAll("#topics-rows button")].flatMap((name) => {
+  const ends = [], walker = document.createTreeWalker(name, NodeFilter.SHOW_TEXT);
+  const range = document.createRange();
+  let last = null;
+  while (walker.nextNode()) [...walker.currentNode.data].forEach((letter, i) => {
+    range.setStart(walker.currentNode, i);
+    range.setEnd(walker.currentNode, i + 1);
+    const {top} = range.getBoundingClientRect();
+    if (last && top > last.top + 5) ends.push(last.letter);
+    last = {top, letter};
+  });
+  return ends;
+})"""
 SELECTED = "[...document.querySelectorAll('[aria-selected=true]')].map((tab) => tab.textContent)"
 
 
@@ -60,6 +78,8 @@ def test_both_are_in_sight_and_live_and_the_link_keeps_it(world, wide):
     wait_for(lambda: page.all("#topics-echo"), "page")
     page.wait_for_text("#topics-echo", "---")
     assert in_sight(page) == ["robot", "topics"]
+    ends = page.ask(LINE_ENDS)
+    assert ends and set(ends) <= {"/", "_"}, "a line breaks after these"
     page.click("Drive from this page")
     page.wait_for_text("#session", "You drive")
     page.click("Follow")
@@ -106,3 +126,6 @@ def test_no_pair_of_tabs_has_a_fault_or_leaves_the_window(world, wide, scheme, s
         assert in_sight(page) == ["robot", name]
         assert max(right for _, _, right, _ in page.ask(PANELS)) <= size[0], name
         assert violations(page) == [], name
+        page.ask("document.getElementById('notice').textContent = 'A line for a person.'")
+        assert page.ask(WIDE) == [size[0]] * 4, name
+        assert len(set(page.ask(BUTTONS))) == 1, "one line"
