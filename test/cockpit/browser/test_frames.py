@@ -73,6 +73,19 @@ def test_tree_of_the_robot_shows_two_nodes_a_refusal_and_a_gap_in_red(world, pag
         wait_for(lambda: cells(page, "still")[1] == "still", "end of the gap")
 
 
+@claim("Tab Frames ...", because="a phone")
+def test_a_phone_shows_the_whole_tree_without_a_bar_and_words_stay_whole(world, page):
+    page.resize(360, 740)
+    page.tab("Frames")
+    page.wait_for_text("#frames-rows", "wheel_right_link")
+    side = "(({scrollWidth, clientWidth}) => scrollWidth - clientWidth)"
+    assert page.ask(f"{side}(document.querySelector('#frames .scroll'))") == 0
+    heads = "[...document.querySelectorAll('#frames th')].map((head) => head.innerText)"
+    lines = "[...document.querySelectorAll('#frames th')].map((head) => head.offsetHeight)"
+    assert len(set(page.ask(lines))) == 1, page.ask(heads)
+    page.resize()
+
+
 def shown_numbers(page):
     place, _, turn = page.text("#frames-transform").split("\n")
     return [float(number) for number in re.findall(r"-?\d+\.\d+", place + turn)]

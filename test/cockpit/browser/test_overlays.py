@@ -180,6 +180,12 @@ def test_goal_by_a_drag(room, bare, floor):
     drag(Key.ESCAPE)
     assert floor.one("#set-goal").get_attribute("aria-pressed") == "false"
     assert (floor.text("#tool"), drawn(floor, GREEN)[0]) == ("", 0)
+    with room.run("rostopic", "echo", "-n1", "/move_base_simple/goal") as echo:
+        wait_for(lambda: "does not appear to be published yet" in echo.output, "echo")
+        floor.click("Set goal")
+        drag()
+        wait_for(lambda: "frame_id" in echo.output, "first goal")
+        echo.wait()
     floor.click("Set goal")
     drag()
     floor.wait_for_text("#notice", "Nothing subscribes to /move_base_simple/goal")

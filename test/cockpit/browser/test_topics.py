@@ -87,6 +87,8 @@ def test_a_link_shows_what_it_names_reload_keeps_it_and_back_goes_back(world, pa
     "shown, calls, sets parameters; a refusal is shown until the next action"
 )
 def test_topics_shows_rates_and_messages_publishes_calls_and_sets(world, page, ros):
+    page.tab("Topics")
+    assert "Definition" not in page.text("#topics .panel"), "of no topic"
     page.driver.get(f"{world.address}#topics/probe")
     page.one("#topics-search").send_keys("probe")
     with world.run("rostopic", "pub", "-r", "20", "/probe", "std_msgs/String", "a"):
@@ -98,6 +100,8 @@ def test_topics_shows_rates_and_messages_publishes_calls_and_sets(world, page, r
         page.wait_for_text("#topics-echo", 'data: "a"\n---\ndata: "a"')
         page.wait_for_text("#topics-definition", "string data")
     page.click("Pause")
+    field, button = (page.one(css).rect for css in ("#topics-fields input", "#topics-send"))
+    assert button["y"] - field["y"] - field["height"] > 5, "space between them"
     page.one("#topics-fields input").send_keys("b")
     with world.run("rostopic", "echo", "-n1", "/probe") as echo:
         wait_for(lambda: page.ask(cells)[3:4] == ["1"], "its subscriber")
