@@ -80,9 +80,8 @@ def test_a_phone_shows_the_whole_tree_without_a_bar_and_words_stay_whole(world, 
     page.wait_for_text("#frames-rows", "wheel_right_link")
     side = "(({scrollWidth, clientWidth}) => scrollWidth - clientWidth)"
     assert page.ask(f"{side}(document.querySelector('#frames .scroll'))") == 0
-    heads = "[...document.querySelectorAll('#frames th')].map((head) => head.innerText)"
-    lines = "[...document.querySelectorAll('#frames th')].map((head) => head.offsetHeight)"
-    assert len(set(page.ask(lines))) == 1, page.ask(heads)
+    heads = "[...document.querySelectorAll('#frames th')].map((head) => head.offsetHeight)"
+    assert max(page.ask(heads)) < 30, "one line [pixel]"
     page.resize()
 
 
