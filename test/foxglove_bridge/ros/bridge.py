@@ -180,9 +180,46 @@ class SeenTest(BridgeTest):
         wait_for(lambda: any("/secret" in text for text in client.statuses()), "refusal")
         self.assertEqual(rospy.get_param("/secret"), "x")
 
-    def test_the_graph_has_nodes_by_topic(self):
+    def test_what_is_set_is_answered_and_the_rest_is_refused_with_a_line(self):
+        _, port = self.bridge("_param_whitelist:=['/set/.*']")
+        client = self.client(port)
+        wait_for(lambda: client.of("serverInfo"), "server")
+        refused = {
+            "/set/tree": {"value": {"a": 1}},
+            "/set/bytes": {"value": "AAEC", "type": "byte_array"},
+            "/set/large": {"value": 1 << 40},
+            "/set/no name": {"value": 1},
+            "/set/none": {},
+        }
+        wanted = [{"name": name, **value} for name, value in refused.items()]
+        wanted.append({"name": "set/list", "value": ["a", "b"]})  # relative
+        client.send({"op": "setParameters", "parameters": wanted, "id": "set"})
+        answer = wait_for(lambda: client.of("parameterValues"), "answer")[0]
+        self.assertEqual(answer["parameters"], [{"name": "/set/list", "value": ["a", "b"]}])
+        self.assertEqual(rospy.get_param("/set"), {"list": ["a", "b"]})
+        for name in refused:
+            line = f"{name!r} is not set: "
+            wait_for(lambda s=line: any(t.startswith(s) for t in client.statuses()), line)
+
+    def test_a_refused_file_names_no_folder_of_this_machine(self):
         _, port = self.bridge()
+        client = self.client(port)
+        wait_for(lambda: client.of("serverInfo"), "server")
+        for number, package in enumerate(("no_such_package", "rospy")):
+            uri = f"package://{package}/none.dae"
+            client.send({"op": "fetchAsset", "uri": uri, "requestId": number})
+        wait_for(lambda: len(client.assets) == 2, "answers", seen=lambda: client.texts)
+        for answer in client.assets:
+            self.assertNotIn(b"/opt", answer)
+            self.assertNotIn(b"/usr", answer)
+            self.assertNotIn(b"ROS path", answer)
+
+    def test_the_graph_has_what_the_whitelists_allow(self):
+        _, port = self.bridge("_topic_whitelist:=['/gra.*']", "_service_whitelist:=['/as.*']")
         self.publisher("graphed", String)
+        self.publisher("hidden", String)
+        service = rospy.Service("ask", SetBool, lambda _: SetBoolResponse())
+        self.addCleanup(service.shutdown)
         client = self.client(port)
         wait_for(lambda: client.of("serverInfo"), "server")
         client.send({"op": "subscribeConnectionGraph"})
@@ -193,6 +230,15 @@ class SeenTest(BridgeTest):
             return any(published in update["publishedTopics"] for update in updates)
 
         wait_for(graphed, "topic in the graph", seen=lambda: client.texts)
+        updates = client.of("connectionGraphUpdate")
+        shown = {
+            entry["name"]
+            for update in updates
+            for kind in ("publishedTopics", "subscribedTopics", "advertisedServices")
+            for entry in update[kind]
+        }
+        self.assertLessEqual({"/graphed"}, shown)
+        self.assertLessEqual(shown, {"/graphed", "/ask"})
 
 
 @claim(
@@ -247,7 +293,7 @@ class DrivenTest(BridgeTest):
         second.advertise(1, "contested", TWIST)  # the same topic
         fast = Twist()
         fast.linear.x = 9.0
-        refusal = "/contested: a message is refused: another client drives"
+        refusal = "/contested: a message is refused: another client drives: stop it, then wait 2 s"
 
         def both():
             first.publish(1, serialised(AHEAD))
@@ -257,12 +303,12 @@ class DrivenTest(BridgeTest):
         wait_for(both, "refusal")
         self.assertNotIn(fast, heard)
         node = self.connected("/contested", Twist)
-        other = f"/contested: a message is refused: {rospy.get_name()} publishes there"
+        other = f"/contested: a message is refused: {rospy.get_name()} publishes there: stop it"
 
         def against_a_node():
             node.publish(ZERO)
             first.publish(1, serialised(AHEAD))
-            return other in first.statuses()
+            return any(line.startswith(other) for line in first.statuses())
 
         wait_for(against_a_node, "refusal for a node")
 
@@ -277,8 +323,26 @@ class DrivenTest(BridgeTest):
             client.advertise(number + 2, *about)
             line = f"{about[0]!r} cannot be published: "
             wait_for(lambda s=line: any(t.startswith(s) for t in client.statuses()), line)
+        self.publisher("taken", Empty)
+        client.advertise(9, "/taken", String._type)
+        line = "'/taken' cannot be published: the master has std_msgs/Empty there"
+        wait_for(lambda: any(t.startswith(line) for t in client.statuses()), line)
+        self.assertEqual(client.channel("/taken")["schemaName"], Empty._type)
         client.publish(1, b"\xff\xff\xff\xff")
         wait_for(lambda: any("not a std_msgs/String" in s for s in client.statuses()), "line")
+
+    def test_a_new_topic_has_the_type_of_its_first_client_until_that_leaves(self):
+        _, port = self.bridge()
+        first, second = self.client(port), self.client(port)
+        first.advertise(1, "/new", String._type)
+        self.assertEqual(first.channel("/new")["schemaName"], String._type)
+        second.advertise(1, "/new", TWIST)
+        line = "'/new' cannot be published: another client publishes std_msgs/String there"
+        wait_for(lambda: line in second.statuses(), line)
+        first.send({"op": "unadvertise", "channelIds": [1]})
+        first.advertise(2, "/new", TWIST)  # at once
+        heard = self.record("/new", Twist)
+        wait_for(lambda: first.publish(2, serialised(AHEAD)) or AHEAD in heard, "velocity")
 
 
 @claim("A client that does not read or sends nonsense costs the others of the bridge nothing")
@@ -352,9 +416,12 @@ class ClientsTest(BridgeTest):
     def test_mistakes_are_one_line(self):
         _, port = self.bridge("__name:=first")
         for parameter, words in (
-            (f"_port:={port}", f"~port: {port} of 127.0.0.1: Address already in use"),
+            (f"_port:={port}", f"~port: {port}: Address already in use; choose another: port:="),
+            ("_address:=999.9", "~address: '999.9': "),
+            ("_address:=192.0.2.1", "~address: '192.0.2.1': "),
+            ("_tls:=true", "~tls: true: give certfile:= and keyfile:=, too"),
             ("_port:=70000", "~port: 70000: must be a port"),
-            ("_topic_whitelist:=['(']", "must be a list of regular expressions"),
+            ("_topic_whitelist:=['(']", "'(' is not a regular expression"),
             ("_capabilities:=[clientpublish]", "must be a list of some of clientPublish"),
             ("_prot:=8765", "did you mean ~port?"),
         ):

@@ -42,7 +42,7 @@ def test_a_line_names_what_has_no_effect():
     ({"port": -1}, "~port: -1: must be a port"),
     ({"address": "a b"}, "~address: 'a b': must be an address"),
     ({"topic_whitelist": "/a"}, "must be a list of regular expressions"),
-    ({"topic_whitelist": ["("]}, "must be a list of regular expressions"),
+    ({"topic_whitelist": ["/a", "("]}, "'(' is not a regular expression: missing )"),
     ({"topic_whitelist": [1]}, "must be a list of regular expressions"),
     ({"capabilities": ["services", "x"]}, "must be a list of some of clientPublish"),
     ({"max_update_ms": 0}, "must be from 100 to 3600000"),

@@ -40,7 +40,7 @@ def test_after_a_zero_of_the_client_none_is_due_with_or_without_a_header():
 
 def test_another_client_is_refused_until_the_motion_has_ended():
     topic = driven()
-    assert topic.refusal(TWO, NOW) == "another client drives"
+    assert topic.refusal(TWO, NOW) == "another client drives: stop it, then wait 2 s"
     assert not topic.refusal(ONE, NOW)
     assert topic.is_zero_due(NOW, gone=ONE)
     assert not topic.refusal(TWO, NOW)
@@ -50,6 +50,7 @@ def test_a_node_takes_the_topic_for_a_second_after_each_message_and_gets_no_zero
     topic = driven()
     topic.hear("/joy2twist", NOW)
     for client in (ONE, TWO):
-        assert topic.refusal(client, NOW + OTHERS_S - 0.01) == "/joy2twist publishes there"
+        refusal = topic.refusal(client, NOW + OTHERS_S - 0.01)
+        assert refusal == "/joy2twist publishes there: stop it, then wait 1 s"
         assert not topic.refusal(client, NOW + OTHERS_S)
     assert not topic.is_zero_due(NOW + 100.0, gone=ONE)

@@ -11,7 +11,7 @@ from tornado.websocket import websocket_connect
 from tutorial_testing.processes import Started
 from tutorial_testing.waiting import wait_for
 
-MESSAGE, TIME, ANSWER = 1, 2, 3  # the first byte of what a server sends
+MESSAGE, TIME, ANSWER, ASSET = 1, 2, 3, 4  # the first byte of what a server sends
 OLD_NAME = "foxglove.websocket.v1"  # of the subprotocol
 
 
@@ -24,7 +24,7 @@ class SocketClient(Started):
         self._tls = tls
         self._port, self._subprotocol = port, subprotocol
         self.texts, self.times = [], []  # what arrived
-        self._data, self._topics, self.answers = [], {}, {}
+        self._data, self._topics, self.answers, self.assets = [], {}, {}, []
         self._loop = asyncio.new_event_loop()
         self._thread = threading.Thread(target=self._loop.run_forever, daemon=True)
 
@@ -58,7 +58,8 @@ class SocketClient(Started):
             elif message[0] == MESSAGE:
                 number, stamp = struct.unpack_from("<IQ", message, 1)
                 self._data.append((self._topics[number], stamp, message[13:]))
-
+            elif message[0] == ASSET:
+                self.assets.append(message[1:])
             elif message[0] == ANSWER:
                 number, length = struct.unpack_from("<II", message, 5)
                 self.answers[number] = message[13 + length :]

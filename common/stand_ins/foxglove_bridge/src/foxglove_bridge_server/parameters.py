@@ -16,14 +16,20 @@ ASSETS = r"package://[-\w/]+\.(dae|glb|gltf|jpe?g|mtl|obj|png|stl|urdf)"
 Patterns = Tuple[str, ...]
 
 
-def _are_patterns(value: Any) -> bool:
-    try:
-        return isinstance(value, list) and all(map(re.compile, value))
-    except (re.error, TypeError):
-        return False
+def _are_texts(value: Any) -> bool:
+    return isinstance(value, list) and all(isinstance(pattern, str) for pattern in value)
 
 
-_PATTERNS = Allowed("a list of regular expressions", _are_patterns, tuple)
+def _compiled(patterns: list[str]) -> Patterns:
+    for pattern in patterns:
+        try:
+            re.compile(pattern)
+        except re.error as error:
+            raise ValueError(f"{pattern!r} is not a regular expression: {error}") from None
+    return tuple(patterns)
+
+
+_PATTERNS = Allowed("a list of regular expressions", _are_texts, _compiled)
 _WORDS = Allowed(
     f"a list of some of {', '.join(CAPABILITIES)}",
     lambda value: isinstance(value, list) and all(word in CAPABILITIES for word in value),

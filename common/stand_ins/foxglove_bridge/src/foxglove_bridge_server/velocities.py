@@ -29,8 +29,9 @@ class VelocityTopic:
     def refusal(self, client: Hashable, now: float) -> str:
         """Return why a client may not publish now, or ""."""
         if now - self._other_s < OTHERS_S:
-            return f"{self._other} publishes there"
-        return "another client drives" if self._driver not in (None, client) else ""
+            return f"{self._other} publishes there: stop it, then wait {OTHERS_S:g} s"
+        is_taken = self._driver not in (None, client)
+        return f"another client drives: stop it, then wait {SILENCE_S:g} s" if is_taken else ""
 
     def command(self, client: Hashable, data: bytes, now: float) -> None:
         """Note a message that a client has published."""

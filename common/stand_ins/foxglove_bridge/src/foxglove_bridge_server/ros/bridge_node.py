@@ -13,7 +13,6 @@ from types import SimpleNamespace
 from typing import Any
 
 import foxglove
-import rosgraph
 import rospkg
 import rospy
 from foxglove.websocket import Capability, StatusLevel
@@ -23,11 +22,11 @@ from foxglove_bridge_server.io.relay import serve
 from foxglove_bridge_server.messages import serialised
 from foxglove_bridge_server.parameters import BridgeParameters, is_allowed
 from foxglove_bridge_server.ros.client_topics import ClientTopics
+from foxglove_bridge_server.ros.master import ask
 from foxglove_bridge_server.ros.master_parameters import MasterParameters
 from foxglove_bridge_server.ros.services import Services
 from foxglove_bridge_server.ros.topic_channels import ENCODING, TopicChannels
 from node_kit.printable import quotable
-from node_kit.ros.graph.ros_api import call
 from node_kit.ros.lifecycle.ending import is_ending
 from node_kit.ros.log import Log
 from node_kit.rules.answer import Answer
@@ -52,7 +51,7 @@ class Bridge:
     ) -> None:
         self._parameters, self._socket, self._tls = parameters, listener, tls
         self._log, self._state = Log(), None
-        self._master_pid, self._has_lost_master = _ask("getPid")[1], False
+        self._master_pid, self._has_lost_master = ask("getPid")[1], False
         is_simulated = bool(rospy.get_param("/use_sim_time", False))
         words = {*parameters.capabilities, *(["time"] if is_simulated else [])}
         self._client_topics = ClientTopics(parameters.client_topic_whitelist, self._warn)
@@ -85,6 +84,10 @@ class Bridge:
         for work in (self._watch, lambda: asyncio.run(relay)):
             threading.Thread(target=work, daemon=True).start()
         host, port = self._socket.getsockname()[:2]
+        if host in ("0.0.0.0", "::"):
+            self._log.warn("everyone in the network can connect, publish and call services")
+            host = socket.gethostname()
+        host = f"[{host}]" if ":" in host else host
         self._log.info(f"foxglove_bridge: ws{'s' if self._tls else ''}://{host}:{port}")
         rospy.on_shutdown(self._client_topics.end)
         self._client_topics.run()
@@ -107,7 +110,10 @@ class Bridge:
         is_inside = uri.startswith(PACKAGE) and ".." not in name
         if not is_inside or not is_allowed(uri, self._parameters.asset_uri_allowlist):
             return None
-        return Path(rospkg.RosPack().get_path(package), name).read_bytes()
+        try:
+            return Path(rospkg.RosPack().get_path(package), name).read_bytes()
+        except (OSError, rospkg.ResourceNotFound):  # their texts name folders of this machine
+            return None
 
     def _on_clock(self, message: Clock) -> None:
         self._server.broadcast_time(message.clock.to_nsec())
@@ -119,7 +125,7 @@ class Bridge:
             time.sleep(period_s)
             if is_ending():
                 return
-            answer, pid = _ask("getPid")
+            answer, pid = ask("getPid")
             if answer is Answer.REFUSED or pid not in (None, self._master_pid):
                 self._has_lost_master = True
                 rospy.signal_shutdown("the master has gone")
@@ -131,19 +137,21 @@ class Bridge:
 
     def _look(self) -> None:
         """Ask the master what there is, and show it."""
-        (answer, state), (typed, types) = _ask("getSystemState"), _ask("getTopicTypes")
+        (answer, state), (typed, types) = ask("getSystemState"), ask("getTopicTypes")
         if {answer, typed} != {Answer.WELL}:
             return
         own, patterns = {rospy.get_name()}, self._parameters
+        allowed = patterns.topic_whitelist, patterns.topic_whitelist, patterns.service_whitelist
+        state = [
+            [(name, nodes) for name, nodes in column if is_allowed(name, whitelist)]
+            for column, whitelist in zip(state, allowed)
+        ]
         published = {topic for topic, _ in state[0]}
         topics = published | {topic for topic, nodes in state[1] if set(nodes) - own}
-        topics = {topic for topic in topics if is_allowed(topic, patterns.topic_whitelist)}
         kinds = {topic: kind for topic, kind in types if topic in topics and kind != "*"}
         self._topics.show(kinds, published)
         if self._services:
-            services = {name for name, _ in state[2]}
-            services = {name for name in services if is_allowed(name, patterns.service_whitelist)}
-            self._services.show(services)
+            self._services.show({name for name, _ in state[2]})
         if self._has_graph and state != self._state:
             self._server.publish_connection_graph(_graph_of(state))
         self._state = state
@@ -158,10 +166,6 @@ def _listener(*parts: Any) -> SimpleNamespace:
 def _sdk_name(capability: str) -> str:
     """Return the name of a capability; the SDK always has both of those of parameters."""
     return capability[0].upper() + capability[1:].replace("sSubscribe", "s")
-
-
-def _ask(method: str) -> tuple[Answer, Any]:
-    return call(rosgraph.get_master_uri(), method, caller=rospy.get_name())
 
 
 def _graph_of(state: Any) -> foxglove.ConnectionGraph:

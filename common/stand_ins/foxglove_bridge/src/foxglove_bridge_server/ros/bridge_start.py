@@ -2,31 +2,41 @@
 
 from __future__ import annotations
 
+import errno
+import os
 import socket
 import ssl
 import sys
 from typing import Any
 
 from foxglove_bridge_server.parameters import BridgeParameters, parse_parameters
+from node_kit.errors import StartError
+from node_kit.ros.graph.ros_api import family
 from node_kit.ros.lifecycle.start import run
 
 NODE_NAME = "foxglove_bridge"
 
 
 def load(given: dict[str, Any]) -> tuple[BridgeParameters, socket.socket, ssl.SSLContext | None]:
-    """Return what the node starts with. Raises ValueError, one line."""
+    """Return what the node starts with. Raises ValueError or StartError, one line."""
     parameters, tls = parse_parameters(given), None
     about = f"~certfile: {parameters.certfile!r}, ~keyfile: {parameters.keyfile!r}"
     try:
         if parameters.tls:
+            if not (parameters.certfile and parameters.keyfile):
+                raise StartError("~tls: true: give certfile:= and keyfile:=, too")
             tls = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
             tls.load_cert_chain(parameters.certfile, parameters.keyfile, password="")
-        about = f"~port: {parameters.port} of {parameters.address}"
-        family = socket.AF_INET6 if ":" in parameters.address else socket.AF_INET
+        about = f"~address: {parameters.address!r}"
         address = parameters.address, parameters.port
-        return parameters, socket.create_server(address, family=family, backlog=128), tls
+        kind = family(parameters.address)
+        return parameters, socket.create_server(address, family=kind, backlog=128), tls
     except OSError as error:
-        raise ValueError(f"{about}: {error.strerror or error}") from None
+        why = error.strerror or str(error)
+        if error.errno in (errno.EADDRINUSE, errno.EACCES):
+            why = f"{os.strerror(error.errno)}; choose another: port:=8766"
+            about = f"~port: {parameters.port}"
+        raise StartError(f"{about}: {why}") from None
 
 
 def main() -> int:

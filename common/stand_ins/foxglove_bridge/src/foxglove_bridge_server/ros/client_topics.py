@@ -13,6 +13,7 @@ from rosgraph.names import is_legal_name
 
 from foxglove_bridge_server.messages import fits
 from foxglove_bridge_server.parameters import Patterns, is_allowed
+from foxglove_bridge_server.ros.master import kind_of_others
 from foxglove_bridge_server.ros.topic_channels import ENCODING
 from foxglove_bridge_server.velocities import KINDS, VelocityTopic
 from node_kit.message_types import message_class
@@ -73,6 +74,7 @@ class ClientTopics:
         self._jobs: queue.SimpleQueue[tuple[Any, ...]] = queue.SimpleQueue()
         self._outlets: dict[User, _Outlet] = {}
         self._kept: dict[str, tuple[_Outlet, float]] = {}  # by topic, until when
+        self._kinds: dict[str, str] = {}  # the last type of each topic
         self._refusals: dict[User, str] = {}
         self._has_ended = threading.Event()
 
@@ -117,8 +119,8 @@ class ClientTopics:
         is_legal = bool(topic) and is_legal_name(topic)
         topic = rospy.resolve_name(topic) if is_legal else topic
         kind = message_class(kind_name)
-        kept = [outlet for outlet, _ in self._kept.values()]
-        known = {outlet.topic: outlet for outlet in [*kept, *self._outlets.values()]}.get(topic)
+        known = {outlet.topic: outlet for outlet in self._outlets.values()}.get(topic)
+        of_master = kind_of_others(topic, self._kinds.get(topic, ""))
         refusal = ""
         if encoding != ENCODING:
             refusal = f"the encoding must be {ENCODING}, not {encoding!r}"
@@ -128,11 +130,17 @@ class ClientTopics:
             refusal = f"{kind_name!r} is not installed here"
         elif known and known.kind is not kind:
             refusal = f"another client publishes {known.kind._type} there"
+        elif of_master not in ("", kind_name):
+            refusal = f"the master has {of_master} there, not {kind_name}"
         if refusal:
             self._warn(f"{topic!r} cannot be published: {refusal}")
             return
-        self._outlets[user] = known or _Outlet(topic, kind)
-        self._kept.pop(topic, None)
+        kept, _ = self._kept.pop(topic, (None, 0.0))
+        if kept and kept.kind is not kind:  # rospy has one type for each topic
+            kept.close()
+            kept = None
+        self._outlets[user] = known or kept or _Outlet(topic, kind)
+        self._kinds[topic] = kind_name
 
     def _send(self, user: User, data: bytes) -> None:
         if user in self._outlets:
