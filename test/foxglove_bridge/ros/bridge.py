@@ -24,6 +24,7 @@ from tutorial_testing.waiting import wait_for
 
 BRIDGE = node_path("foxglove_bridge", "foxglove_bridge")
 TWIST = "geometry_msgs/Twist"
+NORMAL_CLOSE = 1000  # RFC 6455, 7.4.1
 AHEAD, ZERO = Twist(), Twist()
 AHEAD.linear.x = 0.3
 
@@ -380,6 +381,13 @@ class ClientsTest(BridgeTest):
         wait_for(lambda: client.data("/rosout"), "message")
         self.end(program)
 
+    def test_a_close_is_answered(self):
+        _, port = self.bridge()
+        client = self.client(port)
+        client.close()
+        wait_for(lambda: client.of("closed"), "end of the connection")
+        self.assertEqual(client.close_code, NORMAL_CLOSE)
+
     def test_the_bridge_ends_with_its_master(self):
         with socket.create_server(("127.0.0.1", 0)) as free:
             port = free.getsockname()[1]
@@ -417,7 +425,7 @@ class ClientsTest(BridgeTest):
         _, port = self.bridge("__name:=first")
         for parameter, words in (
             (f"_port:={port}", f"~port: {port}: Address already in use; choose another: port:="),
-            ("_address:=999.9", "~address: '999.9': "),
+            ("_address:=999.9.9.9", "~address: '999.9.9.9': "),
             ("_address:=192.0.2.1", "~address: '192.0.2.1': "),
             ("_tls:=true", "~tls: true: give certfile:= and keyfile:=, too"),
             ("_port:=70000", "~port: 70000: must be a port"),

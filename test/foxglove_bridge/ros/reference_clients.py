@@ -62,9 +62,11 @@ class ReferenceClientsTest(RosTest):
 
     @claim("foxglove_bridge: npm's client sees each topic with its type's definition")
     def test_a_client_of_either_kind_sees_all_topics_with_their_schemas(self):
-        for protocols in (LICHTBLICK, FOXGLOVE):
+        newest = FOXGLOVE[0]
+        for protocols in (LICHTBLICK, FOXGLOVE, FOXGLOVE[::-1]):
             client = self.client(protocols)
-            self.assertEqual(client.of("open")[0]["protocol"], protocols[0])
+            protocol = newest if newest in protocols else protocols[0]
+            self.assertEqual(client.of("open")[0]["protocol"], protocol)
             wait_for(lambda client=client: "/odom" in client.channels(), "channel of odom")
             wait_for(
                 lambda client=client: (

@@ -9,7 +9,7 @@ import threading
 
 import pytest
 
-from foxglove_bridge_server.io.relay import NEW, OLD, is_old, renamed, serve, with_ros
+from foxglove_bridge_server.io.relay import CLOSE, NEW, OLD, is_old, renamed, serve, with_ros
 from tutorial_testing.claims import claim
 
 pytestmark = claim(
@@ -73,7 +73,7 @@ def test_only_the_name_of_the_subprotocol_is_replaced():
     assert is_old((REQUEST % OLD).replace(b"Sec-WebSocket-P", b"SEC-WEBSOCKET-P"))
 
 
-@pytest.mark.parametrize("name", [OLD, NEW, NEW + b", " + OLD, b"chat"])
+@pytest.mark.parametrize("name", [OLD, NEW, NEW + b", " + OLD, OLD + b", " + NEW, b"chat"])
 def test_a_request_and_its_answer_pass_with_what_follows_at_once(relayed, name):
     is_translated = name == OLD
     client, server = relayed(REQUEST % name + b"\x81\0early")
@@ -94,6 +94,8 @@ def test_the_end_of_either_side_ends_the_other(relayed):
         ends[1].sendall(ANSWER)
         received(ends[0], len(ANSWER.replace(NEW, OLD)))
         ends[number].close()
+        wanted = CLOSE if number else b""  # a close frame for the client
+        assert received(ends[1 - number], len(wanted)) == wanted
         assert ends[1 - number].recv(1) == b""
 
 

@@ -11,7 +11,7 @@ from tutorial_testing.npm import modules
 from tutorial_testing.waiting import wait_for
 
 PROGRAM = Path(__file__).with_name("client.mjs")
-LICHTBLICK = ("foxglove.websocket.v1",)  # the subprotocols that it offers
+LICHTBLICK = ("foxglove.websocket.v1",)  # the subprotocols that it offered until 2025
 FOXGLOVE = ("foxglove.sdk.v1", "foxglove.websocket.v1")
 
 

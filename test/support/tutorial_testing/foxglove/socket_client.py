@@ -68,6 +68,11 @@ class SocketClient(Started):
     def subprotocol(self):
         return self._socket.selected_subprotocol
 
+    @property
+    def close_code(self):
+        """The number in the close frame of the server, or None."""
+        return self._socket.close_code
+
     def send(self, message):
         """Send bytes, a text, or a dict as JSON."""
         data = json.dumps(message) if isinstance(message, dict) else message

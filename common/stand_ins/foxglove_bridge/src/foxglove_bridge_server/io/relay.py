@@ -17,6 +17,7 @@ OLD, NEW = b"foxglove.websocket.v1", b"foxglove.sdk.v1"
 HEAD_S = 10.0  # for a request and its answer; asyncio limits each to 64 kB
 _END = b"\r\n\r\n"
 _NAMES = re.compile(rb"(?im)^sec-websocket-protocol:.*$")
+CLOSE = b"\x88\x02\x03\xe8"  # a close frame with the code 1000, which the SDK never sends
 _CHUNK = 1 << 18  # bytes
 # Clients publish goals only to a server that names a ROS; the SDK for Python has no metadata.
 _LIBRARY, _ROS = re.compile(rb'"fg-library":"[^"]{8,}"'), b'"ROS_DISTRO":"noetic"'
@@ -63,6 +64,8 @@ async def serve(
                 await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
                 for task in tasks:
                     task.cancel()
+                if answer.startswith(b"HTTP/1.1 101"):
+                    writer.write(CLOSE)
 
     # What is wrong with a connection, such as its TLS, concerns that client alone.
     asyncio.get_running_loop().set_exception_handler(lambda *_: None)
