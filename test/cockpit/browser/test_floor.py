@@ -72,7 +72,7 @@ def test_a_change_of_tab_keeps_the_view_of_walls_scan_and_bumper(two, shared_bro
     page.wait_for_text("#log-lines", "/")
     page.tab("Robot")
     assert wait_for(lambda: settled(page, "--wall"), "walls again") == view
-    page.tab("Frames")  # which needs tf anew
+    page.tab("Frames")  # which needs tf again
     page.wait_for_text("#frames-rows", "gyro_link")
     page.tab("Robot")
     assert page.one("#follow").get_attribute("aria-pressed") == "false"

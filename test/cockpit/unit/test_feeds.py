@@ -42,7 +42,9 @@ def test_topic_that_is_dropped_and_wanted_again_brings_what_is_latched(monkeypat
     waiting, made = [], []
     monkeypatch.setattr(feeds, "later", waiting.append)
     subscriber = SimpleNamespace(unregister=lambda: None)
-    monkeypatch.setattr(feeds.rospy, "Subscriber", lambda topic, *_: made.append(topic) or subscriber)
+    monkeypatch.setattr(
+        feeds.rospy, "Subscriber", lambda topic, *_: made.append(topic) or subscriber
+    )
     all_feeds = feeds.Feeds(print)
     for _ in range(2):  # The second time the page goes from one tab that needs it to another one.
         all_feeds.set_subscriptions("page", {}, every=True)

@@ -91,3 +91,12 @@ def test_genpy_alone_would_run_it(monkeypatch):
     generate_dynamic("x/y", 'int32 __import__("rospy").hacked.append(1);A=1')
     assert rospy.hacked == [1]
     assert recorded_types.fields_alone("int32 a # b\nint32 A=1\n") == "int32 a"
+
+
+def test_other_readers_of_bags_get_decoded_messages_before_and_after(tmp_path):
+    path = tmp_path / "joy.bag"
+    with rosbag.Bag(str(path), "w") as bag:
+        bag.write("/joy", Joy(axes=[0.5]))
+    read_messages(path, ["/joy"])
+    with rosbag.Bag(str(path)) as bag:
+        assert [joy.axes for _, joy, _ in bag.read_messages()] == [(0.5,)]

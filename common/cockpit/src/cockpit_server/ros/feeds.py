@@ -62,8 +62,8 @@ class Feeds:
         self._wants: dict[Hashable, tuple[Mapping[str, Handler], bool]] = {}
         self._handlers: dict[str, list[Handler]] = {}
         self._wanted: frozenset[tuple[str, bool]] = frozenset()  # as in _wants
-        # Not wanted for a moment since the last _adjust(): what is wanted again is subscribed to
-        # anew, as its user expects what is latched.
+        # Not wanted for a moment since the last _adjust(). If it is wanted again, there is a new
+        # subscription, as its user expects what is latched.
         self._dropped: set[tuple[str, bool]] = set()
         self._subscribers: dict[tuple[str, bool], Any] = {}
 
@@ -85,9 +85,9 @@ class Feeds:
                 by_topic.setdefault(topic, []).append(handler)
             complete |= set(wanted) if wants_all else set()
         self._handlers = by_topic
-        wanted = frozenset((topic, topic in complete) for topic in by_topic)
-        self._dropped.update(self._wanted - wanted)
-        self._wanted = wanted
+        keys = frozenset((topic, topic in complete) for topic in by_topic)
+        self._dropped.update(self._wanted - keys)
+        self._wanted = keys
         later_once(self._adjust)
 
     def _adjust(self) -> None:

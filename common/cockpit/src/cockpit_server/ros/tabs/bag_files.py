@@ -47,9 +47,9 @@ def version(path: Path) -> tuple[Any, ...]:
 def bag_at(path: Path) -> Iterator[tuple[rosbag.Bag, Connections]]:
     """Open a bag. Raises BagError, which names no folder."""
     try:
-        with opened(path) as bag:
+        with opened(path) as bag, connections(bag) as listed:
             # Of several nodes one that latches counts.
-            known = sorted(connections(bag), key=lambda about: about.is_latched)
+            known = sorted(listed, key=lambda about: about.is_latched)
             yield bag, {about.topic: about for about in known}
     except BagError as error:
         raise BagError(str(error).replace(str(path), path.name)) from None

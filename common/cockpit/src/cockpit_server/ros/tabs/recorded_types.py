@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from functools import lru_cache
-from typing import Any, Mapping, NamedTuple
+from typing import Any, Iterator, Mapping, NamedTuple
 
 import rosbag
 import rospy
@@ -37,18 +37,24 @@ class Connection(NamedTuple):
         return _kind(self.type, self.md5sum, self.definition)
 
 
-def connections(bag: rosbag.Bag) -> list[Connection]:
-    """Return the connections of a bag, whose messages can then be read as bytes.
+@contextmanager
+def connections(bag: rosbag.Bag) -> Iterator[list[Connection]]:
+    """Yield the connections of a bag, whose messages can meanwhile be read as bytes.
 
     rosbag would make the classes with genpy, which runs what a definition has in place of a
-    constant's name.
+    constant's name. One thread reads recordings, as rosbag keeps the classes of all of them.
     """
     listed: list[Connection] = []
     for _ in bag.read_messages(connection_filter=lambda *about: listed.append(Connection(*about))):
         pass  # The filter returns None for each connection, so nothing is read.
     classes = rosbag.bag._message_types  # noqa: SLF001  it offers no other way
+    kept = dict(classes)
     classes.update({about.md5sum: rospy.AnyMsg for about in listed})
-    return listed
+    try:
+        yield listed
+    finally:
+        classes.clear()
+        classes.update(kept)
 
 
 @lru_cache(maxsize=200)
