@@ -71,7 +71,7 @@ class BridgeTest(RosTest):
 )
 class SeenTest(BridgeTest):
     def test_a_late_client_gets_the_message_of_each_latched_publisher_once(self):
-        _, port = self.bridge()
+        bridge, port = self.bridge()
         self.publisher("latched", String, latch=True).publish("a")
         other = self.start("rostopic", "pub", "-l", "/latched", "std_msgs/String", "b")
         wanted = {serialised(String(text)) for text in "ab"}
@@ -82,7 +82,8 @@ class SeenTest(BridgeTest):
         )
         late = self.client(port)
         late.subscribe("/latched")
-        wait_for(lambda: set(late.data("/latched")) == wanted, "latched, late")
+        seen = lambda: (late.data("/latched"), early.data("/latched"), bridge.output)  # noqa: E731
+        wait_for(lambda: set(late.data("/latched")) == wanted, "latched, late", seen=seen)
         self.assertEqual(len(late.data("/latched")), 2)
         self.assertEqual(len(early.data("/latched")), 2)
         other.interrupt()
