@@ -50,7 +50,8 @@ class Bridge:
         self, parameters: BridgeParameters, listener: socket.socket, tls: ssl.SSLContext | None
     ) -> None:
         self._parameters, self._socket, self._tls = parameters, listener, tls
-        self._log, self._state = Log(), None
+        self._log = Log()
+        self._state: list[Any] | None = None  # of the master, as its getSystemState returns it
         self._master_pid, self._has_lost_master = ask("getPid")[1], False
         is_simulated = bool(rospy.get_param("/use_sim_time", False))
         words = {*parameters.capabilities, *(["time"] if is_simulated else [])}
