@@ -343,6 +343,8 @@ class DrivenTest(BridgeTest):
         wait_for(lambda: line in second.statuses(), line)
         first.send({"op": "unadvertise", "channelIds": [1]})
         first.advertise(2, "/new", TWIST)  # at once
+        # rospy does not connect again to a publisher whose type was another one.
+        wait_for(lambda: first.channel("/new")["schemaName"] == TWIST, "channel of the new type")
         heard = self.record("/new", Twist)
         wait_for(lambda: first.publish(2, serialised(AHEAD)) or AHEAD in heard, "velocity")
 

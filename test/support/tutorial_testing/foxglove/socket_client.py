@@ -96,10 +96,10 @@ class SocketClient(Started):
         return [text for text in list(self.texts) if text["op"] == operation]
 
     def channel(self, topic):
-        """Return the channel of a topic, once it is advertised."""
+        """Return the newest channel of a topic, once it is advertised."""
 
         def find():
-            lists = [text["channels"] for text in self.of("advertise")]
+            lists = [text["channels"] for text in reversed(self.of("advertise"))]
             return next((c for channels in lists for c in channels if c["topic"] == topic), None)
 
         return wait_for(find, f"channel {topic}")
