@@ -159,7 +159,7 @@ export class TopicsTab {
     this.#rows = new Map(listed.map(({ name, type }) => {
       const line = this.#rows.get(name) ?? this.#rowOf(name);
       const counts = [before, after].map((nodes) => nodes[`topic ${name}`]?.length ?? 0);
-      sayName(line.cells[1], type);
+      say(line.cells[1], type);
       counts.forEach((count, i) => say(line.cells[i + 2], String(count)));
       line.classList.toggle("chosen", name === this.#chosen);
       return [name, line];
