@@ -87,7 +87,7 @@ class DriverSession:
         self.driver, self.robot = None, ""
         self.plays = False  # a recording, in place of a hand
         self.topic = ""  # on which a form or a recording publishes, in place of a joystick
-        self._end_motion: Callable[[], object] | None = None  # of a form or a recording
+        self._end_motion: Callable[[], object] | None = None  # Called at the end.
         self.armed = False  # whether everything was released since the last loss
         self.newest = 0  # number of the newest input that was fresh
         self._last: tuple[Axes, Buttons] | None = None  # published last

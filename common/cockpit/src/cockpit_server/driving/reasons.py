@@ -8,7 +8,7 @@ from gamepad.gamepads import F710
 from node_kit.rules.arming import DRIVING
 
 NO_ROBOT = "no robot is running yet: start one, for example with ./tutorial demo"
-MUX_INPUT = "cmd_vel_mux/input/teleop"  # of a TurtleBot's multiplexer, for a joystick
+MUX_INPUT = "cmd_vel_mux/input/teleop"  # A TurtleBot's multiplexer takes it.
 TURTLES = "only turtles are running, which turtle_teleop_key moves: ./tutorial demo starts a robot"
 
 

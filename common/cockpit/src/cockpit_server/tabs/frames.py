@@ -18,8 +18,8 @@ from node_kit.rules.throttle import Throttle
 
 RATE = 2.0  # how often pages receive the tree [1/s]
 MOST_EDGES = 300
-MOST_ARRIVALS = 250  # that are counted: 50 Hz in the window
-MOST_PUBLISHERS = 4  # of an edge
+MOST_ARRIVALS = 250  # 50 Hz in the window
+MOST_PUBLISHERS = 4  # nodes
 WRONG_STAMP_S = 1.0  # amcl and others set stamps some tenths of a second in the future
 
 
@@ -37,7 +37,7 @@ class Edge:
     def __init__(self) -> None:
         self._publishers: dict[Publisher, float] = {}  # and its newest arrival
         self._arrivals: deque[float] = deque(maxlen=MOST_ARRIVALS)
-        self._stamp = self._refused = -inf  # of the newest
+        self._stamp = self._refused = -inf  # newest [s]
         self._refusal = ""
 
     def add(self, new: Publisher, stamp: float, refusal: str, now: float) -> None:

@@ -20,7 +20,7 @@ from cockpit_server.tabs.recordings import Recording, Shelf, playable
 from gamepad.errors import BagError
 
 LOOK_S = 2.0  # how often the folder is searched for recordings, while a page shows them
-MOST_TOPICS = 200  # of a recording that plays
+MOST_TOPICS = 200  # topics
 UNUSED_S = 5.0  # after which publishers and messages are given up
 
 
@@ -29,7 +29,7 @@ class Opened:
 
     def __init__(self, recording: Recording) -> None:
         self.recording, self.position = recording, 0.0
-        self.topics: Sequence[str] = ()  # that were played last
+        self.topics: Sequence[str] = ()  # played last
         self.sent: set[str] = set()  # fields whose curves the page has
         self.player: Player | None = None
 
@@ -56,7 +56,7 @@ class Bags(TabSource):
         self._reader = ThreadPoolExecutor(1, thread_name_prefix="recordings")
         self._shelf = Shelf()
         self._reading: set[int] = set()  # numbers of the pages for which a file is read
-        self._drawing: set[Recording] = set()  # of which curves are read
+        self._drawing: set[Recording] = set()  # Their curves are being read.
         self._names: dict[bool, list[str]] = {}  # for pages that may drive, and for others
         self._next_look = 0.0  # [s]
         self._opened: dict[int, Opened] = {}  # by number of the page
