@@ -47,7 +47,7 @@ class Transforms:
         self._lock = threading.Lock()
         self._buffer = tf2_py and tf2_py.BufferCore(genpy.Duration.from_sec(KEPT_S))
         self._stamps: dict[str, genpy.Time] = {}  # child frame -> its newest stamp
-        self._now = 0.0  # of ROS's clock, which goes back when a recording starts again [s]
+        self._now = 0.0  # [s] It goes back when a recording starts again.
         self._is_filled = False
         self.listeners: Sequence[TfListener] = ()
 

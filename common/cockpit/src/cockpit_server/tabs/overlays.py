@@ -21,13 +21,13 @@ from cockpit_server.tabs.maps import Maps
 from cockpit_server.tabs.robots import TRUTH, Robots
 from cockpit_server.tabs.shapes import DIGITS, Shape, Shapes, update
 
-NEWEST = {kind._type: kind for kind in (LaserScan, Path)}  # of which only the newest counts
+NEWEST = {kind._type: kind for kind in (LaserScan, Path)}  # Only the newest counts.
 KINDS = {**NEWEST, Marker._type: Marker, MarkerArray._type: MarkerArray}
 # The suite's markers of what the floor has anyway: the map, pressed bumpers and robots.
 DRAWN_ANYWAY = ("/world_markers", "/bumper_markers", "/classroom_bodies")
-POSE_TOPICS = ("initialpose", "move_base_simple/goal")  # of the page's Set pose and Set goal
+POSE_TOPICS = ("initialpose", "move_base_simple/goal")  # The page publishes these.
 ROOTS = ("map", "odom")  # frames of a floor without a map and odometry
-MOST_TOPICS, MOST_WAITING = 10, 50  # of a robot; messages of a topic
+MOST_TOPICS, MOST_WAITING = 10, 50  # topics; messages
 LONGEST = 300_000  # bytes of a message
 # The time to read a byte of small markers, and to place a shape; that of larger ones is less.
 BYTE_S, SHAPE_S, BURST_S = 5e-7, 2e-4, 0.02

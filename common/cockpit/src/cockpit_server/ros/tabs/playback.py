@@ -23,7 +23,7 @@ from node_kit.ros.rospy_patches.prompt_publisher import PromptPublisher
 CONNECT_S = 1.0  # how long the first message waits for subscribers
 LOOK_S = 0.02
 QUEUE = 100  # messages for a subscriber that is behind, as in rqt_bag
-ZERO = bytes(48)  # of the six float64 of a velocity
+ZERO = bytes(48)  # six float64
 Send = Callable[[bytes], object]
 
 
